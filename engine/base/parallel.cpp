@@ -1,0 +1,99 @@
+#include "engine/base/parallel.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <mutex>
+
+namespace torquescope {
+
+namespace {
+
+int affinity_count() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  if (sched_getaffinity(0, sizeof(mask), &mask) != 0) return omp_get_num_procs();
+  return std::max(1, CPU_COUNT(&mask));
+}
+
+// cgroup v2 cpu.max ("max 100000" or "200000 100000"), then v1; no quota: a large number
+int cgroup_quota() {
+  std::ifstream v2("/sys/fs/cgroup/cpu.max");
+  std::string quota;
+  double period = 0.0;
+  if (v2 >> quota >> period && quota != "max" && period > 0.0)
+    return std::max(1, static_cast<int>(std::ceil(std::atof(quota.c_str()) / period)));
+  std::ifstream v1_quota("/sys/fs/cgroup/cpu/cpu.cfs_quota_us");
+  std::ifstream v1_period("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
+  double microseconds = 0.0;
+  if (v1_quota >> microseconds && v1_period >> period && microseconds > 0.0 && period > 0.0)
+    return std::max(1, static_cast<int>(std::ceil(microseconds / period)));
+  return std::numeric_limits<int>::max();
+}
+
+// the leading number of an environment variable ("4", or "4,2" of nested OpenMP); 0 when unset or not a count
+int environment_count(char const* name) {
+  char const* text = std::getenv(name);
+  if (!text) return 0;
+  long const value = std::strtol(text, nullptr, 10);
+  return value >= 1 && value <= 1'000'000 ? static_cast<int>(value) : 0;
+}
+
+}  // namespace
+
+ThreadChoice choose_threads(int requested) {
+  int const mask = affinity_count();
+  int const quota = cgroup_quota();
+  int const available = std::min(mask, quota);
+  ThreadChoice choice{available, quota < mask ? "cgroup quota" : "affinity mask"};
+  if (requested >= 1) {
+    choice = {requested, "--threads"};
+  } else if (int const omp = environment_count("OMP_NUM_THREADS"); omp >= 1) {
+    choice = {omp, "OMP_NUM_THREADS"};
+  } else if (int const slurm = environment_count("SLURM_CPUS_PER_TASK"); slurm >= 1) {
+    choice = {slurm, "SLURM_CPUS_PER_TASK"};
+  }
+  if (choice.count > mask) {
+    choice.warning = fmt::format("{} asks for {} threads, this process may use {}", choice.reason, choice.count, mask);
+    choice.count = mask;
+  }
+  return choice;
+}
+
+void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, int)> const& task) {
+  std::mutex guard;
+  std::exception_ptr failure;
+  std::size_t failed_index = std::numeric_limits<std::size_t>::max();
+  std::atomic<bool> stop{false};
+  std::atomic<std::size_t> next{0};
+  int const team = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), std::max<std::size_t>(1, n)));
+#pragma omp parallel num_threads(team)
+  {
+    int const thread = omp_get_thread_num();
+    while (!stop.load()) {
+      std::size_t const index = next.fetch_add(1);
+      if (index >= n) break;
+      try {
+        task(index, thread);
+      } catch (...) {
+        std::lock_guard const lock(guard);
+        stop.store(true);
+        if (index < failed_index) {
+          failed_index = index;
+          failure = std::current_exception();
+        }
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace torquescope

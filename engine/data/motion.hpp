@@ -1,0 +1,61 @@
+#pragma once
+// Filtered motion of one joint at the full sampling rate: what regressor columns are computed from.
+//
+// The torque in here is still raw: torque and columns go through the same low-pass and decimation together (the parallel
+// filter of ParallelFilter), after the columns were computed from the filtered motion.
+//
+// Shapes     n_samples each
+// Units      s, rad, rad/s, rad/s^2, N m (prismatic: m, m/s, m/s^2, N)
+// Source     Gautier 1997, "Dynamic identification of robots with power model"; Janot, Vandanjon, Gautier 2014
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "engine/base/options.hpp"
+#include "engine/data/recording.hpp"
+
+namespace torquescope {
+
+struct Motion {
+  double rate_hz = 0.0;
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd q;
+  Eigen::VectorXd dq;
+  Eigen::VectorXd ddq;
+  Eigen::VectorXd torque;  // not filtered
+};
+
+struct FilterOptions {
+  double cutoff_hz = 0.0;           // low-pass of the position before differentiation; 0: none
+  std::int64_t order = 4;           // Butterworth order, run forwards and backwards (zero phase)
+  double parallel_cutoff_hz = 0.0;  // low-pass of torque and every regressor column; 0: 0.4 * decimate_to_hz, or none
+  double decimate_to_hz = 0.0;      // rate kept for the fit; 0: the recording's
+  double edge_s = -1.0;             // dropped at both ends; negative: three periods of the lowest cutoff
+
+  static OptionTable<FilterOptions> const& table();
+};
+
+// low-passes the position (zero phase) and differentiates it twice by central differences; given velocity and
+// acceleration channels are used as they are (low-passed alike)
+// Errors     Error 78 when a cutoff is not below half the rate, 65 when the recording is shorter than the filter
+Motion differentiate(Recording const& recording, FilterOptions const& options, Section const& section);
+
+// The same low-pass, decimation and edge cut for torque and every column.
+class ParallelFilter {
+ public:
+  // Errors     as differentiate()
+  ParallelFilter(FilterOptions const& options, double rate_hz, Eigen::Index n_samples, Section const& section);
+  ~ParallelFilter();
+  ParallelFilter(ParallelFilter&&) noexcept;
+
+  Eigen::Index kept_samples() const;  // after decimation and edge cut
+  double kept_rate_hz() const;
+  Eigen::VectorXd apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // n_samples -> kept_samples()
+  Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;   // the same samples, not low-passed
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace torquescope

@@ -1,0 +1,34 @@
+#pragma once
+// A recording as the engine uses it: evenly sampled, SI units, checked. Made by recording_reader.hpp from a file.
+//
+// Shapes     every vector has n_samples entries; absent channels are empty
+// Units      s; rad or m; rad/s or m/s; N m or N (revolute or prismatic joint)
+// Threads    plain record
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+// something a person should know about the data, which does not stop a run
+struct DataWarning {
+  std::string topic;  // "jitter", "saturation", "delay", "excitation", "separable"
+  std::string text;   // "3 samples resampled: ..."
+};
+
+struct Recording {
+  std::string name;    // file name without its folder, or "simulated"
+  std::string sha256;  // of the bytes that were parsed (before decompression), or of the simulated numbers
+  double rate_hz = 0.0;
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd position;
+  Eigen::VectorXd torque;                // motor torque or force: column times torque_per_unit
+  Eigen::VectorXd reference{};           // commanded position, optional
+  Eigen::VectorXd velocity{};            // optional: used instead of differentiating the position
+  Eigen::VectorXd acceleration{};        // optional, only together with velocity
+  Eigen::VectorXd simulated_torque{};    // optional: the user's own simulator on the same motion
+  std::vector<DataWarning> warnings{};
+};
+
+}  // namespace torquescope

@@ -1,0 +1,55 @@
+#pragma once
+// From a file to a checked Recording: reader by content, columns by the job's mapping, torque_per_unit, delay, gaps.
+//
+// Errors     Error with exit code 66 (no such file), 65 (damaged or contradicting data: NaN, backwards time, constant
+//            signal, repeated header), 78 (a column the job names is not in the file), each with the way out
+// Source     formats: docs in readers/*.cpp
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/data/recording.hpp"
+
+namespace torquescope {
+
+struct RecordingOptions {
+  std::vector<std::string> train{};
+  std::vector<std::string> validate{};
+  std::map<std::string, std::string> columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration
+  double torque_per_unit = 1.0;                  // N m per unit of the torque column (A, V, N)
+  double position_per_unit = 1.0;                // rad per unit of position, reference, velocity, acceleration columns
+  double rate_hz = 0.0;                          // sampling rate when the file has no time column
+  double delay_s = 0.0;                          // added to the torque's time stamps
+  std::string gaps = "error";                    // NaN runs up to 5 samples: "error" or "fill"
+  std::string simulated_torque{};                // column of the user's own simulator
+
+  static OptionTable<RecordingOptions> const& table();
+};
+
+// what any reader makes of a file: named columns of equal length
+struct RawTable {
+  std::string path;
+  std::string sha256;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  // empty cells and "nan" are NaN
+  std::vector<std::int64_t> line_of_row{};   // text formats: line in the file of each row; else empty
+};
+
+// one per file in readers/; chosen by content, never by extension
+struct ReaderChoice {
+  std::string name;                                              // "csv"
+  std::string meaning;                                           // "comma-separated text, plain or gzip"
+  bool (*accepts)(std::filesystem::path const&, std::string const& first_bytes);
+  RawTable (*read)(std::filesystem::path const&);
+};
+std::vector<ReaderChoice> const& reader_choices();
+
+RawTable read_table(std::filesystem::path const& path, Section const& section);
+// `section` is the job's [recording]: its places stand in the messages
+Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section);
+
+}  // namespace torquescope

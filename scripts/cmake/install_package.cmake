@@ -1,0 +1,17 @@
+# install + export: an outside project finds torquescope and links torquescope::optim (tests/install)
+include(CMakePackageConfigHelpers)
+get_property(layers GLOBAL PROPERTY TORQUESCOPE_LAYERS)
+list(TRANSFORM layers PREPEND torquescope_ OUTPUT_VARIABLE targets)
+install(TARGETS ${targets} EXPORT torquescope_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT torquescope_targets NAMESPACE torquescope:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)
+install(DIRECTORY engine kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/torquescope-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config-version.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)

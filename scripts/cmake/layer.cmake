@@ -1,0 +1,62 @@
+# A folder is a layer is a target (engine/layers.txt). Two functions build them all.
+
+# Flags of every one of our targets. No -march, no -ffast-math: kernels choose their instruction set at run time, and
+# -ffp-contract=off keeps the bits of everything else independent of it.
+add_library(torquescope_flags INTERFACE)
+target_compile_options(torquescope_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-qual
+  -Wdouble-promotion -Wimplicit-fallthrough -Werror -ffp-contract=off -fno-math-errno)
+if(TORQUESCOPE_CONTRACTS)
+  target_compile_definitions(torquescope_flags INTERFACE TORQUESCOPE_CONTRACTS=1)
+endif()
+# Eigen must never start threads of its own: the engine spreads runs, not matrices
+target_compile_definitions(torquescope_flags INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
+
+# layer(NAME SOURCES a.cpp ... USES base data ... LINKS Eigen3::Eigen ... PRIVATE_LINKS ...)
+function(layer name)
+  cmake_parse_arguments(LAYER "" "" "SOURCES;USES;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(target torquescope_${name})
+  add_library(${target} STATIC ${LAYER_SOURCES})
+  add_library(torquescope::${name} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/torquescope>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:torquescope_flags> ${LAYER_PRIVATE_LINKS})
+  foreach(used IN LISTS LAYER_USES)
+    target_link_libraries(${target} PUBLIC torquescope_${used})
+  endforeach()
+  target_link_libraries(${target} PUBLIC ${LAYER_LINKS})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_property(GLOBAL APPEND PROPERTY TORQUESCOPE_LAYERS ${name})
+endfunction()
+
+# choices(TARGET KIND a b c): compiles KINDs/a.cpp ... and writes KIND_choices.inc with one TORQUESCOPE_CHOICE(a) per name.
+# Adding a choice is one new file and one word in this list; the registry, list, describe and the job reader follow.
+function(choices target kind)
+  set(text "")
+  foreach(name IN LISTS ARGN)
+    target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${kind}s/${name}.cpp)
+    string(APPEND text "TORQUESCOPE_CHOICE(${name})\n")
+  endforeach()
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/choices/${kind}_choices.inc)
+  file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY)
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/choices)
+endfunction()
+
+# unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, labelled by its first folder
+function(unit_test folder name)
+  cmake_parse_arguments(TEST "" "TIMEOUT" "LINKS;LABELS" ${ARGN})
+  string(REPLACE "/" "_" flat ${folder})
+  set(target test_${flat}_${name})
+  add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${folder}/${name}.cpp)
+  target_link_libraries(${target} PRIVATE torquescope_flags ${TEST_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${target} PRIVATE TORQUESCOPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${flat}.${name} COMMAND ${target})
+  string(REGEX REPLACE "/.*" "" label ${folder})
+  set_tests_properties(${flat}.${name} PROPERTIES LABELS "${label};${TEST_LABELS}"
+                       ENVIRONMENT "OMP_WAIT_POLICY=passive")
+  if(TEST_TIMEOUT)
+    set_tests_properties(${flat}.${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT})
+  endif()
+endfunction()

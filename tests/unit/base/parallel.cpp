@@ -1,0 +1,57 @@
+#include "engine/base/parallel.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+namespace torquescope {
+namespace {
+
+TEST(ParallelFor, RunsEveryIndexOnce) {
+  for (int threads : {1, 2, 3}) {
+    std::vector<std::atomic<int>> seen(1000);
+    parallel_for(seen.size(), threads, [&](std::size_t i, int) { ++seen[i]; });
+    for (auto const& count : seen) EXPECT_EQ(count.load(), 1);
+  }
+}
+
+TEST(ParallelFor, RethrowsAfterTheRegion) {
+  EXPECT_THROW(parallel_for(50, 2,
+                            [](std::size_t i, int) {
+                              if (i == 13) throw std::runtime_error("thirteen");
+                            }),
+               std::runtime_error);
+}
+
+TEST(ChooseThreads, FollowsTheOrderOfReasons) {
+  setenv("OMP_NUM_THREADS", "1", 1);
+  EXPECT_EQ(choose_threads(0).reason, "OMP_NUM_THREADS");
+  EXPECT_EQ(choose_threads(1).reason, "--threads");
+  unsetenv("OMP_NUM_THREADS");
+  setenv("SLURM_CPUS_PER_TASK", "1", 1);
+  EXPECT_EQ(choose_threads(0).reason, "SLURM_CPUS_PER_TASK");
+  unsetenv("SLURM_CPUS_PER_TASK");
+}
+
+TEST(ChooseThreads, NeverExceedsTheAffinityMask) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+    if (CPU_ISSET(cpu, &before)) {
+      CPU_SET(cpu, &one);
+      break;
+    }
+  ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+  auto const choice = choose_threads(8);
+  sched_setaffinity(0, sizeof(before), &before);
+  EXPECT_EQ(choice.count, 1);
+  EXPECT_FALSE(choice.warning.empty());
+}
+
+}  // namespace
+}  // namespace torquescope
