@@ -1,0 +1,85 @@
+#pragma once
+// What the commands do, without a word of terminal: load, check, identify, simulate. The app layer prints.
+//
+// Errors     Error with the exit codes of error.hpp; every problem of a job at once
+// Threads    identify() spreads runs over threads itself; call it from one thread
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/parallel.hpp"
+
+namespace torquescope {
+
+// one line of `torquescope check`
+struct CheckLine {
+  enum class Level { ok, warn };
+  Level level = Level::ok;
+  std::string topic;  // "recording", "delay", "excitation"
+  std::string text;
+};
+
+// a job that was read, checked and turned into objects (recordings are read, nothing has run)
+class Experiment {
+ public:
+  // Errors: 66, 65, 78 with everything that can be refused before starting
+  static Experiment load(std::filesystem::path const& job_file);
+  Experiment(Experiment&&) noexcept;
+  ~Experiment();
+
+  std::string const& name() const;
+  std::string job_line() const;   // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
+  std::string data_line() const;  // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
+  std::uint64_t seed() const;
+  std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
+  std::vector<CheckLine> check(int threads) const;
+  std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts
+
+  struct Parts;
+  Parts const& parts() const { return *parts_; }
+
+ private:
+  explicit Experiment(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+// told from worker threads, one call at a time
+struct ProgressUpdate {
+  std::string stage;  // estimator's name
+  std::int64_t runs_done = 0, runs_total = 0;
+  std::int64_t evaluations_done = 0, evaluations_total = 0;
+  double seconds = 0.0;  // since the stage began
+};
+using ProgressSink = std::function<void(ProgressUpdate const&)>;
+
+struct IdentifyOptions {
+  ThreadChoice threads{};
+  std::filesystem::path output{};
+  std::function<bool()> stop_requested{};  // polled once a generation; true: Error 75, nothing published
+};
+
+struct IdentifyReport {
+  std::int64_t runs = 0;
+  std::int64_t evaluations = 0;
+  double seconds = 0.0;
+  std::uintmax_t bytes = 0;
+  std::string content_sha256;
+};
+
+// runs every estimator of the job and writes the result file
+IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress);
+
+// makes the recording that the job's [simulate] describes; CSV or HDF5 by the ending of `output`
+struct SimulateReport {
+  std::size_t samples = 0;
+  double seconds = 0.0;
+  double rate_hz = 0.0;
+  std::uintmax_t bytes = 0;
+};
+SimulateReport simulate_recording(std::filesystem::path const& job_file, std::filesystem::path const& output);
+
+}  // namespace torquescope
