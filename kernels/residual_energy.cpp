@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 #include "kernels/pairwise_tree.hpp"
 
@@ -47,16 +48,27 @@ struct Huber {
   }
 };
 
-// adds the losses of one tile to the lanes of one group; parameters[r][group_members], lanes[group_members][n_lanes];
-// each pass asks for one cache line of each row of `ahead`, a later tile
+// Asks for the cache lines of a later tile one by one, spread evenly over the work on this one: a burst would fill the
+// queue of outstanding lines and stop the arithmetic. An address, not a pointer: it may run past the end, which is
+// harmless.
+struct LineStream {
+  std::uintptr_t address;
+  std::uintptr_t step;  // bytes; at most a cache line, or some would be left out
+
+  HWY_INLINE void next() {
+    hwy::Prefetch(reinterpret_cast<double const*>(address));
+    address += step;
+  }
+};
+
+// adds the losses of one tile to the lanes of one group; parameters[r][group_members], lanes[group_members][n_lanes]
 template <class Loss>
 HWY_INLINE void add_tile(double const* HWY_RESTRICT tile, std::size_t n_regressors,
-                         double const* HWY_RESTRICT parameters, Loss const& loss, double const* ahead,
+                         double const* HWY_RESTRICT parameters, Loss const& loss, LineStream& ahead,
                          double* HWY_RESTRICT lanes) {
   for (std::size_t pass = 0; pass < tile_samples; pass += pass_samples) {
     Vector residual[n_vectors][group_members];
     double const* row = tile + n_regressors * tile_samples + pass;
-    hwy::Prefetch(ahead + n_regressors * tile_samples + pass);
 #pragma GCC unroll 8
     for (std::size_t v = 0; v < n_vectors; ++v) {
       Vector const tau = hn::LoadU(d, row + v * vector_lanes);
@@ -66,7 +78,7 @@ HWY_INLINE void add_tile(double const* HWY_RESTRICT tile, std::size_t n_regresso
 
     row = tile + pass;
     for (std::size_t r = 0; r < n_regressors; ++r, row += tile_samples) {
-      hwy::Prefetch(ahead + r * tile_samples + pass);
+      ahead.next();
       Vector phi[n_vectors];
 #pragma GCC unroll 8
       for (std::size_t v = 0; v < n_vectors; ++v) phi[v] = hn::LoadU(d, row + v * vector_lanes);
@@ -93,27 +105,21 @@ HWY_INLINE void add_tile(double const* HWY_RESTRICT tile, std::size_t n_regresso
   }
 }
 
-inline constexpr std::size_t line_doubles = 8;
-inline constexpr std::size_t row_lines = tile_samples / line_doubles;
-// groups that together have asked for every line of the later tile
-inline constexpr std::size_t prefetching_groups = row_lines / (tile_samples / pass_samples);
 // far enough to hide the latency of memory, near enough to be still in L1 when it is read
 inline constexpr std::size_t prefetch_bytes = 16384;
 
-// adds the losses of one tile to the lanes of all groups
-template <class Loss>
-HWY_INLINE void add_tile_to_groups(double const* tile, double const* ahead, std::size_t n_regressors,
-                                   std::size_t n_groups, double const* parameters, Loss const& loss, double* lanes) {
-  // fewer groups than a row has lines: the rest of the lines at once
-  for (std::size_t line = n_groups; line < prefetching_groups; ++line)
-    for (std::size_t r = 0; r <= n_regressors; ++r) hwy::Prefetch(ahead + r * tile_samples + line * line_doubles);
-
-  for (std::size_t group = 0; group < n_groups; ++group) {
-    // groups without a line to ask for point at the tile itself, which is in L1
-    double const* const lines = group < prefetching_groups ? ahead + group * line_doubles : tile;
-    add_tile(tile, n_regressors, parameters + group * group_members * n_regressors, loss, lines,
-             lanes + group * group_members * n_lanes);
+// the lines of `tile`, one for each row of each pass of each group; all at once when there are fewer steps than lines
+HWY_INLINE LineStream lines_of(double const* tile, std::size_t n_regressors, std::size_t n_groups) {
+  constexpr std::size_t line_bytes = 64;
+  std::size_t const tile_bytes = (n_regressors + 1) * tile_samples * sizeof(double);
+  std::size_t const n_steps = std::max<std::size_t>(n_groups * (tile_samples / pass_samples) * n_regressors, 1);
+  LineStream stream{reinterpret_cast<std::uintptr_t>(tile), (tile_bytes + n_steps - 1) / n_steps};
+  if (stream.step > line_bytes) {
+    stream.step = line_bytes;
+    for (std::size_t line = 0; line < tile_bytes / line_bytes; ++line) stream.next();
+    stream.step = 0;
   }
+  return stream;
 }
 
 // lanes of one block of samples, [member][n_lanes]
@@ -126,8 +132,11 @@ HWY_INLINE void sum_block(SampleTiles const& tiles, std::size_t first_tile, std:
   std::fill_n(lanes, n_groups * group_members * n_lanes, 0.0);
   for (std::size_t t = first_tile; t < last_tile; ++t) {
     double const* const tile = tiles.data + t * tile_size;
-    double const* const ahead = t + distance < n_tiles ? tile + distance * tile_size : tile;
-    add_tile_to_groups(tile, ahead, tiles.n_regressors, n_groups, parameters, loss, lanes);
+    double const* const later = t + distance < n_tiles ? tile + distance * tile_size : tile;
+    LineStream ahead = lines_of(later, tiles.n_regressors, n_groups);
+    for (std::size_t group = 0; group < n_groups; ++group)
+      add_tile(tile, tiles.n_regressors, parameters + group * group_members * tiles.n_regressors, loss, ahead,
+               lanes + group * group_members * n_lanes);
   }
 }
 

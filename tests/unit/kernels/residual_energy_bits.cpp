@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "unit/kernels/every_instruction_set.hpp"
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
@@ -15,13 +16,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class EveryInstructionSet : public testing::TestWithParam<std::string_view> {
- protected:
-  void SetUp() override { ASSERT_TRUE(force_instruction_set(GetParam())); }
-  void TearDown() override { release_instruction_set(); }
-};
 INSTANTIATE_TEST_SUITE_P(Bits, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
-                         [](auto const& test) { return std::string(test.param); });
+                         instruction_set_of);
 
 // the order written in residual_energy.hpp, one operation after the other
 double energy_in_documented_order(RandomProblem const& problem, std::size_t m, double delta) {
