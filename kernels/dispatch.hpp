@@ -1,9 +1,11 @@
 #pragma once
 // Which instruction set the kernels run on, and forcing one: for tests, benchmarks and `--target`.
 //
-// Names      Highway's, best first: "AVX3" (AVX-512 F, BW, CD, DQ, VL), "AVX2" (with FMA3), "SSE4", "SSSE3", "EMU128"
-// (plain C++) Promise    every one of them gives the same bits; those without FMA hardware call std::fma, about a
-// hundred times slower Threads    instruction_set() from any thread; force_instruction_set() only while no kernel runs
+// Names      Highway's, best first: "AVX3" (AVX-512 F, BW, CD, DQ, VL), "AVX2" (with FMA3), "SSE4", "SSSE3", "SCALAR"
+// Promise    every one of them gives the same bits (tests/unit/kernels/residual_energy_bits.cpp)
+// No FMA     "SSE4" and below call std::fma for each lane: about 60 times slower than AVX2 when forced on a newer
+//            machine, thousands of times on a processor before 2013, where std::fma is software: for small jobs only
+// Threads    instruction_set() from any thread; force_ and release_instruction_set() only while no kernel runs
 
 #include <string_view>
 #include <vector>

@@ -1,8 +1,7 @@
 // Multiply-add with one rounding on every instruction set; compiled once per instruction set, so no #pragma once.
 //
 // Why        Highway's MulAdd rounds twice where the hardware has no FMA: other bits. There we call std::fma for each
-// lane,
-//            which is correctly rounded in hardware and in software alike (slow: machines older than 2013 only).
+//            lane, which rounds once in hardware and in software alike; the price is in dispatch.hpp.
 
 #include <cmath>
 

@@ -10,13 +10,12 @@
 // Bits       the same on every instruction set (dispatch.hpp), for any grouping of members, on any number of threads:
 //            e by r = 0, 1, ... with one rounding each; lane l sums samples l, l+8, ... of a block of 2048 with fused
 //            multiply-add; lanes ((0+4)+(2+6)) + ((1+5)+(3+7)); blocks by PairwiseTree
-// Error      at most ((1+g(R))^2 (1+g(D)) - 1) sum_i (|tau_i| + sum_r |phi_ir v_mr|)^2, g(k) = k u / (1 - k u), u =
-// 2^-53,
-//            D = 259 + ceil(log2(number of blocks)), two more for the Huber loss
+// Error      at most ((1+g(R))^2 (1+g(D)) - 1) sum_i (|tau_i| + sum_r |phi_ir v_mr|)^2 with u = 2^-53,
+//            g(k) = k u / (1 - k u), D = 259 + ceil(log2(number of blocks)), two more for the Huber loss
 // Not finite a NaN parameter makes its own member NaN, an infinite one NaN or infinite; the others are untouched
 // Threads    any number on the same tiles, each with its own workspace; does not allocate
-// Source     register tile of Goto, van de Geijn 2008 (4 vectors x 6 candidates) fused with the sum, product never
-// stored
+// Source     register tile after Goto, van de Geijn, ACM TOMS 34(3), 2008: 4 vectors x 6 candidates; ours sums the
+//            squares while they are in registers, the product phi v is never stored
 
 #include <cstddef>
 
@@ -36,8 +35,7 @@ struct Candidates {
 // doubles of the packed parameters: whole groups
 std::size_t packed_parameters_size(std::size_t n_members, std::size_t n_regressors);
 
-// doubles of workspace for up to n_members on a recording of n_samples x n_regressors: packed parameters, lanes,
-// partial sums
+// doubles of workspace for a recording of n_samples x n_regressors: packed parameters, lanes, partial sums
 std::size_t energy_workspace_size(std::size_t n_samples, std::size_t n_regressors, std::size_t n_members);
 
 void residual_energy(SampleTiles const& tiles, Candidates const& candidates, double* energy, double* workspace);

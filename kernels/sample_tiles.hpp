@@ -1,11 +1,12 @@
 #pragma once
 // Regressor and torque of 32 samples at a time, side by side: one stream of memory instead of one per column.
 //
-// Shapes     tiles[tile][row][32], row < n_regressors: column `row` of phi; row n_regressors: tau; sample = 32 * tile +
-// place Tail       places behind the last sample are zero in every row: their residual is an exact zero for finite
-// parameters Blocks     64 tiles (2048 samples) are one block, the unit of summation (residual_energy.hpp) Requires
-// tiles on a cache line (aligned_doubles.hpp) for speed; any address is correct Threads    a SampleTiles is a view;
-// read by any number of threads
+// Shapes     tiles[tile][row][32]: row r < n_regressors is column r of phi, row n_regressors is tau;
+//            sample = 32 * tile + place
+// Tail       places behind the last sample are zero in every row: a residual of exactly zero for finite parameters
+// Blocks     64 tiles (2048 samples) are one block, the unit of summation (residual_energy.hpp)
+// Requires   tiles on a cache line (aligned_doubles.hpp) for speed; any address is correct
+// Threads    a SampleTiles is a view; read by any number of threads
 
 #include <cstddef>
 

@@ -1,5 +1,4 @@
-// The energy kernels against the FMA peak of the same thread, measured just before each repetition: clock changes
-// cancel.
+// The energy kernels against the FMA peak of the same thread, measured just before each repetition.
 //
 // Counts     R + 1 useful multiply-adds per sample and candidate (dot product, square); padding is not counted
 // Read       percent_of_peak, ns_per_sample_candidate; medians of the repetitions; thread CPU time
