@@ -2,6 +2,7 @@
 // A random packed recording with candidates, reproducible from its seed: for the tests of the energy kernels.
 
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
