@@ -3,8 +3,9 @@
 //
 // Names      Highway's, best first: "AVX3" (AVX-512 F, BW, CD, DQ, VL), "AVX2" (with FMA3), "SSE4", "SSSE3", "SCALAR"
 // Promise    every one of them gives the same bits (tests/unit/kernels/residual_energy_bits.cpp)
-// No FMA     "SSE4" and below call std::fma for each lane: about 60 times slower than AVX2 when forced on a newer
-//            machine, thousands of times on a processor before 2013, where std::fma is software: for small jobs only
+// No FMA     "SSE4" and below call std::fma for each lane: 35 to 70 times slower than AVX2 when forced on a machine
+// with
+//            FMA, thousands of times with glibc's software fma (a processor before 2013): for small jobs only
 // Threads    instruction_set() from any thread; force_ and release_instruction_set() only while no kernel runs
 
 #include <string_view>
