@@ -4,8 +4,7 @@
 // Names      Highway's, best first: "AVX3" (AVX-512 F, BW, CD, DQ, VL), "AVX2" (with FMA3), "SSE4", "SSSE3", "SCALAR"
 // Promise    every one of them gives the same bits (tests/unit/kernels/residual_energy_bits.cpp)
 // No FMA     "SSE4" and below call std::fma for each lane: 35 to 70 times slower than AVX2 when forced on a machine
-// with
-//            FMA, thousands of times with glibc's software fma (a processor before 2013): for small jobs only
+//            with FMA, thousands of times with glibc's software fma (a processor before 2013): small jobs only
 // Threads    instruction_set() from any thread; force_ and release_instruction_set() only while no kernel runs
 
 #include <string_view>
