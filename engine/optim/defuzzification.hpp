@@ -2,14 +2,12 @@
 // From the clipped output sets to one number, three ways.
 //
 // Equation   mu(y) = max_k min(level_k, fg(y, sigma, mean_k)), y in [0, top]
-//   centroid           int y mu dy / int mu dy by the trapezoidal rule on equally spaced points; only portable
-//   arithmetic,
-//                      so the same bits everywhere. 1001 points: error below 2e-6 (tested against the closed form)
+//   centroid           int y mu dy / int mu dy by the trapezoidal rule on equally spaced points; portable arithmetic
+//                      only, so the same bits everywhere. 1001 points: error below 2e-6 of the closed form
 //   centroid_closed    the same integrals piece by piece with erf; libm's last bit may differ between machines
-//   weighted_average   sum_k level_k mean_k / sum_k level_k (height method over the three clipped sets, not over the
-//   nine
-//                      rules): keeps the whole range of the means, where centroids of wide clipped sets are squeezed
-//                      together
+//   weighted_average   sum_k level_k mean_k / sum_k level_k: the height method over the three clipped sets (not over
+//                      the nine rules). Uses nearly the whole range of the means, which a centroid of wide clipped sets
+//                      cannot; takes no notice of the universe
 // Requires   some level > 0
 // Threads    const objects, any number of threads
 

@@ -7,13 +7,13 @@
 //   original   F from (d11, d12), CR from (d21, d22), every level with the sets made for its range (Liu, Lampinen)
 //   literal    tables 1 and 2 with the values of eq. 9 under the same labels: F from (D1, D3), CR from (D2, D4);
 //              F then sees only PC, CR only FC
-//   eq9        pairs as original, but each label D1 .. D4 of eq. 9 with the sets table 1 prints for it: F from (D1,
-//   D2),
-//              CR from (D3, D4)
-// Range      PC, FC >= 0, inf included. Centroid: F in [.44, .61] of [0, 1], or [.62, .93] of [0, 2]; CR in [.44, .69]
+//   eq9        pairs as original, but each label D1 .. D4 of eq. 9 with the sets table 1 prints for it:
+//              F from (D1, D2), CR from (D3, D4)
+// Range      PC, FC >= 0, inf included. The centroid reaches only F .443 to .612 of [0, 1] or .624 to .924 of [0, 2],
+//            and CR .450 to .687
 // Threads    const object, any number of threads
-// Source     seed sections 3.5, tables 1 and 2; Liu, Lampinen: A fuzzy adaptive differential evolution algorithm,
-//            Soft Computing 9 (2005) 448-462
+// Source     seed section 3.5, tables 1 and 2; Liu, Lampinen: A fuzzy adaptive differential evolution algorithm, Soft
+//            Computing 9 (2005) 448-462
 
 #include <array>
 #include <cstddef>

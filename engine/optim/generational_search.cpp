@@ -82,9 +82,9 @@ void GenerationalSearch::record_best() {
 }
 
 OptimiserState GenerationalSearch::save() const {
-  OptimiserState state{
-      {"kind " + kind_, {}},    {"key", numbers_of(key_)},           {"progress", numbers_of(progress_)},
-      {"best", progress_.best}, {"population", population_.numbers}, {"fitness", population_.fitness}};
+  OptimiserState state{{"kind " + kind_, {state_version}},  {"key", numbers_of(key_)},
+                       {"progress", numbers_of(progress_)}, {"best", progress_.best},
+                       {"population", population_.numbers}, {"fitness", population_.fitness}};
   save_more(state);
   return state;
 }

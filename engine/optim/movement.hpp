@@ -4,9 +4,8 @@
 // Equation   PC = sqrt(1/NP sum_i sum_j (x_ij - x_ij')^2),  FC = sqrt(1/NP sum_i (f_i - f_i')^2)        (seed eq. 8)
 //            ' is the generation before, slot i with slot i, after selection. The seed prints x in FC; f is meant.
 //   raw        as printed: depends on the units of x and on the scale of f
-//   relative   x in box widths and f in units of its spread, the range of f and f' together: invariant under any
-//   scaling
-//              and shift of f and of each x (for powers of two: the same bits); FC is 0 .. 1
+//   relative   x in box widths, f in standard deviations of the fitness of both generations together. No scale or shift
+//              of f or of any x matters (scaled by powers of two: the same bits); FC is 0 .. 2
 //            Members that had no finite fitness before or after have no fitness change: they count 0 in FC.
 // Shapes     members x dimension; fitness: one number per member
 

@@ -1,13 +1,13 @@
 #pragma once
-// When a search ends. A rule set to 0 (the target: -inf) is off; the first that holds, in the order below, is the
-// reason.
+// When a search ends. A rule set to 0 (the target: -inf) is off; the first that holds, in this order, is the reason:
 //
 //   target          best fitness <= target, absolute: also right for negative fitness
-//   fitness_range   largest - smallest fitness of the population <= this, absolute: unmoved by an offset of the
-//   objective width           largest extent of the population <= width * box, along every parameter stagnation this
-//   many generations since the best fitness last fell (any decrease counts, however small) generations     after the
-//   initial population evaluations     exactly: ask allowed_rows() how much of the next batch fits wall_clock_s
-//   seconds, by the caller's clock; the only rule that can differ between two runs of one job
+//   fitness_range   largest - smallest fitness of the population <= this, absolute: an offset does not matter
+//   width           largest extent of the population <= width * box, along every parameter
+//   stagnation      this many generations since the best fitness last fell (any decrease counts, however small)
+//   generations     after the initial population
+//   evaluations     exactly: allowed_rows() says how much of the next batch fits
+//   wall_clock_s    seconds, by the caller's clock; the only rule that can differ between two runs of one job
 //
 // Threads    pure functions
 

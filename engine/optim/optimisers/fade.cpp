@@ -2,8 +2,8 @@
 //
 // Generation 1 has no movement before it and takes F_first, CR_first; from generation 2 on the controllers decide.
 // Source     Liu, Lampinen: A fuzzy adaptive differential evolution algorithm, Soft Computing 9 (2005) 448-462; the
-// seed,
-//            section 3; where they disagree or are silent there is an option (fuzzy_controller.hpp, bound_repair.hpp)
+//            seed, section 3. Where they disagree or are silent there is an option (fuzzy_controller.hpp,
+//            bound_repair.hpp)
 
 #include <memory>
 
