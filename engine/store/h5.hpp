@@ -1,0 +1,127 @@
+#pragma once
+// The few HDF5 operations that results need; nothing outside h5*.cpp calls HDF5.
+//
+// Files      superblock 3 and version 2 object headers (their metadata is checksummed), no times, no file locks
+// Datasets   double, int64 or text of fixed length; rows = first dimension; one number alone has shape {}
+// Texts      of fixed length everywhere: HDF5 1.10 keeps variable ones in a heap without a checksum, and one flipped
+// bit
+//            there ends the reading process (a segmentation fault in H5HG_read)
+// Links      hard links only: a soft or external link is refused before it is followed
+// Errors     Failure with HDF5's own reason; the callers know the file and the object and make an Error of it.
+//            HDF5 prints nothing. Closing never throws.
+// Threads    one thread of the process at a time (Debian's HDF5 has no lock of its own)
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/store/temp_file.hpp"
+
+namespace torquescope::h5 {
+
+using Shape = std::vector<std::size_t>;
+
+class Failure : public std::runtime_error {
+ public:
+  explicit Failure(std::string const& reason, std::string object = "")
+      : std::runtime_error(reason), object_(std::move(object)) {}
+  std::string const& object() const { return object_; }  // path inside the file; "" when the caller knows it
+
+ private:
+  std::string object_;
+};
+
+// owns one HDF5 identifier of whatever kind
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(std::int64_t id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, none)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() { close(); }
+  std::int64_t id() const { return id_; }
+  bool close() noexcept;  // false when HDF5 reports a failure; closing twice is fine
+
+ private:
+  static constexpr std::int64_t none = -1;
+  std::int64_t id_ = none;
+};
+
+enum class Element { number, whole_number, text };
+
+struct DatasetPlan {
+  Element element = Element::number;
+  Shape shape;                // {}: one value, kept in the object header
+  Shape chunk;                // same rank as shape, each at most that of shape; unused when nothing is to be stored
+  std::size_t text_size = 1;  // bytes of the longest text
+  bool gzip = false;          // level 1, no shuffle
+};
+
+struct DatasetInfo {
+  Element element = Element::number;
+  Shape shape;
+  Shape chunk;                // empty: not chunked
+  std::size_t text_size = 0;  // bytes of one text
+
+  std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
+  std::size_t values_per_row() const;
+};
+
+// texts as HDF5 stores them: each padded with NUL to the size of the longest
+struct PaddedTexts {
+  explicit PaddedTexts(std::span<std::string const> texts);
+  PaddedTexts(std::size_t count, std::size_t size) : size_of_one(size), bytes(count * size, '\0') {}
+  std::vector<std::string> texts() const;
+
+  std::size_t size_of_one = 1;
+  std::string bytes;
+};
+
+Handle create_file(TempFile& file);
+Handle open_file(std::filesystem::path const& name);
+bool is_hdf5(std::filesystem::path const& name);
+void flush(Handle const& file);
+
+// "/runs/fade": steps from the root; "/" is the root itself
+bool exists(Handle const& file, std::string const& path);
+Handle open_object(Handle const& file, std::string const& path);
+Handle make_groups(Handle const& file, std::string const& path);
+bool is_group(Handle const& object);
+std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
+
+Handle create_dataset(Handle const& group, std::string const& name, DatasetPlan const& plan);
+// refuses types, filters, storage and sizes that results never have, before anything is allocated
+DatasetInfo describe(Handle const& dataset);
+// rows [first, first + count) of the first dimension; `values` holds count * values_per_row elements (texts: padded
+// bytes)
+void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
+                void const* values);
+void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count, void* values);
+std::vector<std::string> read_texts(Handle const& dataset, DatasetInfo const& info, std::size_t first,
+                                    std::size_t count);
+
+// h5_attribute.cpp: bool becomes 0 or 1, a table of texts becomes a list "key = value"
+void write_attribute(Handle const& object, std::string const& name, OptionValue const& value);
+// int64, double, text, numbers or texts; nothing when there is no such attribute
+std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name);
+std::vector<std::string> attribute_names(Handle const& object);  // sorted by bytes
+
+// for h5*.cpp
+Handle text_type(std::size_t size);
+// throws Failure with HDF5's innermost reason
+[[noreturn]] void fail(std::string const& doing);
+std::int64_t checked(std::int64_t result, char const* doing);
+// a hostile header may claim any size: believe no more than gzip can squeeze into the file's bytes (1032 to 1)
+void check_claimed_size(Handle const& object, double bytes);
+
+}  // namespace torquescope::h5

@@ -1,0 +1,164 @@
+#include "engine/store/result_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "engine/base/error.hpp"
+#include "engine/store/content_digest.hpp"
+#include "engine/store/result_writer.hpp"
+
+namespace torquescope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char run_again[] = "delete it and run the job again: the same command makes the same file";
+
+Error refused(std::string what, std::string help) {
+  return Error(Problem{.code = ExitCode::bad_data, .what = std::move(what), .help = std::move(help)});
+}
+
+Error damaged(fs::path const& name, std::string const& object, std::string const& reason) {
+  std::string const where = object.empty() || object == "/" ? "" : " in " + object;
+  return refused(fmt::format("{} is damaged{}: {}", name.string(), where, reason), run_again);
+}
+
+// a pipe would hang, a device could do anything
+void check_is_file(fs::path const& name) {
+  std::error_code ignored;
+  fs::file_status const status = fs::status(name, ignored);
+  validate(fs::exists(status), [&] {
+    return Problem{.code = ExitCode::no_input,
+                   .what = "there is no file " + name.string(),
+                   .help = "torquescope run JOB.toml --out " + name.string() + " makes it"};
+  });
+  if (!fs::is_regular_file(status)) throw refused(name.string() + " is not a file", "name a result file");
+}
+
+h5::Handle open_checked(fs::path const& name) {
+  check_is_file(name);
+  try {
+    return h5::open_file(name);
+  } catch (h5::Failure const& failure) {
+    if (h5::is_hdf5(name)) throw damaged(name, "", failure.what());
+    throw refused(name.string() + " is not an HDF5 file",
+                  "name a result file of torquescope run (or delete a damaged one)");
+  }
+}
+
+template <class Value>
+std::optional<Value> as(std::optional<OptionValue> const& value) {
+  if (!value) return std::nullopt;
+  auto const wanted = converted(*value, OptionValue(Value{}));
+  if (!wanted)
+    throw h5::Failure("an attribute is a " + type_name(*value) + ", not a " + type_name(OptionValue(Value{})));
+  return std::get<Value>(*wanted);
+}
+
+h5::DatasetInfo describe_as(h5::Element element, h5::Handle const& dataset) {
+  h5::DatasetInfo info = h5::describe(dataset);
+  if (info.element != element) throw h5::Failure("it holds values of another type");
+  return info;
+}
+
+template <class Array>
+Array read_array(h5::Handle const& file, std::string const& path, h5::Element element) {
+  h5::Handle const dataset = h5::open_object(file, path);
+  h5::DatasetInfo const info = describe_as(element, dataset);
+  Array array{info.shape, {}};
+  array.values.resize(info.rows() * info.values_per_row());
+  h5::read_rows(dataset, info, 0, info.rows(), array.values.data());
+  return array;
+}
+
+}  // namespace
+
+template <class Read>
+auto ResultReader::guarded(std::string const& object, Read&& read) const {
+  try {
+    return read();
+  } catch (h5::Failure const& failure) {
+    throw damaged(name_, failure.object().empty() ? object : failure.object(), failure.what());
+  }
+}
+
+ResultReader::ResultReader(fs::path name) : name_(std::move(name)), file_(open_checked(name_)) {
+  auto const format = find_attribute<std::int64_t>("/", "format");
+  if (!format || !find_attribute<std::string>("/", "creator"))
+    throw refused(name_.string() + " is an HDF5 file, but not a result of torquescope (it has no attribute \"format\")",
+                  "name a result file of torquescope run");
+  if (*format > result_format)
+    throw refused(fmt::format("{} has format {}; this version reads up to {}", name_.string(), *format, result_format),
+                  "use the version that wrote it, or a later one (attribute \"creator\" names it)");
+  if (find_attribute<std::int64_t>("/", complete_key).value_or(0) != 1)
+    throw refused(name_.string() + " was never finished", run_again);
+}
+
+bool ResultReader::exists(std::string const& path) const {
+  return guarded(path, [&] { return h5::exists(file_, path); });
+}
+
+std::vector<std::string> ResultReader::children(std::string const& group) const {
+  return guarded(group, [&] {
+    h5::Handle const object = h5::open_object(file_, group);
+    return h5::is_group(object) ? h5::child_names(object) : std::vector<std::string>();
+  });
+}
+
+ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
+  return guarded(path, [&] { return read_array<Numbers>(file_, path, h5::Element::number); });
+}
+
+ResultReader::WholeNumbers ResultReader::whole_numbers(std::string const& path) const {
+  return guarded(path, [&] { return read_array<WholeNumbers>(file_, path, h5::Element::whole_number); });
+}
+
+std::vector<std::string> ResultReader::texts(std::string const& path) const {
+  return guarded(path, [&] {
+    h5::Handle const dataset = h5::open_object(file_, path);
+    h5::DatasetInfo const info = describe_as(h5::Element::text, dataset);
+    return h5::read_texts(dataset, info, 0, info.rows());
+  });
+}
+
+template <class Value>
+std::optional<Value> ResultReader::find_attribute(std::string const& object_path, std::string const& name) const {
+  return guarded(object_path + "@" + name,
+                 [&] { return as<Value>(h5::read_attribute(h5::open_object(file_, object_path), name)); });
+}
+
+template <class Value>
+Value ResultReader::attribute(std::string const& object_path, std::string const& name) const {
+  auto value = find_attribute<Value>(object_path, name);
+  if (!value) throw damaged(name_, object_path, "there is no attribute \"" + name + "\"");
+  return *std::move(value);
+}
+
+template std::optional<double> ResultReader::find_attribute(std::string const&, std::string const&) const;
+template std::optional<std::int64_t> ResultReader::find_attribute(std::string const&, std::string const&) const;
+template std::optional<std::string> ResultReader::find_attribute(std::string const&, std::string const&) const;
+template std::optional<std::vector<double>> ResultReader::find_attribute(std::string const&, std::string const&) const;
+template std::optional<std::vector<std::string>> ResultReader::find_attribute(std::string const&,
+                                                                              std::string const&) const;
+template double ResultReader::attribute(std::string const&, std::string const&) const;
+template std::int64_t ResultReader::attribute(std::string const&, std::string const&) const;
+template std::string ResultReader::attribute(std::string const&, std::string const&) const;
+template std::vector<double> ResultReader::attribute(std::string const&, std::string const&) const;
+template std::vector<std::string> ResultReader::attribute(std::string const&, std::string const&) const;
+
+std::vector<std::string> ResultReader::attribute_names(std::string const& object_path) const {
+  return guarded(object_path, [&] { return h5::attribute_names(h5::open_object(file_, object_path)); });
+}
+
+std::string ResultReader::content_sha256() const { return attribute<std::string>("/", content_digest_key); }
+
+std::string ResultReader::verify() const {
+  std::string found = guarded("/", [&] { return content_digest(file_); });
+  if (found != content_sha256()) throw damaged(name_, "", "its content does not match its sha256");
+  return found;
+}
+
+std::string verify_result(fs::path const& name) { return ResultReader(name).verify(); }
+
+}  // namespace torquescope

@@ -1,0 +1,68 @@
+#pragma once
+// Reads a result file (RESULT_FORMAT.md) and believes nothing that it has not checked.
+//
+// Checked    at opening: regular file, HDF5, ours, complete, format not newer; at each object: the checksum of its
+// header,
+//            and of each chunk of values; type; size against that of the file, before memory is taken. Links to
+//            elsewhere are refused. verify_result() reads everything and compares content_sha256: it also notices what
+//            another program changed on purpose.
+// Errors     Error with exit code 66 when there is no such file; 65 when anything above does not hold (the message
+// names
+//            the dataset); asking for what is not there is 65 too: the file lacks what its format promises
+// Threads    one at a time, and nothing else in the process may use HDF5 meanwhile
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/store/h5.hpp"
+
+namespace torquescope {
+
+class ResultReader {
+ public:
+  struct Numbers {
+    h5::Shape shape;             // {}: one number alone
+    std::vector<double> values;  // row-major
+  };
+  struct WholeNumbers {
+    h5::Shape shape;
+    std::vector<std::int64_t> values;
+  };
+
+  explicit ResultReader(std::filesystem::path name);
+
+  bool exists(std::string const& path) const;
+  std::vector<std::string> children(std::string const& group) const;  // names sorted by bytes
+
+  Numbers numbers(std::string const& path) const;
+  WholeNumbers whole_numbers(std::string const& path) const;
+  std::vector<std::string> texts(std::string const& path) const;
+
+  // Value: double (also from a whole number), std::int64_t, std::string, std::vector<double>, std::vector<std::string>
+  template <class Value>
+  Value attribute(std::string const& object_path, std::string const& name) const;
+  template <class Value>
+  std::optional<Value> find_attribute(std::string const& object_path, std::string const& name) const;
+  std::vector<std::string> attribute_names(std::string const& object_path) const;
+
+  std::filesystem::path const& name() const { return name_; }
+  std::string content_sha256() const;  // as the writer stored it
+
+  // reads everything; throws unless it is what was written; returns content_sha256
+  std::string verify() const;
+
+ private:
+  template <class Read>
+  auto guarded(std::string const& object, Read&& read) const;
+
+  std::filesystem::path name_;
+  h5::Handle file_;
+};
+
+// opens and reads all of it: exit code 65 when one bit of the content has changed
+std::string verify_result(std::filesystem::path const& name);
+
+}  // namespace torquescope

@@ -1,0 +1,193 @@
+#include "engine/store/result_writer.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+
+#include "engine/base/contract.hpp"
+#include "engine/base/version.hpp"
+#include "engine/store/chunking.hpp"
+#include "engine/store/content_digest.hpp"
+
+namespace torquescope {
+namespace {
+
+[[maybe_unused]] std::size_t count_of(h5::Shape const& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+bool has_values(h5::Shape const& shape) { return std::find(shape.begin(), shape.end(), 0U) == shape.end(); }
+
+std::size_t bytes_per_value(h5::DatasetPlan const& plan) {
+  return plan.element == h5::Element::text ? plan.text_size : sizeof(double);
+}
+
+struct GroupAndName {
+  std::string group, name;
+};
+
+GroupAndName split(std::string const& path) {
+  TORQUESCOPE_EXPECT(path.size() > 1 && path.front() == '/' && path.back() != '/');
+  std::size_t const slash = path.rfind('/');
+  return {path.substr(0, slash), path.substr(slash + 1)};
+}
+
+Error cannot_write(std::filesystem::path const& name, std::string const& object, h5::Failure const& failure) {
+  return Error(Problem{.code = ExitCode::io,
+                       .what = "cannot write " + object + " into " + name.string() + ": " + failure.what(),
+                       .help = "nothing was published; check the disk and run the same command again"});
+}
+
+}  // namespace
+
+// HDF5 never sees a failing disk (h5_output_driver.hpp), so the disk is asked after each step
+template <class Write>
+void ResultWriter::guarded(std::string const& path, Write&& write) {
+  TORQUESCOPE_EXPECT(file_.id() >= 0);
+  temp_.check();
+  try {
+    write();
+  } catch (h5::Failure const& failure) {
+    temp_.check();
+    throw cannot_write(temp_.final_name(), path, failure);
+  }
+  temp_.check();
+}
+
+ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
+    : options_(options), temp_(final_name) {
+  try {
+    file_ = h5::create_file(temp_);
+  } catch (h5::Failure const& failure) {
+    temp_.check();
+    throw cannot_write(final_name, "/", failure);
+  }
+  attribute("/", "format", result_format);
+  attribute("/", "creator", std::string("torquescope ") + version);
+}
+
+ResultWriter::~ResultWriter() = default;
+
+h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& plan, Note const& note) {
+  TORQUESCOPE_EXPECT(!note.unit.empty() && !note.long_name.empty());
+  auto const [group, name] = split(path);
+  h5::Handle dataset = h5::create_dataset(h5::make_groups(file_, group), name, plan);
+  h5::write_attribute(dataset, "unit", note.unit);
+  h5::write_attribute(dataset, "long_name", note.long_name);
+  if (!note.source.empty()) h5::write_attribute(dataset, "source", note.source);
+  return dataset;
+}
+
+void ResultWriter::write_dataset(std::string const& path, h5::DatasetPlan const& plan, void const* values,
+                                 Note const& note) {
+  h5::DatasetPlan complete = plan;
+  complete.gzip = options_.gzip;
+  if (has_values(plan.shape)) complete.chunk = chunk_of_array(plan.shape, bytes_per_value(plan));
+  guarded(path, [&] {
+    h5::Handle const dataset = create(path, complete, note);
+    h5::DatasetInfo const info{plan.element, plan.shape, complete.chunk, plan.text_size};
+    h5::write_rows(dataset, info, 0, info.rows(), values);
+  });
+}
+
+void ResultWriter::numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values,
+                           Note const& note) {
+  TORQUESCOPE_EXPECT(values.size() == count_of(shape));
+  write_dataset(path, {.element = h5::Element::number, .shape = shape, .chunk = {}}, values.data(), note);
+}
+
+void ResultWriter::whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
+                                 Note const& note) {
+  TORQUESCOPE_EXPECT(values.size() == count_of(shape));
+  write_dataset(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, values.data(), note);
+}
+
+void ResultWriter::texts(std::string const& path, std::span<std::string const> values, Note const& note) {
+  h5::PaddedTexts const padded(values);
+  write_dataset(path,
+                {.element = h5::Element::text, .shape = {values.size()}, .chunk = {}, .text_size = padded.size_of_one},
+                padded.bytes.data(), note);
+}
+
+void ResultWriter::attribute(std::string const& object_path, std::string const& name, OptionValue const& value) {
+  guarded(object_path, [&] {
+    h5::Handle const object =
+        h5::exists(file_, object_path) ? h5::open_object(file_, object_path) : h5::make_groups(file_, object_path);
+    h5::write_attribute(object, name, value);
+  });
+}
+
+void ResultWriter::declare_runs(std::string const& path, std::size_t runs, h5::Shape const& shape_of_one_run,
+                                Note const& note, RunValues values) {
+  TORQUESCOPE_EXPECT(!runs_.contains(path));
+  h5::DatasetPlan plan{.element = values == RunValues::number ? h5::Element::number : h5::Element::whole_number,
+                       .shape = {runs},
+                       .chunk = {},
+                       .gzip = options_.gzip};
+  plan.shape.insert(plan.shape.end(), shape_of_one_run.begin(), shape_of_one_run.end());
+  if (has_values(plan.shape)) plan.chunk = chunk_of_runs(plan.shape, bytes_per_value(plan));
+  guarded(path, [&] {
+    runs_[path] = {create(path, plan, note), {plan.element, plan.shape, plan.chunk, 0}, std::vector<bool>(runs)};
+  });
+}
+
+void ResultWriter::write_row(RunDataset& runs, std::size_t run, void const* values) {
+  TORQUESCOPE_EXPECT(run < runs.written.size() && !runs.written[run]);
+  h5::write_rows(runs.dataset, runs.info, run, 1, values);
+  runs.written[run] = true;
+}
+
+void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values) {
+  TORQUESCOPE_EXPECT(runs_.contains(path));
+  RunDataset& runs = runs_.at(path);
+  TORQUESCOPE_EXPECT(runs.info.element == h5::Element::number && values.size() == runs.info.values_per_row());
+  guarded(path, [&] { write_row(runs, run, values.data()); });
+}
+
+void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values) {
+  TORQUESCOPE_EXPECT(runs_.contains(path));
+  RunDataset& runs = runs_.at(path);
+  TORQUESCOPE_EXPECT(runs.info.element == h5::Element::whole_number && values.size() == runs.info.values_per_row());
+  guarded(path, [&] { write_row(runs, run, values.data()); });
+}
+
+// a reader believes no dataset that is much larger than its file, so absent runs take their space too
+void ResultWriter::fill_missing_runs(RunDataset& runs) {
+  std::size_t const n_values = runs.info.values_per_row();
+  std::vector<double> const absent(n_values, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::int64_t> const zeros(n_values, 0);
+  bool const of_numbers = runs.info.element == h5::Element::number;
+  for (std::size_t run = 0; run < runs.written.size(); ++run)
+    if (!runs.written[run]) write_row(runs, run, of_numbers ? static_cast<void const*>(absent.data()) : zeros.data());
+}
+
+void ResultWriter::plottable(std::string const& group, std::string const& signal,
+                             std::vector<std::string> const& axes) {
+  attribute(group, "NX_class", std::string("NXdata"));
+  attribute(group, "signal", signal);
+  attribute(group, "axes", axes);
+}
+
+std::string ResultWriter::finish() {
+  guarded("/", [&] {
+    for (auto& [path, runs] : runs_) fill_missing_runs(runs);
+    runs_.clear();
+    h5::flush(file_);
+  });
+
+  // read back what was written: the digest is that of the file, not of what was meant
+  std::string sha256;
+  guarded("/", [&] { sha256 = content_digest(file_); });
+  attribute("/", content_digest_key, sha256);
+  attribute("/", complete_key, std::int64_t{1});
+
+  bool const closed = file_.close();
+  temp_.check();
+  if (!closed) throw cannot_write(temp_.final_name(), "/", h5::Failure("HDF5 could not close the file"));
+  temp_.publish();
+  return sha256;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,90 @@
+#pragma once
+// Writes one result file (RESULT_FORMAT.md); under its final name it is complete or it is not there.
+//
+// Use        ResultWriter writer("R.h5");
+//            writer.numbers("/data/train/torque", {n}, torque, {"N m", "measured torque"});
+//            writer.declare_runs("/runs/fade/population", runs, {generations + 1, members, parameters}, {...});
+//            for each run, in any order: writer.write_run("/runs/fade/population", run, values);
+//            std::string sha256 = writer.finish();
+// Shapes     row-major; {} is one number alone
+// Memory     the values of one call, 1 MiB per dataset declared, and HDF5's index (some MB for 10 000 runs)
+// Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
+// Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
+//            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
+// Threads    one at a time, and nothing else in the process may use HDF5 meanwhile
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/store/h5.hpp"
+#include "engine/store/temp_file.hpp"
+
+namespace torquescope {
+
+inline constexpr std::int64_t result_format = 1;
+
+struct ResultWriterOptions {
+  bool gzip = false;  // level 1 without shuffle: a fifth of the size for histories, five times the time
+};
+
+// what a dataset says about itself
+struct Note {
+  std::string unit;       // "1" for none
+  std::string long_name;  // for people: label of an axis
+  std::string source{};   // paper, section, equation; "" when there is none
+};
+
+enum class RunValues { number, whole_number };
+
+class ResultWriter {
+ public:
+  explicit ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options = {});
+  ~ResultWriter();  // leaves nothing behind unless finished
+
+  void numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values, Note const& note);
+  void whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
+                     Note const& note);
+  void texts(std::string const& path, std::span<std::string const> values, Note const& note);
+  // on a dataset or a group; the group is created when there is nothing of that name. A second value replaces the first
+  void attribute(std::string const& object_path, std::string const& name, OptionValue const& value);
+
+  // [runs][shape_of_one_run...]; runs never written read as NaN (whole numbers: 0)
+  void declare_runs(std::string const& path, std::size_t runs, h5::Shape const& shape_of_one_run, Note const& note,
+                    RunValues values = RunValues::number);
+  void write_run(std::string const& path, std::size_t run, std::span<double const> values);
+  void write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values);
+
+  // a browser that knows NeXus (silx, h5web) plots the group: `signal` over `axes`, one name per dimension, "." for
+  // none
+  void plottable(std::string const& group, std::string const& signal, std::vector<std::string> const& axes);
+
+  // returns content_sha256; the file now stands under its final name
+  std::string finish();
+
+ private:
+  struct RunDataset {
+    h5::Handle dataset;
+    h5::DatasetInfo info;
+    std::vector<bool> written;  // per run
+  };
+
+  h5::Handle create(std::string const& path, h5::DatasetPlan const& plan, Note const& note);
+  void write_dataset(std::string const& path, h5::DatasetPlan const& plan, void const* values, Note const& note);
+  void write_row(RunDataset& runs, std::size_t run, void const* values);
+  void fill_missing_runs(RunDataset& runs);
+  template <class Write>
+  void guarded(std::string const& path, Write&& write);
+
+  ResultWriterOptions options_;
+  TempFile temp_;  // before the handles: it outlives them
+  h5::Handle file_;
+  std::map<std::string, RunDataset> runs_;
+};
+
+}  // namespace torquescope

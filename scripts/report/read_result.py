@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+"""Read a Torquescope result file (engine/store/RESULT_FORMAT.md) in Python. Needs h5py and numpy.
+
+    from read_result import Result
+    result = Result("R.h5")
+    result.job.name                                    'crs_a465_joint'
+    result.model.names                                 array(['inertia', 'viscous', ...])
+    result.train.torque                                a numpy array, read when first asked for
+    fade = result.estimators["fade"]
+    fade.mse_median, fade.cr_start                     attributes of the group
+    fade.gap_history                                   all runs: array [run][generation]
+    fade["population"][3, -1]                          of the last generation of run 3 only
+    fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
+
+On the command line, `read_result.py R.h5` prints a summary.
+"""
+
+import argparse
+import sys
+
+import h5py
+import numpy as np
+
+NEWEST_FORMAT = 1
+
+
+class ResultError(Exception):
+    """The file is missing, damaged, unfinished or not a Torquescope result; the text says which."""
+
+
+def _plain(value):
+    """What HDF5 stores as Python would have it: bytes become str, numpy numbers become int or float."""
+    if isinstance(value, bytes):
+        return value.decode()
+    if isinstance(value, np.ndarray) and value.dtype.kind == "S":
+        return [text.decode() for text in value]
+    if isinstance(value, np.generic):
+        return value.item()
+    return value
+
+
+class Group:
+    """A group of the file: its attributes, datasets and groups are its Python attributes.
+
+    Datasets are read when first asked for, and kept; texts come as arrays of str.
+    `group["name"]` gives the h5py dataset instead, to read a part of something large.
+    """
+
+    def __init__(self, group):
+        self._group = group
+        self._arrays = {}
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self._arrays:
+            return self._arrays[name]
+        if name in self._group:
+            found = self._group[name]
+            if isinstance(found, h5py.Group):
+                return Group(found)
+            self._arrays[name] = self._read(found)
+            return self._arrays[name]
+        if name in self._group.attrs:
+            return _plain(self._group.attrs[name])
+        raise AttributeError(f"{self._group.name} has no {name!r}; it has: {', '.join(self._names())}")
+
+    def __getitem__(self, name):
+        return self._group[name]
+
+    def __contains__(self, name):
+        return name in self._group or name in self._group.attrs
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._names()]
+
+    def __repr__(self):
+        return f"<{self._group.name}: {', '.join(self._names())}>"
+
+    def get(self, name, default=None):
+        """The value, or `default` when the file has none."""
+        return getattr(self, name) if name in self else default
+
+    def _names(self):  # with an underscore: a result may hold a dataset "names"
+        return [*self._group.keys(), *self._group.attrs.keys()]
+
+    def attributes(self):
+        """All attributes as a dict: options and summaries of an estimator."""
+        return {name: _plain(value) for name, value in self._group.attrs.items()}
+
+    def unit(self, name):
+        """Unit of a dataset; "1" for none."""
+        return _plain(self._group[name].attrs["unit"])
+
+    def long_name(self, name):
+        """Label of a dataset, for people."""
+        return _plain(self._group[name].attrs["long_name"])
+
+    @staticmethod
+    def _read(dataset):
+        try:
+            if h5py.check_string_dtype(dataset.dtype):
+                return np.array([text.decode() for text in dataset[()]], dtype=str)
+            return dataset[()]
+        except OSError as error:
+            raise ResultError(f"{dataset.file.filename} is damaged in {dataset.name}: {error}") from error
+
+
+class Result(Group):
+    """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
+
+    `estimators` is a dict in the order of the job. Whatever else the file has is there under its own name:
+    `result.data.regressor_health`, `result.diagnosis`. Use it in a `with` block, or close() it.
+    """
+
+    def __init__(self, name):
+        try:
+            # the file is never changed once it has its name, so a lock would protect nothing
+            self._file = h5py.File(name, "r", locking=False)
+        except FileNotFoundError as error:
+            raise ResultError(f"there is no file {name}") from error
+        except OSError as error:
+            raise ResultError(f"{name} is damaged or not an HDF5 file: {error}") from error
+        super().__init__(self._file)
+        try:
+            self._check(name)
+            self.estimators = {key: Group(self._file["runs"][key]) for key in self._order()}
+        except ResultError:
+            self.close()
+            raise
+
+    def _check(self, name):
+        if "format" not in self._file.attrs or "creator" not in self._file.attrs:
+            raise ResultError(f"{name} is an HDF5 file, but not a result of torquescope")
+        if self.format > NEWEST_FORMAT:
+            raise ResultError(f"{name} has format {self.format}; this script reads up to {NEWEST_FORMAT}")
+        if self.get("complete") != 1:
+            raise ResultError(f"{name} was never finished")
+
+    def _order(self):
+        return _plain(self._file["runs"].attrs["order"]) if "runs" in self._file else []
+
+    @property
+    def train(self):
+        """What the fit has seen: samples, regressor, where they come from."""
+        return Group(self._file["data/train"])
+
+    @property
+    def validate(self):
+        """Unseen data, laid out as `train`; None when the job has none."""
+        return Group(self._file["data/validate"]) if "data/validate" in self._file else None
+
+    def close(self):
+        self._file.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def _number(value):
+    return "" if value is None or np.isnan(value) else f"{value:.6g}"
+
+
+def _table(rows):
+    """Rows of texts as aligned lines: the first column to the left, the others to the right."""
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    for row in rows:
+        cells = [text.ljust(w) if i == 0 else text.rjust(w) for i, (text, w) in enumerate(zip(row, widths))]
+        yield "  ".join(cells).rstrip()
+
+
+def _parameter_table(result):
+    """Parameters in rows; the truth, where it is known, and the mean over runs of each estimator in columns."""
+    truth = result.model.get("truth")
+    truth = truth if truth is not None and not np.all(np.isnan(truth)) else None
+    estimators = {name: e for name, e in result.estimators.items() if "parameters" in e}
+    rows = [["parameter", "unit", *(["truth"] if truth is not None else []), *estimators]]
+    units = result.model.get("units", [""] * len(result.model.names))
+    for i, (name, unit) in enumerate(zip(result.model.names, units)):
+        known = [_number(truth[i])] if truth is not None else []
+        rows.append([name, unit, *known, *(_number(np.nanmean(e.parameters[:, i])) for e in estimators.values())])
+    return rows
+
+
+def summary(result):
+    """The summary as lines of text."""
+    job = result.job
+    yield f"{job.get('name', '?')}: {result.creator}, format {result.format}, sha256 {result.content_sha256[:16]}"
+    for name, data in (("train", result.train), ("validate", result.validate)):
+        if data is not None:
+            yield f"{name:9} {len(data.torque)} samples of {', '.join(data.get('recordings', []))}"
+    yield ""
+    yield from _table(_parameter_table(result))
+    yield ""
+    columns = ["mse_median", "gap_median", "relerr_median", "validation_relerr_median"]
+    rows = [["estimator", "kind", "runs", *columns]]
+    for name, estimator in result.estimators.items():
+        runs = str(estimator.get("runs", len(estimator.parameters) if "parameters" in estimator else ""))
+        rows.append([name, estimator.get("kind", ""), runs, *(_number(estimator.get(c)) for c in columns)])
+    yield from _table(rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="print a summary of a Torquescope result file")
+    parser.add_argument("result", help="R.h5, as torquescope run wrote it")
+    try:
+        with Result(parser.parse_args().result) as result:
+            print("\n".join(summary(result)))
+    except ResultError as error:
+        sys.exit(f"error: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+"""usage: test_read_result.py PATH/write_example_result FOLDER_OF_read_result.py
+
+The C++ store writes (tests/unit/store/example_result.hpp), Python reads.
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+WRITER, SCRIPTS = sys.argv[1:3]
+sys.path.insert(0, SCRIPTS)
+import read_result  # noqa: E402
+from read_result import Result, ResultError  # noqa: E402
+
+
+class ReadsWhatTheStoreWrote(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.name = cls.folder / "R.h5"
+        run = subprocess.run([WRITER, cls.name], check=True, capture_output=True, text=True)
+        cls.sha256 = run.stdout.strip()
+        cls.result = Result(cls.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.result.close()
+        shutil.rmtree(cls.folder)
+
+    def test_root(self):
+        self.assertEqual(self.result.format, 1)
+        self.assertEqual(self.result.content_sha256, self.sha256)
+        self.assertTrue(self.result.creator.startswith("torquescope "))
+
+    def test_texts_are_str(self):
+        self.assertEqual(self.result.job.name, "crs_a465_joint")
+        self.assertIn("# M\u00fcnchen\n", self.result.job.text[0])
+        self.assertEqual(list(self.result.model.names), ["inertia", "viscous"])
+        self.assertEqual(self.result.train.recordings, ["a.csv", "b.csv"])
+
+    def test_attributes_are_plain_numbers(self):
+        self.assertIs(type(self.result.job.seed), int)
+        self.assertIs(type(self.result.train.rate_hz), float)
+        np.testing.assert_array_equal(self.result.estimators["fade"].parameters_mean, [0.0036, 0.0164])
+        self.assertEqual(self.result.estimators["fade"].attributes()["cr_start"], 0.5)
+
+    def test_estimators_are_in_the_order_of_the_job(self):
+        self.assertEqual(list(self.result.estimators), ["ols", "fade"])
+
+    def test_values_are_those_written(self):
+        i = np.arange(300)
+        np.testing.assert_allclose(self.result.train.torque, np.cos(0.01 * i * i), rtol=0, atol=1e-12)
+        fade = self.result.estimators["fade"]
+        self.assertEqual(fade.population.shape, (3, 5, 4, 2))
+        np.testing.assert_allclose(fade.population.ravel(), np.sin(np.arange(120)), rtol=0, atol=1e-15)
+        self.assertEqual(fade.evaluations.dtype, np.int64)
+        np.testing.assert_array_equal(fade.evaluations, 4 * np.arange(1, 6) + np.arange(3)[:, None])
+        np.testing.assert_array_equal(fade.mse, [0.09, 0.09 + 0.001, 0.09 + 0.002])
+
+    def test_datasets_say_what_they_are(self):
+        fade = self.result.estimators["fade"]
+        self.assertEqual(fade.unit("mse"), "(N m)2")
+        self.assertEqual(fade.long_name("mse"), "mean squared error")
+
+    def test_arrays_are_read_when_asked_for(self):
+        fade = Result(self.name).estimators["fade"]
+        self.assertEqual(fade._arrays, {})
+        self.assertIs(fade.population, fade.population)
+        self.assertEqual(fade["population"][2, -1].shape, (4, 2))
+
+    def test_what_is_not_there(self):
+        self.assertIsNone(self.result.validate)
+        self.assertIsNone(self.result.get("diagnosis"))
+        with self.assertRaisesRegex(AttributeError, "/runs/fade has no 'banana'; it has: evaluations, mse"):
+            self.result.estimators["fade"].banana
+
+    def test_h5py_reads_it_in_one_line(self):
+        with h5py.File(self.name, locking=False) as file:
+            self.assertEqual(file["runs/fade/population"][1, 0, 0, 0], np.sin(40.0))
+            self.assertEqual(list(file["model/names"].asstr()[:]), ["inertia", "viscous"])
+            self.assertEqual(file["runs/fade"].attrs["kind"].decode(), "fade")
+            self.assertTrue(file["runs/fade/population"].fletcher32)
+
+    def test_summary_names_every_estimator_and_parameter(self):
+        text = "\n".join(read_result.summary(self.result))
+        for word in ("crs_a465_joint", "300 samples of a.csv, b.csv", "inertia", "0.0036", "ols", "fade"):
+            self.assertIn(word, text)
+
+    def test_command_line(self):
+        script = pathlib.Path(SCRIPTS) / "read_result.py"
+        good = subprocess.run([sys.executable, "-B", script, self.name], capture_output=True, text=True)
+        self.assertEqual((good.returncode, good.stderr), (0, ""))
+        bad = subprocess.run([sys.executable, "-B", script, "no.h5"], capture_output=True, text=True)
+        self.assertEqual((bad.returncode, bad.stderr), (1, "error: there is no file no.h5\n"))
+
+    def refusal(self, change):
+        name = self.folder / "changed.h5"
+        shutil.copy(self.name, name)
+        change(name)
+        with self.assertRaises(ResultError) as caught:
+            with Result(name) as result:
+                result.estimators["fade"].population
+        return str(caught.exception)
+
+    def test_refuses_what_is_no_result(self):
+        def set_attribute(key, value):
+            def change(name):
+                with h5py.File(name, "r+") as file:
+                    file.attrs[key] = value
+
+            return change
+
+        def damage(name):
+            data = bytearray(name.read_bytes())
+            data[data.find(np.sin(1.0).tobytes())] ^= 4
+            name.write_bytes(data)
+
+        self.assertIn("has format 2", self.refusal(set_attribute("format", 2)))
+        self.assertIn("never finished", self.refusal(set_attribute("complete", 0)))
+        self.assertIn("not an HDF5 file", self.refusal(lambda name: name.write_text("t_s,q_rad\n")))
+        self.assertIn("damaged in /runs/fade/population", self.refusal(damage))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

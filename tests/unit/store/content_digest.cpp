@@ -1,0 +1,85 @@
+#include "engine/store/content_digest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+
+#include "unit/store/example_result.hpp"
+
+namespace torquescope {
+namespace {
+
+TEST(ContentDigest, IsTheSameForTheSameContent) {
+  example::Folder const folder;
+  std::string const first = example::write_result(folder / "a.h5");
+  EXPECT_EQ(first.size(), 64U);
+  // another order of runs, another storage, another machine
+  EXPECT_EQ(example::write_result(folder / "b.h5", {}, {2, 0, 1}), first);
+  EXPECT_EQ(example::write_result(folder / "c.h5", {.gzip = true}), first);
+  EXPECT_EQ(example::write_result(folder / "d.h5", {}, {0, 1, 2}, "another host"), first);
+  EXPECT_NE(example::bytes_of(folder / "a.h5"), example::bytes_of(folder / "d.h5"));
+}
+
+// the digest of a small file that `change` had a hand in
+std::string digest_with(std::function<void(ResultWriter&)> const& change) {
+  example::Folder const folder;
+  ResultWriter writer(folder / "R.h5");
+  example::write_job(writer);
+  change(writer);
+  return writer.finish();
+}
+
+TEST(ContentDigest, DiffersForOneChangedBit) {
+  auto const with_number = [](double value) {
+    return digest_with([&](ResultWriter& writer) { writer.numbers("/a", {1}, std::span(&value, 1), {"1", "a"}); });
+  };
+  double const one = 1.0;
+  double const next = std::bit_cast<double>(std::bit_cast<std::uint64_t>(one) ^ 1U);
+  EXPECT_EQ(with_number(one), with_number(one));
+  EXPECT_NE(with_number(one), with_number(next));
+  EXPECT_NE(with_number(0.0), with_number(-0.0));
+}
+
+TEST(ContentDigest, DiffersForAnythingAReaderCouldTellApart) {
+  std::vector<double> const two{1, 2};
+  std::vector<std::int64_t> const two_whole{1, 2};
+  std::vector<std::string> const digests{
+      digest_with([](ResultWriter&) {}),
+      digest_with([&](ResultWriter& writer) {
+        writer.numbers("/a", {2}, two, {"1", "a"});
+      }),
+      digest_with([&](ResultWriter& writer) {
+        writer.numbers("/b", {2}, two, {"1", "a"});
+      }),
+      digest_with([&](ResultWriter& writer) {
+        writer.numbers("/a", {1, 2}, two, {"1", "a"});
+      }),
+      digest_with([&](ResultWriter& writer) {
+        writer.numbers("/a", {2, 1}, two, {"1", "a"});
+      }),
+      digest_with([&](ResultWriter& writer) {
+        writer.numbers("/a", {2}, two, {"rad", "a"});
+      }),
+      digest_with([&](ResultWriter& writer) {
+        writer.whole_numbers("/a", {2}, two_whole, {"1", "a"});
+      }),
+      digest_with([](ResultWriter& writer) {
+        writer.texts("/a", std::vector<std::string>{"1", "2"}, {"1", "a"});
+      }),
+      digest_with([](ResultWriter& writer) {
+        writer.texts("/a", std::vector<std::string>{"12", ""}, {"1", "a"});
+      }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a", "x", 1.0); }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a", "x", std::int64_t{1}); }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a", "x", std::string("1")); }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a", "x", std::vector<double>{1.0}); }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a", "x", std::vector<std::string>{"1"}); }),
+      digest_with([](ResultWriter& writer) { writer.attribute("/a/x", "1", std::vector<std::string>{}); }),
+  };
+  for (std::size_t i = 0; i < digests.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(digests[i], digests[j]) << i << " and " << j;
+}
+
+}  // namespace
+}  // namespace torquescope
