@@ -1,11 +1,14 @@
 #pragma once
 // A job file as plain sections with places: what was written and where, not yet what it means.
 //
-// [experiment] becomes Section "experiment"; [simulate.plant] becomes "simulate.plant"; each [[estimator]] becomes one
-// Section "estimator". A table inside a section ({time = "t_s"} or [recording.columns]) with only texts as values is a
-// setting of type map; a nested table with anything else is a section of its own.
+// [experiment] becomes Section "experiment"; [simulate.plant] becomes "simulate.plant", as does plant = {...} inside
+// [simulate]; each [[estimator]] becomes one Section "estimator". Only `columns`, inline or as [recording.columns], is
+// a setting (of type map): what a table means follows from its name, never from the values that happen to be in it.
 //
-// Errors     read_job: Error 66 (no such file), 78 (syntax, size, nesting, duplicate keys: file:line:column), 1 MiB at most
+// Order      sections and settings stand in the order of the file
+// Errors     read_job: Error 66 (no such file, or not a regular one)
+//            parse_job: Error 78 with file:line:column: syntax, duplicate keys, dates, mixed lists, numbers that are
+//            not finite, more than 1 MiB or 32 levels
 // Threads    plain record
 
 #include <filesystem>
@@ -22,9 +25,9 @@ struct Job {
   std::string sha256;          // of the text
   std::vector<Section> sections;
 
-  Section const* find(std::string const& name) const;               // the first of this name, or nullptr
-  std::vector<Section const*> all(std::string const& name) const;   // in the order of the file
-  std::filesystem::path resolve(std::string const& name) const;     // relative to the job file's folder
+  Section const* find(std::string const& name) const;              // the first of this name, or nullptr
+  std::vector<Section const*> all(std::string const& name) const;  // in the order of the file
+  std::filesystem::path resolve(std::string const& name) const;    // relative to the job file's folder
 };
 
 Job read_job(std::filesystem::path const& path);

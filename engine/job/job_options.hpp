@@ -9,8 +9,8 @@
 namespace torquescope {
 
 struct ExperimentOptions {
-  std::string name{};      // default: the job file's stem
-  std::string study{};     // a study the page knows: "crs_a465" puts the paper's tables beside ours
+  std::string name{};   // default: the job file's stem
+  std::string study{};  // a study the page knows: "crs_a465" puts the paper's tables beside ours
   std::int64_t seed = 1;
   std::int64_t runs = 30;  // independent runs of every population method
 

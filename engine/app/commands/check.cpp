@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool warns(CheckLine const& line) { return line.level == CheckLine::Level::warn; }
+
+std::string check_text(std::vector<CheckLine> const& lines, Ink const& ink) {
+  std::size_t topic_width = 13;
+  for (auto const& line : lines) topic_width = std::max(topic_width, line.topic.size() + 1);
+  std::string text;
+  for (auto const& line : lines) {
+    std::string const level = warns(line) ? ink.warning("warn") + "  " : "ok    ";
+    text +=
+        hanging(level + pad_right(printable(line.topic), static_cast<int>(topic_width)) + " ", printable(line.text));
+  }
+  auto const warnings = std::count_if(lines.begin(), lines.end(), warns);
+  return text + fmt::format("{} warning{}, nothing stops a run\n", warnings, warnings == 1 ? "" : "s");
+}
+
+std::string check_json(Experiment const& experiment, std::string const& job, std::vector<CheckLine> const& lines) {
+  Json list = Json::array();
+  for (auto const& line : lines)
+    list.push_back({{"level", warns(line) ? "warn" : "ok"}, {"topic", line.topic}, {"text", line.text}});
+  Json const document = {{"schema", 1},
+                         {"file", job},
+                         {"job", experiment.name()},
+                         {"warnings", std::count_if(lines.begin(), lines.end(), warns)},
+                         {"lines", list}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitCode check_job(std::string const& job, Session const& session) {
+  Experiment const experiment = Experiment::load(job);
+  auto const lines = experiment.check(choose_threads(0).count);
+  session.result(check_text(lines, session.result_ink()));
+  session.document(check_json(experiment, job, lines));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, ChosenCommand& chosen) {
+  auto const job = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("check", "Finds everything that can be refused before a run, and says what looks odd.");
+  command->footer(
+      "  torquescope check jobs/crs_a465_joint.toml\n"
+      "  torquescope check lab.toml --json check.json\n"
+      "  torquescope check lab.toml && torquescope run lab.toml\n");
+  command->add_option("JOB.toml", *job, "job file, TOML (torquescope list sections)")->required();
+  add_json_option(*command, chosen);
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback(
+      [job, &chosen] { chosen.work = [job](Session const& session) { return check_job(*job, session); }; });
+}
+
+}  // namespace torquescope

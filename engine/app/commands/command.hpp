@@ -1,0 +1,39 @@
+#pragma once
+// One file per command: it declares its options and, when it was chosen, does its work and returns the exit code.
+//
+// Use        add_run(app, chosen): parsing the command line leaves in `chosen` what to do
+// Errors     the work throws Error; main() prints it and maps it to its exit code
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+
+#include "engine/app/session.hpp"
+
+namespace torquescope {
+
+using CommandWork = std::function<ExitCode(Session const&)>;
+
+// what parsing found: options of every command, and the work of the one that was chosen
+struct ChosenCommand {
+  SessionOptions session{};
+  CommandWork work{};
+};
+
+void add_run(CLI::App& app, ChosenCommand& chosen);
+void add_simulate(CLI::App& app, ChosenCommand& chosen);
+void add_check(CLI::App& app, ChosenCommand& chosen);
+void add_show(CLI::App& app, ChosenCommand& chosen);
+void add_report(CLI::App& app, ChosenCommand& chosen);
+void add_list(CLI::App& app, ChosenCommand& chosen);
+void add_describe(CLI::App& app, ChosenCommand& chosen);
+
+// groups of the help page that several commands share
+void add_colour_option(CLI::App& command, ChosenCommand& chosen);
+void add_quiet_option(CLI::App& command, ChosenCommand& chosen);
+void add_json_option(CLI::App& command, ChosenCommand& chosen);
+void add_progress_option(CLI::App& command, ChosenCommand& chosen);
+// for --threads: refuses everything but 1 .. 100 000, in our words
+std::function<std::string(std::string const&)> whole_number_from_one();
+
+}  // namespace torquescope

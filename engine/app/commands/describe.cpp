@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/app/terminal/table.hpp"
+#include "engine/run/catalogue.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr int widest_cell = 16;
+
+// long ranges and defaults go to the meaning, where lines may break
+std::string option_text(std::vector<OptionDescription> const& options) {
+  using Align = TextTable::Align;
+  TextTable table({Align::left, Align::left, Align::left, Align::left}, "  ");
+  table.row({"key", "default", "takes", "meaning"});
+  for (auto const& option : options) {
+    std::string meaning = option.meaning;
+    std::string const unit = option.unit == "1" ? "" : option.unit;
+    std::string takes = option.range.empty() ? option.type : option.range;
+    if (!unit.empty()) takes += " " + unit;
+    if (columns_of(takes) > widest_cell) {
+      meaning += fmt::format("; {}", option.range.empty() ? takes : "takes " + takes);
+      takes = columns_of(option.type) > widest_cell ? "" : option.type;
+    }
+    std::string standard = option.default_value;
+    if (columns_of(standard) > widest_cell) {
+      meaning += fmt::format("; default {}", standard);
+      standard = "";
+    }
+    table.row({option.key, standard, takes, meaning});
+  }
+  return table.text(page_width);
+}
+
+std::string entry_text(CatalogueEntry const& entry, Ink const& ink) {
+  std::string text = hanging(ink.bold(entry.name) + "  ", fmt::format("{} ({})", entry.title, entry.kind));
+  for (auto const& line : entry.text) text += hanging("  ", printable(line));
+  if (!entry.options.empty()) text += "\n" + option_text(entry.options);
+  return text;
+}
+
+ExitCode describe_entry(std::string const& name, Session const& session) {
+  std::string text;
+  std::vector<std::string> names;
+  for (auto const& entry : catalogue()) {
+    names.push_back(entry.name);
+    if (entry.name == name) text += (text.empty() ? "" : "\n") + entry_text(entry, session.result_ink());
+  }
+  validate(!text.empty(), [&] {
+    Problem problem;
+    problem.code = ExitCode::usage;
+    problem.what = fmt::format("nothing is called \"{}\"", name);
+    if (std::string const close = closest_name(name, names); !close.empty())
+      problem.what += fmt::format("; did you mean \"{}\"?", close);
+    problem.help = "torquescope list shows every name";
+    return problem;
+  });
+  session.result(text);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, ChosenCommand& chosen) {
+  auto const name = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("describe", "Explains one name: what it does, where it comes from, every option.");
+  command->footer(
+      "  torquescope describe fade\n"
+      "  torquescope describe recording\n"
+      "  torquescope list\n");
+  command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator or job section")->required();
+  add_colour_option(*command, chosen);
+  command->callback(
+      [name, &chosen] { chosen.work = [name](Session const& session) { return describe_entry(*name, session); }; });
+}
+
+}  // namespace torquescope

@@ -1,0 +1,147 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <chrono>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/result/paper_tables.hpp"
+#include "engine/app/result/result_json.hpp"
+#include "engine/app/result/result_tables.hpp"
+#include "engine/app/terminal/environment.hpp"
+#include "engine/app/terminal/interrupt.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/job/job.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+namespace {
+
+struct RunArguments {
+  std::string job;
+  std::string out{};
+  int threads = 0;  // 0: not given
+};
+
+Error output_exists(std::filesystem::path const& output, std::string const& why) {
+  Problem problem;
+  problem.code = ExitCode::exists;
+  problem.what = fmt::format("{} exists and {}", output.string(), why);
+  problem.help = fmt::format("--out another name, or delete {}", output.string());
+  return Error(problem);
+}
+
+// whether this very job has already made the output; Error 73 when something else did
+bool already_complete(std::filesystem::path const& output, std::string const& job_sha256) {
+  std::error_code ignored;
+  auto const status = std::filesystem::symlink_status(output, ignored);
+  if (!std::filesystem::exists(status)) return false;
+  if (std::filesystem::is_directory(status)) throw output_exists(output, "is a folder");
+  std::string made_by;
+  try {
+    made_by = read_summary(output).job_sha256;
+  } catch (Error const& error) {
+    throw output_exists(output, "is no complete result file: " + error.problems().front().what);
+  }
+  if (made_by != job_sha256) throw output_exists(output, "was made by another job (sha256 differs)");
+  return true;
+}
+
+void print_results(Session const& session, ResultSummary const& summary) {
+  session.note("\n");
+  session.result(result_table(summary, session.result_ink()));
+  session.result(paper_tables(summary, session.result_ink()));
+  session.document(result_json(summary));
+}
+
+void print_whereabouts(Session const& session, std::string const& word, ResultSummary const& summary) {
+  std::string const file = printable(summary.file.string());
+  Ink const& ink = session.note_ink();
+  session.note(fmt::format("{}{}  {}\n", pad_right(word, 7), ink.name(file), bytes_text(summary.bytes)));
+  session.note(fmt::format("look   torquescope report {}\n", ink.name(file)));
+}
+
+ProgressPrinter::Settings progress_settings(Session const& session) {
+  ProgressPrinter::Settings settings;
+  settings.style = progress_style(session.options().progress, progress_facts(session.options().quiet));
+  settings.write = [&session](std::string const& text) { session.note(text); };
+  settings.width = [] { return terminal_width(STDERR_FILENO); };
+  settings.clock = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  settings.utf8 = session.utf8();
+  return settings;
+}
+
+void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
+  session.note(session.topic_line("job", experiment.job_line()));
+  session.note(session.topic_line("data", experiment.data_line()));
+  session.note(
+      session.topic_line("threads", fmt::format("{} ({}), seed {}", threads.count, threads.reason, experiment.seed())));
+  if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
+  for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
+}
+
+ExitCode run_job(RunArguments const& arguments, Session const& session) {
+  Experiment const experiment = Experiment::load(arguments.job);
+  std::filesystem::path const output =
+      arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
+
+  if (already_complete(output, read_job(arguments.job).sha256)) {
+    session.note(session.topic_line("job", experiment.job_line()));
+    session.note(session.topic_line("done", "already complete: nothing runs again"));
+    ResultSummary const summary = read_summary(output);
+    print_results(session, summary);
+    print_whereabouts(session, "kept", summary);
+    return ExitCode::ok;
+  }
+
+  IdentifyOptions options;
+  options.threads = choose_threads(arguments.threads);
+  options.output = output;
+  options.stop_requested = stop_requested;
+  print_before_start(session, experiment, options.threads);
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  {
+    ProgressPrinter print_progress(progress_settings(session));
+    identify(experiment, options, [&print_progress](ProgressUpdate const& update) { print_progress(update); });
+  }
+  ResultSummary const summary = read_summary(output);
+  print_results(session, summary);
+  print_whereabouts(session, "wrote", summary);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, ChosenCommand& chosen) {
+  auto const arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "Identifies the parameters of a job's model; the same job is not run twice.");
+  command->footer(
+      "  torquescope run jobs/crs_a465_joint.toml\n"
+      "  torquescope run lab.toml --threads 4 --out lab_4.h5\n"
+      "  torquescope run lab.toml --quiet --json - | jq .estimators\n");
+  command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
+  command->add_option("--out", arguments->out, "result file, HDF5 [NAME.h5 in this folder]")
+      ->type_name("R.h5")
+      ->group("results");
+  add_json_option(*command, chosen);
+  command->add_option("--threads", arguments->threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
+      ->type_name("N")
+      ->check(whole_number_from_one())
+      ->group("machine");
+  add_progress_option(*command, chosen);
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback([arguments, &chosen] {
+    chosen.work = [arguments](Session const& session) { return run_job(*arguments, session); };
+  });
+}
+
+}  // namespace torquescope

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <charconv>
+#include <map>
+
+#include "engine/app/commands/command.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// a word out of several; the help page shows the words and the default
+template <class Choice>
+void add_word_option(CLI::App& command, std::string const& name, Choice& target,
+                     std::map<std::string, Choice> const& words, std::string const& meaning) {
+  auto const store = [&target, words](std::string const& word) { target = words.at(word); };
+  command.add_option_function<std::string>(name, store, meaning)
+      ->check([words](std::string const& word) {
+        std::string list;
+        for (auto const& entry : words) list += (list.empty() ? "" : ", ") + entry.first;
+        return words.contains(word) ? "" : fmt::format("\"{}\" is none of {}", word, list);
+      })
+      ->type_name("WORD")
+      ->group("terminal");
+}
+
+}  // namespace
+
+void add_colour_option(CLI::App& command, ChosenCommand& chosen) {
+  add_word_option<ColourChoice>(
+      command, "--color", chosen.session.colour,
+      {{"auto", ColourChoice::automatic}, {"always", ColourChoice::always}, {"never", ColourChoice::never}},
+      "auto, always or never; beats NO_COLOR [auto]");
+}
+
+void add_progress_option(CLI::App& command, ChosenCommand& chosen) {
+  add_word_option<ProgressChoice>(command, "--progress", chosen.session.progress,
+                                  {{"auto", ProgressChoice::automatic},
+                                   {"bar", ProgressChoice::bar},
+                                   {"lines", ProgressChoice::lines},
+                                   {"none", ProgressChoice::none}},
+                                  "auto, bar, lines or none; a bar needs a terminal [auto]");
+}
+
+void add_quiet_option(CLI::App& command, ChosenCommand& chosen) {
+  command.add_flag("--quiet", chosen.session.quiet, "print nothing but errors")->group("terminal");
+}
+
+void add_json_option(CLI::App& command, ChosenCommand& chosen) {
+  command.add_option("--json", chosen.session.json, "the same as data; - is stdout, without the tables")
+      ->type_name("FILE")
+      ->group("results");
+}
+
+std::function<std::string(std::string const&)> whole_number_from_one() {
+  return [](std::string const& text) {
+    int value = 0;
+    auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool const fits = failure == std::errc{} && end == text.data() + text.size() && value >= 1 && value <= 100'000;
+    return fits ? "" : fmt::format("\"{}\" is no whole number from 1 to 100000", text);
+  };
+}
+
+}  // namespace torquescope

@@ -1,0 +1,146 @@
+#include "engine/app/result/result_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/store/result_reader.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double number_or_nan(ResultReader const& reader, std::string const& object, std::string const& name) {
+  return reader.find_attribute<double>(object, name).value_or(nan);
+}
+
+std::string text_or_empty(ResultReader const& reader, std::string const& object, std::string const& name) {
+  return reader.find_attribute<std::string>(object, name).value_or("");
+}
+
+// row `run` of a [run][R] dataset; empty when there is no such dataset
+std::vector<double> row_of(ResultReader const& reader, std::string const& dataset, std::size_t run,
+                           std::size_t columns) {
+  if (!reader.exists(dataset)) return {};
+  auto const numbers = reader.numbers(dataset);
+  if ((run + 1) * columns > numbers.values.size()) return std::vector<double>(columns, nan);
+  auto const begin = numbers.values.begin() + static_cast<std::ptrdiff_t>(run * columns);
+  return {begin, begin + static_cast<std::ptrdiff_t>(columns)};
+}
+
+EstimatorSummary read_estimator(ResultReader const& reader, std::string const& name, std::size_t parameter_count) {
+  std::string const group = "/runs/" + name;
+  EstimatorSummary summary;
+  summary.name = name;
+  summary.kind = reader.attribute<std::string>(group, "kind");
+  summary.title = text_or_empty(reader, group, "title");
+  summary.runs = reader.attribute<std::int64_t>(group, "runs");
+  summary.evaluations = reader.find_attribute<std::int64_t>(group, "evaluations_total").value_or(0);
+
+  auto const median_run = static_cast<std::size_t>(
+      std::max<std::int64_t>(0, reader.find_attribute<std::int64_t>(group, "median_run").value_or(0)));
+  summary.parameters = row_of(reader, group + "/parameters", median_run, parameter_count);
+  summary.standard_error = row_of(reader, group + "/standard_error", median_run, parameter_count);
+  summary.parameters_mean =
+      reader.find_attribute<std::vector<double>>(group, "parameters_mean").value_or(summary.parameters);
+
+  std::vector<double> const mse = reader.numbers(group + "/mse").values;
+  summary.mse_median = number_or_nan(reader, group, "mse_median");
+  summary.mse_best = number_or_nan(reader, group, "mse_best");
+  summary.mse_worst = number_or_nan(reader, group, "mse_worst");
+  summary.mse_std = number_or_nan(reader, group, "mse_std");
+  summary.mse_mean = std::accumulate(mse.begin(), mse.end(), 0.0) / static_cast<double>(mse.size());
+  summary.mse_lower_quartile = quantile(mse, 0.25);
+  summary.mse_upper_quartile = quantile(mse, 0.75);
+  summary.gap_median = number_or_nan(reader, group, "gap_median");
+  summary.relerr_median = number_or_nan(reader, group, "relerr_median");
+  summary.validation_relerr_median = number_or_nan(reader, group, "validation_relerr_median");
+  summary.residual_std_median = number_or_nan(reader, group, "residual_std_median");
+  for (auto const& reason : reader.texts(group + "/stop_reason")) ++summary.stop_reasons[reason];
+  return summary;
+}
+
+DataSummary read_data(ResultReader const& reader, std::string const& group) {
+  DataSummary summary;
+  summary.recordings =
+      reader.find_attribute<std::vector<std::string>>(group, "recordings").value_or(std::vector<std::string>{});
+  summary.samples = static_cast<std::int64_t>(reader.numbers(group + "/time").values.size());
+  summary.rate_hz = number_or_nan(reader, group, "rate_hz");
+  summary.kept_rate_hz = number_or_nan(reader, group, "kept_rate_hz");
+  summary.duration_s = number_or_nan(reader, group, "duration_s");
+  summary.cutoff_hz = number_or_nan(reader, group, "cutoff_hz");
+  if (reader.exists(group + "/warnings")) summary.warnings = reader.texts(group + "/warnings");
+  return summary;
+}
+
+ProvenanceSummary read_provenance(ResultReader const& reader) {
+  std::string const group = "/provenance";
+  ProvenanceSummary summary;
+  summary.started = text_or_empty(reader, group, "started");
+  summary.finished = text_or_empty(reader, group, "finished");
+  summary.host = text_or_empty(reader, group, "host");
+  summary.threads_reason = text_or_empty(reader, group, "threads_reason");
+  summary.vector_target = text_or_empty(reader, group, "vector_target");
+  summary.version = text_or_empty(reader, group, "version");
+  summary.compiler = text_or_empty(reader, group, "compiler");
+  summary.build_type = text_or_empty(reader, group, "build_type");
+  summary.seconds = number_or_nan(reader, group, "seconds");
+  summary.threads = reader.find_attribute<std::int64_t>(group, "threads").value_or(0);
+  return summary;
+}
+
+}  // namespace
+
+std::int64_t ResultSummary::runs() const {
+  std::int64_t sum = 0;
+  for (auto const& estimator : estimators) sum += estimator.runs;
+  return sum;
+}
+
+std::int64_t ResultSummary::evaluations() const {
+  std::int64_t sum = 0;
+  for (auto const& estimator : estimators) sum += estimator.evaluations;
+  return sum;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return nan;
+  std::sort(values.begin(), values.end());
+  double const position = share * static_cast<double>(values.size() - 1);
+  auto const below = static_cast<std::size_t>(position);
+  std::size_t const above = std::min(below + 1, values.size() - 1);
+  double const fraction = position - static_cast<double>(below);
+  // not a weighted sum: equal neighbours must give themselves, infinite ones no NaN
+  return values[below] == values[above] ? values[below] : values[below] + fraction * (values[above] - values[below]);
+}
+
+ResultSummary read_summary(std::filesystem::path const& file) {
+  ResultReader const reader(file);
+  ResultSummary summary;
+  summary.file = file;
+  summary.bytes = std::filesystem::file_size(file);
+  summary.content_sha256 = reader.content_sha256();
+  summary.name = reader.attribute<std::string>("/job", "name");
+  summary.study = text_or_empty(reader, "/job", "study");
+  summary.job_sha256 = reader.attribute<std::string>("/job", "sha256");
+  summary.seed = reader.attribute<std::int64_t>("/job", "seed");
+  summary.joint = text_or_empty(reader, "/model", "joint");
+  summary.equation = text_or_empty(reader, "/model", "equation");
+  summary.names = reader.texts("/model/names");
+  summary.units = reader.texts("/model/units");
+  summary.truth = reader.numbers("/model/truth").values;
+  summary.health_words = text_or_empty(reader, "/data/regressor_health", "words");
+  summary.train = read_data(reader, "/data/train");
+  summary.has_validation = reader.exists("/data/validate");
+  if (summary.has_validation) summary.validation = read_data(reader, "/data/validate");
+  for (auto const& name : reader.attribute<std::vector<std::string>>("/runs", "order"))
+    summary.estimators.push_back(read_estimator(reader, name, summary.names.size()));
+  summary.provenance = read_provenance(reader);
+  return summary;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,68 @@
+#pragma once
+// What the tables and the JSON say about a result file, read from it once.
+//
+// Shapes     R parameters; vectors named after runs have one entry per run
+// Units      as in the file (RESULT_FORMAT.md); absent numbers are NaN
+// Errors     Error 66 (no such file), 65 (not a result file, damaged)
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+struct EstimatorSummary {
+  std::string name, kind, title;
+  std::int64_t runs = 0;
+  std::vector<double> parameters;       // [R] of the median run
+  std::vector<double> parameters_mean;  // [R] over the runs, as a paper would average them
+  std::vector<double> standard_error;   // [R] least squares only: HAC; else empty
+  double mse_median = 0.0, mse_best = 0.0, mse_worst = 0.0, mse_std = 0.0, mse_mean = 0.0;
+  double mse_lower_quartile = 0.0, mse_upper_quartile = 0.0;
+  double gap_median = 0.0;
+  double relerr_median = 0.0, validation_relerr_median = 0.0;
+  double residual_std_median = 0.0;
+  std::map<std::string, std::int64_t> stop_reasons;  // how many runs ended for which reason
+  std::int64_t evaluations = 0;
+};
+
+struct DataSummary {
+  std::vector<std::string> recordings;
+  std::int64_t samples = 0;  // kept for the fit
+  double rate_hz = 0.0, kept_rate_hz = 0.0, duration_s = 0.0, cutoff_hz = 0.0;
+  std::vector<std::string> warnings;
+};
+
+struct ProvenanceSummary {
+  std::string started, finished, host, threads_reason, vector_target, version, compiler, build_type;
+  double seconds = 0.0;
+  std::int64_t threads = 0;
+};
+
+struct ResultSummary {
+  std::filesystem::path file;
+  std::uintmax_t bytes = 0;
+  std::string content_sha256;
+  std::string name, study, job_sha256;
+  std::int64_t seed = 0;
+  std::string joint, equation, health_words;
+  std::vector<std::string> names, units;  // [R]
+  std::vector<double> truth;              // [R] NaN where unknown
+  DataSummary train;
+  bool has_validation = false;
+  DataSummary validation;
+  std::vector<EstimatorSummary> estimators;  // in the order of the job
+  ProvenanceSummary provenance;
+
+  std::int64_t runs() const;  // of all estimators
+  std::int64_t evaluations() const;
+};
+
+ResultSummary read_summary(std::filesystem::path const& file);
+
+// the value below which a share of the values lies, between neighbours linearly; NaN for none
+double quantile(std::vector<double> values, double share);
+
+}  // namespace torquescope

@@ -1,0 +1,216 @@
+#include "engine/app/result/result_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/app/terminal/table.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// one column of numbers: its title and a cell per kind of row
+struct Column {
+  std::string title;
+  std::function<std::string(std::size_t)> parameter;
+  std::string mse{}, train{}, unseen{}, gap{};
+};
+
+std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.3g}", 100.0 * share); }
+
+bool knows_truth(ResultSummary const& summary) {
+  return std::any_of(summary.truth.begin(), summary.truth.end(), [](double value) { return !std::isnan(value); });
+}
+
+std::vector<Column> columns_of_result(ResultSummary const& summary) {
+  std::vector<Column> columns;
+  if (knows_truth(summary))
+    columns.push_back({"truth", [&](std::size_t i) { return short_number(summary.truth.at(i)); }});
+  for (auto const& estimator : summary.estimators) {
+    bool const is_floor = estimator.kind == "ols";
+    columns.push_back({column_title(estimator), [&](std::size_t i) { return short_number(estimator.parameters.at(i)); },
+                       short_number(estimator.mse_median), percent(estimator.relerr_median),
+                       percent(estimator.validation_relerr_median),
+                       is_floor ? "" : rough_number(estimator.gap_median)});
+  }
+  return columns;
+}
+
+std::string torque_unit(ResultSummary const& summary) { return summary.joint == "prismatic" ? "N" : "N m"; }
+
+std::string gap_title(ResultSummary const& summary) {
+  std::int64_t runs = 1;
+  for (auto const& estimator : summary.estimators) runs = std::max(runs, estimator.runs);
+  return runs > 1 ? fmt::format("gap to OLS, median of {}", runs) : "gap to OLS";
+}
+
+// lines of names, units and right-aligned cells; the first line is the heading
+class TableBlock {
+ public:
+  TableBlock(int name_width, int unit_width, std::vector<int> widths)
+      : name_width_(name_width), unit_width_(unit_width), widths_(std::move(widths)) {}
+
+  std::string line(std::string const& name, std::string const& unit, std::vector<std::string> const& cells) const {
+    // without a unit the name may reach into the unit's column
+    std::string text = unit.empty() ? pad_right("  " + name, name_width_ + unit_width_)
+                                    : pad_right("  " + name, name_width_) + pad_right(unit, unit_width_);
+    for (std::size_t c = 0; c < cells.size(); ++c) text += pad_left(cells[c], widths_[c]);
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text + "\n";
+  }
+
+ private:
+  int name_width_, unit_width_;
+  std::vector<int> widths_;
+};
+
+// as many columns as fit beside the names, at least one
+std::size_t fitting(std::vector<Column> const& columns, std::size_t begin, int room) {
+  std::size_t count = 0;
+  int used = 0;
+  for (std::size_t c = begin; c < columns.size(); ++c, ++count) {
+    used += std::max(11, columns_of(columns[c].title) + 2);
+    if (used > room && count > 0) break;
+  }
+  return count;
+}
+
+using Cells = std::vector<std::string>;
+
+std::string block_text(ResultSummary const& summary, std::vector<Column> const& columns, int name_width, int unit_width,
+                       Ink const& ink) {
+  std::vector<int> widths;
+  for (auto const& column : columns) widths.push_back(std::max(11, columns_of(column.title) + 2));
+  TableBlock const block(name_width, unit_width, widths);
+  auto const cells = [&](auto&& cell_of) {
+    Cells row;
+    for (auto const& column : columns) row.push_back(cell_of(column));
+    return row;
+  };
+  auto const has = [&](std::string Column::*member) {
+    return std::any_of(columns.begin(), columns.end(), [&](Column const& column) { return !(column.*member).empty(); });
+  };
+
+  // heading: the experiment at the left edge, the estimators above their numbers
+  std::string heading = pad_right(printable(summary.name), name_width + unit_width);
+  std::string titles;
+  for (std::size_t c = 0; c < columns.size(); ++c) titles += pad_left(columns[c].title, widths[c]);
+  if (columns_of(heading) + columns_of(titles) > page_width)
+    heading = printable(summary.name) + "\n" + std::string(static_cast<std::size_t>(name_width + unit_width), ' ');
+  std::string text = ink.bold(heading + titles) + "\n";
+
+  for (std::size_t i = 0; i < summary.names.size(); ++i)
+    text += block.line(printable(summary.names[i]), printable(summary.units[i]),
+                       cells([i](Column const& column) { return column.parameter(i); }));
+  text += block.line("MSE", fmt::format("({})2", torque_unit(summary)), cells([](Column const& c) { return c.mse; }));
+  if (summary.has_validation) {
+    text += block.line("error, train", "%", cells([](Column const& c) { return c.train; }));
+    text += block.line("error, unseen", "%", cells([](Column const& c) { return c.unseen; }));
+  }
+  if (has(&Column::gap)) text += block.line(gap_title(summary), "", cells([](Column const& c) { return c.gap; }));
+  return text;
+}
+
+std::string standard_error_lines(ResultSummary const& summary) {
+  std::string text;
+  for (auto const& estimator : summary.estimators) {
+    if (estimator.standard_error.empty()) continue;
+    std::string list;
+    for (std::size_t i = 0; i < summary.names.size(); ++i)
+      list += fmt::format("{}{} {:.2g}", i ? ", " : "", printable(summary.names[i]), estimator.standard_error.at(i));
+    text += hanging(fmt::format("  {} standard error: ", column_title(estimator)), list);
+  }
+  return text;
+}
+
+std::string reasons_text(std::map<std::string, std::int64_t> const& reasons) {
+  std::string text;
+  for (auto const& [reason, count] : reasons)
+    text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", count, printable(reason));
+  return text;
+}
+
+std::string data_text(DataSummary const& data) {
+  std::string names;
+  for (auto const& name : data.recordings) names += (names.empty() ? "" : ", ") + printable(name);
+  std::string text = fmt::format("{}; {} samples kept", names, count_text(data.samples));
+  if (!std::isnan(data.duration_s)) text += fmt::format(", {:.4g} s", data.duration_s);
+  if (!std::isnan(data.rate_hz)) text += fmt::format(" at {:.6g} Hz", data.rate_hz);
+  if (!std::isnan(data.cutoff_hz)) text += fmt::format("; cutoff {:.4g} Hz", data.cutoff_hz);
+  return text;
+}
+
+}  // namespace
+
+std::string column_title(EstimatorSummary const& estimator) {
+  if (estimator.name != estimator.kind) return printable(estimator.name);
+  std::string title = estimator.name;
+  for (char& letter : title)
+    if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  return printable(title);
+}
+
+std::string result_table(ResultSummary const& summary, Ink const& ink) {
+  int name_width = 20, unit_width = 9;
+  for (auto const& name : summary.names) name_width = std::max(name_width, columns_of(name) + 4);
+  for (auto const& unit : summary.units) unit_width = std::max(unit_width, columns_of(unit) + 1);
+  name_width = std::max(name_width, columns_of(gap_title(summary)) + 3 - unit_width);
+
+  auto const columns = columns_of_result(summary);
+  std::string text;
+  for (std::size_t begin = 0; begin < columns.size();) {
+    std::size_t const count = fitting(columns, begin, page_width - name_width - unit_width);
+    auto const first = columns.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::vector<Column> const shown(first, first + static_cast<std::ptrdiff_t>(count));
+    text += (begin ? "\n" : "") + block_text(summary, shown, name_width, unit_width, ink);
+    begin += count;
+  }
+  text += standard_error_lines(summary);
+  text += fmt::format("{} runs, {} evaluations", count_text(summary.runs()), count_text(summary.evaluations()));
+  if (!std::isnan(summary.provenance.seconds)) text += ", " + seconds_text(summary.provenance.seconds);
+  return text + "\n";
+}
+
+std::string estimator_lines(ResultSummary const& summary, Ink const& ink) {
+  using Align = TextTable::Align;
+  TextTable table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::left},
+                  "  ");
+  table.row({"MSE of the runs", "median", "quartile", "quartile", "best", "worst", ""});
+  for (auto const& estimator : summary.estimators)
+    table.row({column_title(estimator), short_number(estimator.mse_median), short_number(estimator.mse_lower_quartile),
+               short_number(estimator.mse_upper_quartile), short_number(estimator.mse_best),
+               short_number(estimator.mse_worst), ""});
+  std::string text = table.text(page_width);
+  for (auto const& estimator : summary.estimators)
+    text += hanging(fmt::format("  {} ended by ", column_title(estimator)), reasons_text(estimator.stop_reasons));
+  return ink.bold("estimators") + "\n" + text;
+}
+
+std::string origin_lines(ResultSummary const& summary, Ink const& ink) {
+  ProvenanceSummary const& made = summary.provenance;
+  std::string text = ink.bold("made") + "\n";
+  text += hanging("  job      ",
+                  fmt::format("{}, seed {}, sha256 {:.16}", printable(summary.name), summary.seed, summary.job_sha256));
+  text += hanging("  data     ", data_text(summary.train));
+  if (summary.has_validation) text += hanging("  unseen   ", data_text(summary.validation));
+  if (!summary.equation.empty()) text += hanging("  model    ", printable(summary.equation));
+  text += hanging("  machine  ", fmt::format("{}; {} threads ({}), {}", printable(made.host), made.threads,
+                                             printable(made.threads_reason), printable(made.vector_target)));
+  text += hanging("  program  ", fmt::format("torquescope {}, {}, {}", printable(made.version),
+                                             printable(made.compiler), printable(made.build_type)));
+  text += hanging("  time     ", fmt::format("{} to {}, {}", printable(made.started), printable(made.finished),
+                                             seconds_text(made.seconds)));
+  text += hanging("  content  ", fmt::format("sha256 {:.16}, {}", summary.content_sha256, bytes_text(summary.bytes)));
+  if (!summary.health_words.empty())
+    text += hanging("  " + ink.warning("warn") + "     ", printable(summary.health_words));
+  for (auto const* data : {&summary.train, &summary.validation})
+    for (auto const& warning : data->warnings)
+      text += hanging("  " + ink.warning("warn") + "     ", printable(warning));
+  return text;
+}
+
+}  // namespace torquescope

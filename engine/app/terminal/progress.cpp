@@ -1,0 +1,139 @@
+#include "engine/app/terminal/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/app/terminal/environment.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr double redraw_seconds = 0.1;
+constexpr double line_seconds = 60.0;
+constexpr double estimate_after_seconds = 2.0;
+
+bool is_done(ProgressUpdate const& update) { return update.runs_total > 0 && update.runs_done >= update.runs_total; }
+
+// "1.9 M", "850", "12 k"
+std::string short_rate(double rate) {
+  char const* unit = "";
+  for (char const* next : {" k", " M", " G"}) {
+    if (rate < 999.5) break;
+    rate /= 1000.0;
+    unit = next;
+  }
+  return rate < 9.95 ? fmt::format("{:.1f}{}", rate, unit) : fmt::format("{:.0f}{}", rate, unit);
+}
+
+std::string clock_text(double seconds) {
+  auto const whole = static_cast<std::int64_t>(std::ceil(seconds));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressStyle progress_style(ProgressChoice choice, ProgressFacts const& facts) {
+  if (facts.quiet || choice == ProgressChoice::none) return ProgressStyle::none;
+  if (choice == ProgressChoice::lines) return ProgressStyle::lines;
+  // a bar in a file is rubbish, also when it was asked for
+  bool const can_redraw = facts.stderr_is_terminal && !facts.dumb;
+  if (choice == ProgressChoice::bar) return can_redraw ? ProgressStyle::bar : ProgressStyle::lines;
+  return can_redraw && !facts.batch_job ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+ProgressFacts progress_facts(bool quiet) {
+  bool const batch = !environment("SLURM_JOB_ID").empty() || !environment("CI").empty();
+  return {is_terminal(STDERR_FILENO), environment("TERM") == "dumb", batch, quiet};
+}
+
+double share_done(ProgressUpdate const& update) {
+  if (is_done(update)) return 1.0;
+  bool const counted = update.evaluations_total > 0;
+  auto const done = static_cast<double>(counted ? update.evaluations_done : update.runs_done);
+  auto const total = static_cast<double>(counted ? update.evaluations_total : update.runs_total);
+  return total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
+}
+
+std::optional<double> seconds_left(ProgressUpdate const& update) {
+  if (update.seconds < estimate_after_seconds || is_done(update)) return std::nullopt;
+  double const share = update.runs_done > 0 && update.runs_total > 0
+                           ? static_cast<double>(update.runs_done) / static_cast<double>(update.runs_total)
+                           : share_done(update);
+  if (share <= 0.0) return std::nullopt;
+  return update.seconds * (1.0 - share) / share;
+}
+
+std::string progress_line(ProgressUpdate const& update) {
+  std::string line = fmt::format("progress stage={} runs={}/{} evals={}/{}", printable(update.stage), update.runs_done,
+                                 update.runs_total, update.evaluations_done, update.evaluations_total);
+  if (auto const left = seconds_left(update)) line += fmt::format(" eta_s={:.0f}", std::ceil(*left));
+  return line + "\n";
+}
+
+std::string progress_bar(ProgressUpdate const& update, int width, bool utf8) {
+  std::string const lead = pad_right(printable(update.stage), 8) + " ";
+  std::string tail = fmt::format("  {}/{} runs", update.runs_done, update.runs_total);
+  if (update.seconds > 0.0 && update.evaluations_done > 0)
+    tail += fmt::format("   {} eval/s", short_rate(static_cast<double>(update.evaluations_done) / update.seconds));
+  if (auto const left = seconds_left(update)) tail += fmt::format("   {} left", clock_text(*left));
+
+  int const room = width - 1 - columns_of(lead) - columns_of(tail);
+  int const cells = std::clamp(room, 0, 32);
+  int const full = static_cast<int>(share_done(update) * cells);
+  std::string bar;
+  for (int i = 0; i < cells; ++i) bar += i < full ? (utf8 ? "█" : "#") : (utf8 ? "░" : "-");
+  std::string text = lead + bar + tail;
+  // a very narrow window: the words that fit
+  if (columns_of(text) > width - 1) text = wrap(text, width - 1, width - 1).front();
+  return columns_of(text) > width - 1 ? "" : text;
+}
+
+void ProgressPrinter::operator()(ProgressUpdate const& update) {
+  if (settings_.style == ProgressStyle::none) return;
+  if (update.stage != stage_) {
+    erase();
+    stage_ = update.stage;
+    last_tenth_ = -1;
+    last_time_ = -line_seconds;
+  }
+  if (settings_.style == ProgressStyle::lines) {
+    print_line(update);
+  } else {
+    draw_bar(update);
+  }
+}
+
+void ProgressPrinter::print_line(ProgressUpdate const& update) {
+  int const tenth = static_cast<int>(share_done(update) * 10.0);
+  double const now = settings_.clock();
+  if (tenth <= last_tenth_ && now - last_time_ < line_seconds) return;
+  last_tenth_ = std::max(tenth, last_tenth_);
+  last_time_ = now;
+  settings_.write(progress_line(update));
+}
+
+void ProgressPrinter::draw_bar(ProgressUpdate const& update) {
+  if (is_done(update)) return erase();
+  double const now = settings_.clock();
+  if (now - last_time_ < redraw_seconds) return;
+  last_time_ = now;
+  std::string const bar = progress_bar(update, settings_.width(), settings_.utf8);
+  // spaces instead of an escape sequence wipe what a longer bar left behind
+  settings_.write("\r" + pad_right(bar, std::min(drawn_columns_, settings_.width() - 1)));
+  drawn_columns_ = columns_of(bar);
+}
+
+void ProgressPrinter::erase() {
+  if (drawn_columns_ == 0) return;
+  int const columns = std::min(drawn_columns_, settings_.width() - 1);
+  settings_.write("\r" + std::string(static_cast<std::size_t>(columns), ' ') + "\r");
+  drawn_columns_ = 0;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,66 @@
+#pragma once
+// How far a run is: one line redrawn on a terminal, or plain lines that a program and a log can read.
+//
+// Bar        at most 10 times a second, time left after 2 s, erased when the stage is done; no escape sequences
+// Lines      the first at once, then one per 10 % or 60 s: progress stage=fade runs=20/30 evals=60000/90000 eta_s=4
+// Threads    calls come one at a time (ProgressSink's promise)
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+enum class ProgressChoice { automatic, bar, lines, none };
+enum class ProgressStyle { none, lines, bar };
+
+struct ProgressFacts {
+  bool stderr_is_terminal = false;
+  bool dumb = false;       // TERM=dumb
+  bool batch_job = false;  // SLURM_JOB_ID or CI is set
+  bool quiet = false;
+};
+ProgressStyle progress_style(ProgressChoice choice, ProgressFacts const& facts);
+ProgressFacts progress_facts(bool quiet);  // of this process
+
+// share of the stage that is done, 0 .. 1: by evaluations, or by runs where they are not counted
+double share_done(ProgressUpdate const& update);
+// seconds left, from completed runs, before the first from evaluations; nothing in the first 2 s
+std::optional<double> seconds_left(ProgressUpdate const& update);
+
+std::string progress_line(ProgressUpdate const& update);                       // ends with a line feed
+std::string progress_bar(ProgressUpdate const& update, int width, bool utf8);  // at most width - 1 columns, one line
+
+class ProgressPrinter {
+ public:
+  using Clock = std::function<double()>;  // seconds, monotone
+  struct Settings {
+    ProgressStyle style = ProgressStyle::none;
+    std::function<void(std::string const&)> write{};
+    std::function<int()> width{};
+    Clock clock{};
+    bool utf8 = false;
+  };
+  explicit ProgressPrinter(Settings settings) : settings_(std::move(settings)) {}
+  ~ProgressPrinter() { erase(); }
+  ProgressPrinter(ProgressPrinter const&) = delete;
+  ProgressPrinter& operator=(ProgressPrinter const&) = delete;
+
+  void operator()(ProgressUpdate const& update);
+  void erase();  // leaves no trace of the bar
+
+ private:
+  void print_line(ProgressUpdate const& update);
+  void draw_bar(ProgressUpdate const& update);
+
+  Settings settings_;
+  std::string stage_{};
+  double last_time_ = 0.0;
+  int last_tenth_ = -1;
+  int drawn_columns_ = 0;
+};
+
+}  // namespace torquescope
