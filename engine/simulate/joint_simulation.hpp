@@ -29,7 +29,8 @@ struct SimulatedRecording {
   Eigen::VectorXd time_s, reference;
   Eigen::VectorXd position;  // as measured
   Eigen::VectorXd torque;    // as measured
-  // what nobody could measure: the plant's state at the sample; acceleration just after it
+  // what nobody could measure: the plant's state at the sample; acceleration, and the torque that acts (motor and
+  // disturbance), just after it
   Eigen::VectorXd true_position, true_velocity, true_acceleration, true_torque;
   std::vector<TruthValue> truth;
   // closed_loop only

@@ -32,19 +32,6 @@ Handle access_list() {
   return list;
 }
 
-// metadata stays in memory until the end (some MB for 10 000 runs): so it is written once, and HDF5 never reads back
-// what a full disk may have lost
-void keep_metadata_in_memory(Handle const& list) {
-  H5AC_cache_config_t config{};
-  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  checked(H5Pget_mdc_config(list.id(), &config), "read the metadata cache's options");
-  config.evictions_enabled = 0;
-  config.incr_mode = H5C_incr__off;
-  config.flash_incr_mode = H5C_flash_incr__off;
-  config.decr_mode = H5C_decr__off;
-  checked(H5Pset_mdc_config(list.id(), &config), "set the metadata cache's options");
-}
-
 // "/runs/fade" -> {"runs", "fade"}
 std::vector<std::string> steps_of(std::string const& path) {
   std::vector<std::string> steps;
@@ -226,7 +213,6 @@ Handle create_file(TempFile& file) {
   prepare_library();
   Handle const access = access_list();
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), "choose the file version");
-  keep_metadata_in_memory(access);
   if (!use_output_driver(access.id(), file)) fail("use the output driver");
   Handle const creation = property_list(H5P_FILE_CREATE);
   checked(H5Pset_obj_track_times(creation.id(), 0), "switch times off");

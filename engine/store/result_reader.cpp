@@ -48,12 +48,14 @@ h5::Handle open_checked(fs::path const& name) {
 }
 
 template <class Value>
-std::optional<Value> as(std::optional<OptionValue> const& value) {
+std::optional<Value> read_attribute_as(h5::Handle const& object, std::string const& name) {
+  auto const value = h5::read_attribute(object, name);
   if (!value) return std::nullopt;
-  auto const wanted = converted(*value, OptionValue(Value{}));
-  if (!wanted)
-    throw h5::Failure("an attribute is a " + type_name(*value) + ", not a " + type_name(OptionValue(Value{})));
-  return std::get<Value>(*wanted);
+  OptionValue const wanted{Value{}};
+  auto const fitting = converted(*value, wanted);
+  if (!fitting)
+    throw h5::Failure(fmt::format("attribute \"{}\" is a {}, not a {}", name, type_name(*value), type_name(wanted)));
+  return std::get<Value>(*fitting);
 }
 
 h5::DatasetInfo describe_as(h5::Element element, h5::Handle const& dataset) {
@@ -124,8 +126,7 @@ std::vector<std::string> ResultReader::texts(std::string const& path) const {
 
 template <class Value>
 std::optional<Value> ResultReader::find_attribute(std::string const& object_path, std::string const& name) const {
-  return guarded(object_path + "@" + name,
-                 [&] { return as<Value>(h5::read_attribute(h5::open_object(file_, object_path), name)); });
+  return guarded(object_path, [&] { return read_attribute_as<Value>(h5::open_object(file_, object_path), name); });
 }
 
 template <class Value>

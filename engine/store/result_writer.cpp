@@ -35,9 +35,11 @@ GroupAndName split(std::string const& path) {
 }
 
 Error cannot_write(std::filesystem::path const& name, std::string const& object, h5::Failure const& failure) {
-  return Error(Problem{.code = ExitCode::io,
-                       .what = "cannot write " + object + " into " + name.string() + ": " + failure.what(),
-                       .help = "nothing was published; check the disk and run the same command again"});
+  Problem problem;
+  problem.code = ExitCode::io;
+  problem.what = "cannot write " + object + " into " + name.string() + ": " + failure.what();
+  problem.help = "nothing was published; check the disk and run the same command again";
+  return Error(std::move(problem));
 }
 
 }  // namespace

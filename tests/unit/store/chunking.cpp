@@ -20,8 +20,7 @@ TEST(ChunkOfRuns, HoldsSeveralSmallRunsButNoMoreThanThereAre) {
 }
 
 TEST(ChunkOfRuns, CutsALargeRunIntoEqualPartsOfAtMostOneMebibyte) {
-  // 101 x 100 x 60 doubles are 4.8 MB: 5 parts of 21 generations waste 4 rows, parts of 64 KiB would waste none but
-  // cost
+  // 101 x 100 x 60 doubles are 4.8 MB: 5 parts of 21 generations waste 4 rows; 101 is prime, no equal parts waste none
   EXPECT_EQ(chunk_of_runs({7, 101, 100, 60}, 8), (Shape{1, 21, 100, 60}));
 }
 

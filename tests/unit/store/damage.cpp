@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "engine/base/error.hpp"
-#include "engine/base/random_stream.hpp"
 #include "engine/store/result_reader.hpp"
 #include "unit/store/example_result.hpp"
+
+// HDF5 1.10.8 itself loses some 400 bytes for each header that fails its checksum
+extern "C" char const* __lsan_default_suppressions();
+extern "C" char const* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace torquescope {
 namespace {
@@ -74,7 +79,6 @@ TEST(DamagedResult, IsNeverReadAsIfItWereWhole) {
     EXPECT_EQ(counts.silent, 0);
     // the rest fell on space that HDF5 allocated and nothing uses
     EXPECT_GT(counts.detected, 200);
-    RecordProperty(gzip ? "gzip_detected" : "plain_detected", counts.detected);
     std::printf("gzip %d: %d flips detected, %d on unused bytes, %d silent\n", gzip, counts.detected, counts.harmless,
                 counts.silent);
   }

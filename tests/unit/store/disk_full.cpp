@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 
 #include "engine/base/error.hpp"
 #include "engine/store/result_reader.hpp"
@@ -90,7 +91,7 @@ TEST(DiskFull, OfARealFileSystemKeepsTheOlderResult) {
     example::write_bytes(folder / "R.h5", "an older result");
     static std::filesystem::path const name = folder / "R.h5";
     std::atexit([] {
-      // runs before HDF5's own exit handler was even registered, so after it: the very last thing of the process
+      // looked at from inside: the small disk is gone with the process
       std::error_code ignored;
       bool const kept = example::bytes_of(name) == "an older result";
       bool const alone = std::filesystem::file_size(name.parent_path() / "R.h5", ignored) == 15 &&

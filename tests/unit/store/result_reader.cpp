@@ -5,6 +5,8 @@
 #include <hdf5.h>
 #include <sys/stat.h>
 
+#include <functional>
+
 #include "engine/base/error.hpp"
 #include "unit/store/example_result.hpp"
 
@@ -183,7 +185,8 @@ TEST(ResultReader, ListsWhatThereIsAndSaysWhatIsNot) {
   EXPECT_EQ(missing.first, ExitCode::bad_data);
   EXPECT_THAT(missing.second, HasSubstr("in /runs/fade/banana: there is no \"banana\""));
   EXPECT_THAT(outcome([&] { reader.numbers("/runs/fade/evaluations"); }).second, HasSubstr("another type"));
-  EXPECT_THAT(outcome([&] { reader.attribute<double>("/job", "name"); }).second, HasSubstr("is a text, not a number"));
+  EXPECT_THAT(outcome([&] { reader.attribute<double>("/job", "name"); }).second,
+              HasSubstr("in /job: attribute \"name\" is a text, not a number"));
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
+#include <cmath>
+#include <limits>
 #include <thread>
 
 #include "engine/base/contract.hpp"
