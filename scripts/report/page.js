@@ -78,8 +78,11 @@
     return [1, 2, 2.5, 5, 10].find((factor) => factor * power >= rough) * power;
   }
 
-  const written = (value, step) =>
-    value.toFixed(Math.max(0, -Math.floor(Math.log10(step * 1.0001)) + (/^2\.5/.test((step / 10 ** Math.floor(Math.log10(step * 1.0001))).toFixed(2)) ? 1 : 0))).replace("-", "\u2212");
+  function written(value, step) {
+    const power = Math.floor(Math.log10(step * 1.0001));
+    const half = Math.abs(step / 10 ** power - 2.5) < 0.1 ? 1 : 0;  // 0.25 needs one more decimal than 0.2
+    return value.toFixed(Math.max(0, half - power)).replace("-", "\u2212");
+  }
 
   function element(svg, name, attributes, text) {
     const made = document.createElementNS(svg.namespaceURI, name);
@@ -185,11 +188,9 @@
     const move = (share) => show(view.start + share * (view.stop - view.start), view.stop + share * (view.stop - view.start));
     const actions = {
       in: () => zoom(0.5), out: () => zoom(2), left: () => move(-0.25), right: () => move(0.25),
-      back: () => show(home.start, home.stop), whole: () => show(-Infinity, Infinity),
+      back: () => show(home.start, home.stop),
+      whole: () => load().then(() => show(samples.time[0], samples.time[samples.time.length - 1])),
     };
-    const shown = (start, stop) => (Number.isFinite(start) ? show(start, stop) : null);
-    actions.whole = () => load().then(() => show(samples.time[0], samples.time[samples.time.length - 1]));
-    actions.back = () => shown(home.start, home.stop);
 
     const keys = { "+": "in", "=": "in", "-": "out", "−": "out", ArrowLeft: "left", ArrowRight: "right", 0: "back" };
     area.addEventListener("keydown", (event) => {
@@ -244,7 +245,7 @@
       const box = row(trace, at.y);
       const value = (y) => box.low + ((box.bottom - y) / (box.bottom - box.top)) * (box.high - box.low);
       const seconds = trace.time(to.x, view) - trace.time(at.x, view);
-      return `Δt ${seconds.toPrecision(3)} s, Δ ${(value(to.y) - value(at.y)).toPrecision(3)} ${figure.dataset.unit ?? ""}`.replace(/-/g, "\u2212");
+      return `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${(value(to.y) - value(at.y)).toPrecision(3)} ${box.unit}`.replace(/-/g, "\u2212");
     }
     figure.zoomTo = show;
   }

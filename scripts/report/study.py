@@ -120,6 +120,10 @@ class Study:
         return "force" if self.model.joint == "prismatic" else "torque"
 
     @property
+    def symbol(self):
+        return "F" if self.model.joint == "prismatic" else "τ"
+
+    @property
     def effort_unit(self):
         return self.train.unit_of("torque")
 

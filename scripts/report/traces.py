@@ -33,6 +33,8 @@ class Line:
 @dataclass
 class Row:
     words: str  # above the row
+    symbol: str  # of the quantity, for measuring
+    unit: str
     lines: list
     height: int
     low: float
@@ -64,6 +66,7 @@ def draw(time, rows, window, overview, width):
             axes.tick_params(labelbottom=False)
         canvas.text(LEFT, top - 8, style.fit(row.words, width - LEFT))
         layout["rows"].append({"top": top, "bottom": top + row.height, "low": row.low, "high": row.high,
+                               "symbol": row.symbol, "unit": row.unit,
                                "lines": [line.part for line in row.lines]})
         top += row.height
     canvas.text((LEFT + right) / 2, top + 34, "time (s)", ha="center")
