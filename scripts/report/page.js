@@ -55,10 +55,9 @@
     const x = (i) => (box.left + (time[i] - view.start) * perSecond).toFixed(1);
     const y = (i) => (box.bottom - (values[i] - box.low) * perUnit).toFixed(1);
     const points = [];
-    const keep = (...indices) => {
-      let last = -1;
-      for (const i of indices.sort((a, b) => a - b)) if (i !== last) points.push(x((last = i)) + " " + y(i));
-    };
+    let last = -1;
+    const put = (i) => { if (i !== last) points.push(x((last = i)) + " " + y(i)); };
+    const keep = (first, low, high, end) => { put(first); put(Math.min(low, high)); put(Math.max(low, high)); put(end); };
     let column = NaN, first = begin, low = begin, high = begin;
     for (let i = begin; i < end; i++) {
       const here = Math.floor((time[i] - view.start) * perSecond);
@@ -170,6 +169,7 @@
 
     const load = () => (loading ??= unpack(traces[0].svg.dataset.samples).then((loaded) => (samples = loaded)));
 
+    const shown = (trace) => trace.svg.getBoundingClientRect().width > 0;
     async function show(start, stop) {
       await load();
       const first = samples.time[0], last = samples.time[samples.time.length - 1];
@@ -178,9 +178,16 @@
       start = Math.min(Math.max((start + stop) / 2 - length / 2, first), last - length);
       view = { start, stop: start + length };
       const before = performance.now();
-      for (const trace of traces) trace.draw(view, samples);
+      redraw(shown);
       figure.dataset.zoomMs = (performance.now() - before).toFixed(1);
     }
+    // the width that is not shown waits until it is
+    function redraw(now) {
+      if (!samples) return;
+      for (const trace of traces) if (trace.view !== view && now(trace)) trace.draw((trace.view = view), samples);
+    }
+    addEventListener("resize", () => redraw(shown));
+    addEventListener("beforeprint", () => redraw(() => true));
     const zoom = (factor) => {
       const centre = (view.start + view.stop) / 2, half = ((view.stop - view.start) / 2) * factor;
       return show(centre - half, centre + half);

@@ -3,6 +3,7 @@
 import numpy as np
 
 import quantities
+import seed
 import style
 from figures import Case
 
@@ -69,8 +70,6 @@ def _draw_rows(axes, groups, published, row, name_room, count):
 
 
 def cases(study):
-    import seed
-
     reference = study.model.truth if study.truth_known else (study.ols or study.estimators[0]).chosen
     ols = study.ols
     # a lone OLS measured by its own standard errors would draw the same bar for every parameter

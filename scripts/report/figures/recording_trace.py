@@ -32,4 +32,5 @@ def cases(study):
         sentence += " Recordings are laid end to end, dotted lines between them."
     return {"recording_trace": Case(draw, {"time": time, "rows": rows, "seams": seams}, "Position, velocity, " + study.effort,
                                     sentence, wide=True,
-                                    traces={"time": time, "series": {key: values for *_, key, values in rows}})}
+                                    traces={"time": time, "series": {key: values for *_, key, values in rows},
+                                            "guide": data.torque, "guided_by": study.effort})}

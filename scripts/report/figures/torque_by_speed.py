@@ -5,7 +5,7 @@ import numpy as np
 import quantities
 import style
 from figures import Case
-from figures.decision_surface import _cells
+from figures.decision_surface import cells
 
 CELLS = 44, 30
 
@@ -19,7 +19,7 @@ def draw(velocity, torque, velocity_unit, effort, unit, width=style.SMALL):
     # logarithmic steps: a place visited once is seen beside one visited a thousand times
     level = np.ceil(np.log1p(visits) / np.log1p(visits.max()) * 8).astype(int)
     for step in range(1, 9):
-        _cells(axes, level == step, x_edges, y_edges, style.LIGHT[f"ramp{step}"])
+        cells(axes, level == step, x_edges, y_edges, style.LIGHT[f"ramp{step}"])
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1)
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1)
     for x, side in ((0.03, velocity < 0), (0.97, velocity > 0)):

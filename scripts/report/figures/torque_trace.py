@@ -48,5 +48,6 @@ def cases(study):
         sentence = (f"Grey: measured. Below, what each estimate leaves; band: ±2 standard deviations of the "
                     f"{reference.short} residual in training.{opened}")
         found[f"torque_trace_{part}"] = Case(draw, arguments, f"{study.effort.capitalize()} of {which}", sentence, wide=True,
-                                             traces={"time": time, "series": series})
+                                             traces={"time": time, "series": series, "guide": data.torque - series["e0"],
+                                                     "guided_by": "residual"})
     return found

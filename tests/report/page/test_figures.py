@@ -42,6 +42,14 @@ class Figures(unittest.TestCase):
         self.assertEqual(told.returncode, 64)
         self.assertIn("--list", told.stderr)
 
+    def test_a_file_that_is_no_result_is_refused_in_one_line(self):
+        path = support.FOLDER / "text.h5"
+        path.write_text("not HDF5")
+        for script, arguments in (("build.py", [path]), ("figure.py", ["--list", path])):
+            told = subprocess.run([sys.executable, "-B", SCRIPT.with_name(script), *arguments], capture_output=True, text=True)
+            self.assertEqual(told.returncode, 65)
+            self.assertRegex(told.stderr, r"^error: .*text\.h5.*\n$")
+
     def test_equal_results_give_equal_pages(self):
         self.assertEqual(build.page(support.study("de_only")), support.page("de_only").read_text(encoding="utf-8"))
 
