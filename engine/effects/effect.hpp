@@ -19,10 +19,10 @@ namespace torquescope {
 enum class JointKind { revolute, prismatic };
 
 struct EffectParameter {
-  std::string name;            // "viscous"
-  std::string unit_revolute;   // "N m s/rad"
-  std::string unit_prismatic;  // "N s/m"
-  bool is_shape = false;       // nonlinear: held fixed while the linear ones are solved
+  std::string name;                 // "viscous"
+  std::string unit_revolute;        // "N m s/rad"
+  std::string unit_prismatic;       // "N s/m"
+  bool is_shape = false;            // nonlinear: held fixed while the linear ones are solved
   double lower = 0.0, upper = 0.0;  // of shape parameters, in SI
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;

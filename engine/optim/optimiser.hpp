@@ -29,8 +29,9 @@ struct Progress {
   std::int64_t generation = 0;   // 0: the initial population
   std::int64_t evaluations = 0;  // candidates told so far
   std::int64_t nonfinite = 0;    // of these, how many had NaN or inf fitness
-  double best_fitness = 0.0;
-  std::vector<double> best;      // dimension
+  std::int64_t last_improvement = 0;  // generation in which best_fitness last fell: stagnation counts from here
+  double best_fitness = 0.0;     // +inf while no candidate had finite fitness
+  std::vector<double> best;      // dimension; NaN while no candidate had finite fitness
   // of the generation just told; NaN where an optimiser has no such number (the initial population, other methods)
   double F = 0.0;                // mutation factor
   double CR = 0.0;               // crossover rate

@@ -1,0 +1,22 @@
+#include "engine/effects/model_options.hpp"
+
+namespace torquescope {
+
+OptionTable<ModelOptions> const& ModelOptions::table() {
+  static OptionTable<ModelOptions> const table(
+      "model", "the torque of the joint as a sum of terms",
+      {{"joint", &ModelOptions::joint, std::vector<std::string>{"revolute", "prismatic"},
+        "kind of joint: turns or slides"},
+       {"terms", &ModelOptions::terms,
+        "effects whose torques add up (torquescope list effects); default: the seed's four"},
+       {"velocity_deadband", &ModelOptions::velocity_deadband, "rad/s or m/s", 0.0, 1e3,
+        "dry friction is zero at and below this speed; 0: only at rest"}});
+  return table;
+}
+
+Regressor make_regressor(ModelOptions const& options, Section const& model) {
+  auto const joint = options.joint == "prismatic" ? JointKind::prismatic : JointKind::revolute;
+  return {options.terms, joint, options.velocity_deadband, model};
+}
+
+}  // namespace torquescope

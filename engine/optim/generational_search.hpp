@@ -1,0 +1,59 @@
+#pragma once
+// The part that all differential evolutions share: a population, one trial vector per member and generation, one-to-one
+// selection, progress, save and restore. A kind of search says how a trial is made and what it learns.
+//
+// Random     trial of member i in generation t: stream (key, t, i); so ask() is a pure function of the state
+// Promise    candidates are inside the bounds; a candidate without finite fitness is counted and never selected
+// State      entries "kind <name>", "key", "progress", "best", "population", "fitness" and what the kind adds;
+//            restore() throws std::invalid_argument, and changes nothing, for another kind, size or key
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "engine/optim/optimiser.hpp"
+#include "engine/optim/population.hpp"
+
+namespace torquescope {
+
+class GenerationalSearch : public Optimiser {
+ public:
+  GenerationalSearch(std::string kind, Bounds bounds, RandomKey key, std::size_t n_members);
+
+  std::size_t dimension() const final { return bounds_.dimension(); }
+  std::size_t batch_size() const final { return population_.size(); }
+  void ask(MatrixView<double> candidates) const final;
+  void tell(MatrixView<double const> asked, std::span<double const> fitness) final;
+
+  Progress const& progress() const final { return progress_; }
+  MatrixView<double const> population() const final { return population_.members(); }
+  std::span<double const> fitness() const final { return population_.fitness; }
+
+  OptimiserState save() const final;
+  void restore(OptimiserState const& state) final;
+
+ protected:
+  Bounds const& bounds() const { return bounds_; }
+
+  virtual void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const = 0;
+  // after selection: writes F, CR, PC, FC of the generation just told where the kind has them, and adapts
+  virtual void learn(Population const& before, Population const& after, Progress& progress) = 0;
+  virtual void save_more(OptimiserState&) const {}
+  // checks all its entries before it changes anything
+  virtual void restore_more(OptimiserState const&) {}
+
+ private:
+  bool begun() const { return progress_.evaluations > 0; }
+  void keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness);
+  void select_and_learn(MatrixView<double const> asked, std::span<double const> fitness);
+  void record_best();
+
+  std::string kind_;
+  Bounds bounds_;
+  RandomKey key_;
+  Population population_;
+  Population before_;  // the generation before; kept to save allocations
+  Progress progress_;
+};
+
+}  // namespace torquescope

@@ -1,0 +1,71 @@
+// DE/rand/1/bin with fixed F and CR: the standard differential evolution, and the seed's competitor of FADE.
+//
+// Source     Storn, Price: Differential evolution, J. Global Optimization 11 (1997) 341-359
+
+#include <memory>
+
+#include "engine/optim/generational_search.hpp"
+#include "engine/optim/make_choice.hpp"
+#include "engine/optim/movement.hpp"
+#include "engine/optim/named_choice.hpp"
+#include "engine/optim/trial_vector.hpp"
+
+namespace torquescope {
+
+namespace {
+
+struct DeOptions {
+  std::int64_t population = 30;
+  double F = 0.5;
+  double CR = 0.9;
+  std::string repair = "midpoint";
+};
+
+OptionTable<DeOptions> const& de_options() {
+  static OptionTable<DeOptions> const table(
+      "estimator", "differential evolution DE/rand/1/bin",
+      {{"population", &DeOptions::population, "members", 4, 1e5, "members per generation"},
+       {"F", &DeOptions::F, "1", 0.0, 2.0, "mutation factor"},
+       {"CR", &DeOptions::CR, "1", 0.0, 1.0, "crossover rate"},
+       {"repair", &DeOptions::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});
+  return table;
+}
+
+class DifferentialEvolution final : public GenerationalSearch {
+ public:
+  DifferentialEvolution(Bounds const& bounds, RandomKey key, std::size_t n_members, TrialSettings settings)
+      : GenerationalSearch("de", bounds, key, n_members), settings_(settings) {}
+
+ private:
+  void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const override {
+    make_rand_1_bin_trial(population(), member, settings_, bounds(), random, trial);
+  }
+
+  // nothing is adapted; the movement is recorded to be compared with FADE's
+  void learn(Population const& before, Population const& after, Progress& progress) override {
+    auto const movement = movement_between(before, after, bounds(), MovementNorm::raw);
+    progress.F = settings_.F;
+    progress.CR = settings_.CR;
+    progress.PC = movement.PC;
+    progress.FC = movement.FC;
+  }
+
+  TrialSettings settings_;
+};
+
+MakeSearch configure_de(DeOptions const& options) {
+  auto const n_members = static_cast<std::size_t>(options.population);
+  TrialSettings const settings{options.F, options.CR, named_choice<BoundRepair>(bound_repair_words(), options.repair)};
+  return [n_members, settings](Bounds const& bounds, RandomKey key) {
+    return std::make_unique<DifferentialEvolution>(bounds, key, n_members, settings);
+  };
+}
+
+}  // namespace
+
+OptimiserChoice de_optimiser() {
+  return make_choice<DeOptions>("de", "Differential evolution DE/rand/1/bin",
+                                "Storn, Price: J. Global Optimization 11 (1997) 341-359", de_options(), configure_de);
+}
+
+}  // namespace torquescope

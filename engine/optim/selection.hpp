@@ -1,0 +1,28 @@
+#pragma once
+// One-to-one selection: the trial vector takes the target's place when it is not worse.
+//
+// Equation   f(u) <= f(x): ties are accepted, so that a plateau can be crossed               (seed eq. 7)
+//            A candidate without finite fitness never wins, not even against another one.
+
+#include <cstddef>
+#include <span>
+
+#include "engine/base/matrix_view.hpp"
+#include "engine/optim/population.hpp"
+
+namespace torquescope {
+
+bool trial_wins(double trial_fitness, double target_fitness);
+
+// finite numbers as they are; NaN, +inf and -inf become +inf: worst
+double ranked_fitness(double fitness);
+
+std::size_t count_nonfinite(std::span<double const> fitness);
+
+// trials compete with the first members, row by row; returns how many won
+std::size_t select(MatrixView<double const> trials, std::span<double const> trial_fitness, Population& population);
+
+// index of the smallest; the first of equals
+std::size_t best_index(std::span<double const> fitness);
+
+}  // namespace torquescope

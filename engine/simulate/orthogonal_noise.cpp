@@ -1,0 +1,30 @@
+#include "engine/simulate/orthogonal_noise.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "engine/base/contract.hpp"
+#include "engine/simulate/noise.hpp"
+
+namespace torquescope {
+
+Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd const& phi, double mse, RandomKey const& key) {
+  TORQUESCOPE_EXPECT(phi.rows() > phi.cols() && mse >= 0.0);
+  Eigen::Index const n = phi.rows();
+  Eigen::VectorXd noise(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    noise[i] = addressed_normal(key, NoiseStream::orthogonal, static_cast<std::size_t>(i));
+
+  // columns of a common size, so that the rank does not depend on units
+  Eigen::MatrixXd scaled = phi;
+  for (auto column : scaled.colwise())
+    if (column.norm() > 0.0) column.normalize();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> const qr(scaled);
+  Eigen::MatrixXd const basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
+
+  // twice: the second pass removes what the rounding of the first left
+  for (int pass = 0; pass < 2; ++pass) noise -= basis * (basis.transpose() * noise).eval();
+  return noise * std::sqrt(mse * static_cast<double>(n) / noise.squaredNorm());
+}
+
+}  // namespace torquescope

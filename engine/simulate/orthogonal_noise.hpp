@@ -1,0 +1,17 @@
+#pragma once
+// Noise that least squares cannot see: Gaussian, with everything a regressor could fit taken out.
+//
+// Equation   e = s (I - Q Q') g,  Q = orthonormal basis of span(phi),  g standard normal,  s such that e'e / n = mse
+// Property   phi' e = 0, so the least-squares fit of phi a + e is a, with residual e
+// Why        the only kind of data set on which a published OLS row holds to the last digit (FADE.md section 3)
+// Shapes     phi: n x p with n > p; result: n
+
+#include <Eigen/Core>
+
+#include "engine/base/random_stream.hpp"
+
+namespace torquescope {
+
+Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd const& phi, double mse, RandomKey const& key);
+
+}  // namespace torquescope

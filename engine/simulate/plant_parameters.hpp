@@ -1,0 +1,34 @@
+#pragma once
+// [simulate.plant]: a number for each parameter of the joint, under the names the effects give them.
+//
+// Example    inertia = 0.0036, viscous = 0.0164, coulomb_positive = 0.0089, coulomb_negative = -0.2582
+// Rules      an effect is in the plant when one of its parameters is written; its other linear ones are then 0, its
+// shape
+//            parameters must be written and lie within their bounds
+// Errors     Problems with exit code 78: unknown parameter (with a suggestion), not a finite number, shape missing or
+// out
+//            of bounds, an effect of an angle on a prismatic joint, nothing written at all
+
+#include <string>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/simulate/joint_plant.hpp"
+
+namespace torquescope {
+
+std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::vector<Problem>& problems);
+
+// what a plant must be to move by itself: inertia above 0, friction that brakes, and no faster than the integrator's
+// step
+void check_plant_dynamics(std::vector<PlantTerm> const& terms, double position, double step_s, Section const& section,
+                          std::vector<Problem>& problems);
+
+struct TruthValue {
+  std::string name, unit;
+  double value = 0.0;
+};
+// every parameter of every term, in the order of the registry
+std::vector<TruthValue> truth_values(std::vector<PlantTerm> const& terms, JointKind joint);
+
+}  // namespace torquescope

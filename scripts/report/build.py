@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""One self-contained page from a result: look first, read second, dig third.
+
+    build.py R.h5 [--out R.html]
+
+Nothing is fetched when it is opened: pictures, samples, style and script are inside.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import jinja2
+
+import quantities
+import style
+import svg
+import tables
+import traces
+import words
+from figures import all_cases
+from study import Study
+
+HERE = Path(__file__).resolve().parent
+
+
+def page(study):
+    """The text of the page."""
+    cases = all_cases(study)
+    most = max(2000, min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // max(1, sum(len(c.traces.get("series", ())) for c in cases.values()))))
+    figures, samples = {}, {}
+    for name, case in cases.items():
+        figures[name] = _figure(name, case, most)
+        if case.traces:
+            samples[name], _ = traces.packed(case.traces["time"], case.traces["series"], most)
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    verdict = words.verdict(study)
+    return environment.get_template("page.html").render(
+        study=study, words=words, tables=tables, q=quantities, verdict=verdict, figures=figures, samples=samples,
+        css=(HERE / "page.css").read_text(), js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1),
+        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators])
+
+
+def _figure(name, case, most):
+    drawn = []
+    for width, css_class in ((style.WIDE, "wide"), (style.SMALL, "narrow")) if case.wide else ((style.SMALL, "small"),):
+        figure = case.figure(width)
+        data = {"layout": figure.trace_layout, "samples": name} if case.traces else {}
+        drawn.append(svg.inline(figure, name, case.title, case.sentence, css_class, data))
+    thinned = case.traces and len(case.traces["time"]) > most
+    sentence = case.sentence + (f" Zooming shows {quantities.whole(most)} of {quantities.whole(len(case.traces['time']))} "
+                                "samples per trace: lowest and highest of each stretch." if thinned else "")
+    return {"title": case.title, "sentence": sentence, "svg": "".join(drawn), "wide": case.wide, "zooms": bool(case.traces)}
+
+
+def _variables(theme):
+    return "".join(f"--{name}:{pair[theme]};" for name, pair in style.PALETTE.items())
+
+
+def _dashes(dashes):
+    return "" if dashes == "solid" else " ".join(str(length) for length in dashes[1])
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("result", help="R.h5, complete")
+    parser.add_argument("--out", help="R.html (default: the result's name)")
+    options = parser.parse_args(arguments)
+    out = Path(options.out or Path(options.result).with_suffix(".html"))
+    out.write_text(page(Study(options.result)), encoding="utf-8")
+    print(f"wrote  {out}  {out.stat().st_size / 1e6:.1f} MB")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

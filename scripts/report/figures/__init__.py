@@ -1,0 +1,37 @@
+"""Every figure of the page, one file each.
+
+A figure module has  TITLE     a heading of a few words
+                     draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080)
+                     cases()   Study -> {name: Case}: what of this file it can draw; empty when there is nothing to draw
+Adding one is a file here, its name in MODULES, and a place in page.html.
+"""
+
+import importlib
+from dataclasses import dataclass, field
+
+MODULES = ("parameters", "relative_error", "torque_trace", "residual_autocorrelation", "residual_by_speed",
+           "residual_distribution", "convergence", "control_parameters", "population_changes", "membership_functions",
+           "decision_surface", "recording_trace", "speed_histogram", "torque_by_speed")
+
+
+@dataclass
+class Case:
+    """One figure to draw: its module, its arguments, and what it says."""
+
+    draw: object
+    arguments: dict
+    title: str
+    sentence: str  # what am I looking at
+    wide: bool = False  # drawn at 1080 px as well
+    traces: dict = field(default_factory=dict)  # samples for zooming (traces.py); empty: a still picture
+
+    def figure(self, width):
+        return self.draw(**self.arguments, width=width)
+
+
+def all_cases(study):
+    """{name: Case} of everything this result can show, in page order."""
+    cases = {}
+    for module in MODULES:
+        cases.update(importlib.import_module(f"figures.{module}").cases(study))
+    return cases

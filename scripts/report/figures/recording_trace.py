@@ -1,0 +1,34 @@
+"""The training recording as it went into the fit: position, velocity, torque over one time axis."""
+
+import numpy as np
+
+import quantities
+import style
+import traces
+from figures import Case
+
+
+def draw(time, rows, seams, width=style.WIDE):
+    """rows: [(words, part, values [n])]; seams: times where another recording begins."""
+    drawn = [traces.Row(words, [traces.Line(part, values, style.LIGHT["ink"], thickness=1.1)], 92, *traces.scale(values))
+             for words, part, values in rows]
+    figure = traces.draw(time, drawn, (time[0], time[-1]), None, width)
+    for axes in figure.axes:
+        for seam in seams:
+            axes.axvline(seam, color=style.LIGHT["muted"], linewidth=1, linestyle=(0, (2, 3)))
+    return figure
+
+
+def cases(study):
+    data = study.train
+    time = data.laid_end_to_end
+    rows = [(f"{word} ({quantities.unit(data.unit_of(key))})", key, getattr(data, key))
+            for key, word in (("position", "position"), ("velocity", "velocity"), ("torque", study.effort))]
+    seams = time[data.seams]
+    sentence = "The samples the fit has used, after filtering."
+    if len(seams):
+        sentence += " Recordings are laid end to end, dotted lines between them."
+    # the torque is in the page already, with the torque trace
+    return {"recording_trace": Case(draw, {"time": time, "rows": rows, "seams": seams}, "Position, velocity, " + study.effort,
+                                    sentence, wide=True,
+                                    traces={"time": time, "series": {key: np.asarray(values) for _, key, values in rows}})}

@@ -1,0 +1,63 @@
+#pragma once
+// A loop for tests: one optimiser, one function, no recording, no stop rule but a number of generations.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/optim/optimiser.hpp"
+
+namespace torquescope::testing {
+
+using Fitness = std::function<double(std::span<double const>)>;
+
+inline Section estimator_section(std::vector<Setting> settings) { return {"estimator", {}, std::move(settings)}; }
+
+// a search as a job would make it
+inline std::unique_ptr<Optimiser> make_optimiser(std::string const& name, Bounds const& bounds, RandomKey key,
+                                                 std::vector<Setting> settings = {}) {
+  OptimiserChoice const* choice = find_optimiser(name);
+  if (!choice) throw std::invalid_argument("no optimiser " + name);
+  std::vector<Problem> problems;
+  auto const make = choice->prepare(estimator_section(std::move(settings)), {}, problems);
+  if (!problems.empty()) throw Error(problems);
+  return make(bounds, key);
+}
+
+struct Batch {
+  std::size_t dimension;
+  std::vector<double> numbers;
+  std::vector<double> fitness;
+  MatrixView<double> rows() { return {numbers.data(), fitness.size(), dimension}; }
+};
+
+inline Batch ask(Optimiser const& search) {
+  Batch batch{search.dimension(), std::vector<double>(search.batch_size() * search.dimension()),
+              std::vector<double>(search.batch_size())};
+  search.ask(batch.rows());
+  return batch;
+}
+
+inline Batch asked_and_evaluated(Optimiser const& search, Fitness const& fitness) {
+  Batch batch = ask(search);
+  for (std::size_t i = 0; i < batch.fitness.size(); ++i) batch.fitness[i] = fitness(batch.rows().row(i));
+  return batch;
+}
+
+// the initial population first, then generations up to and including the last one
+inline void run_to_generation(Optimiser& search, Fitness const& fitness, std::int64_t last) {
+  while (search.progress().evaluations == 0 || search.progress().generation < last) {
+    Batch batch = asked_and_evaluated(search, fitness);
+    search.tell(batch.rows(), batch.fitness);
+  }
+}
+
+inline Bounds cube(std::size_t dimension, double lower, double upper) {
+  return {std::vector<double>(dimension, lower), std::vector<double>(dimension, upper)};
+}
+
+}  // namespace torquescope::testing

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/optimise.hpp"
+
+namespace torquescope {
+namespace {
+
+using testing::make_optimiser;
+using testing::run_to_generation;
+
+Bounds const box = testing::cube(3, -2.0, 2.0);
+RandomKey const key{5, 1};
+
+// several minima, values that are multiples of 2^-20: sums with whole numbers are exact
+double bumpy(std::span<double const> x) {
+  double sum = 0.0;
+  for (double const v : x) sum += v * v + std::cos(7.0 * v);
+  return std::round(sum * 0x1p20) * 0x1p-20;
+}
+
+std::vector<double> population_after(testing::Fitness const& fitness, std::int64_t generations) {
+  auto const search = make_optimiser("de", box, key);
+  run_to_generation(*search, fitness, generations);
+  auto const members = search->population();
+  return {members.data(), members.data() + members.rows() * members.columns()};
+}
+
+TEST(De, TrajectoryIgnoresScaleAndOffsetOfFitness) {
+  auto const reference = population_after(bumpy, 50);
+  EXPECT_EQ(population_after([](auto x) { return 0x1p40 * bumpy(x); }, 50), reference);
+  EXPECT_EQ(population_after([](auto x) { return 0x1p-300 * bumpy(x); }, 50), reference);
+  EXPECT_EQ(population_after([](auto x) { return bumpy(x) + 4096.0; }, 50), reference);
+  EXPECT_EQ(population_after([](auto x) { return bumpy(x) - 4096.0; }, 50), reference);
+}
+
+TEST(De, TrajectoryScalesWithTheBox) {
+  for (std::string const repair : {"midpoint", "clip", "reflect", "random"}) {
+    std::vector<Setting> const settings{{"repair", repair}};
+    auto const plain = make_optimiser("de", box, key, settings);
+    auto const scaled = make_optimiser("de", testing::cube(3, -0x1p21, 0x1p21), key, settings);
+    run_to_generation(*plain, bumpy, 30);
+    run_to_generation(
+        *scaled,
+        [](auto x) {
+          return bumpy(std::vector{x[0] * 0x1p-20, x[1] * 0x1p-20, x[2] * 0x1p-20});
+        },
+        30);
+    for (std::size_t i = 0; i < plain->population().rows(); ++i) {
+      for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(scaled->population()(i, j), 0x1p20 * plain->population()(i, j));
+    }
+  }
+}
+
+TEST(De, ReportsTheControlsOfTheJob) {
+  auto const search = make_optimiser("de", box, key, {{"F", 0.7}, {"CR", 0.2}});
+  run_to_generation(*search, bumpy, 4);
+  EXPECT_EQ(search->progress().F, 0.7);
+  EXPECT_EQ(search->progress().CR, 0.2);
+  EXPECT_GT(search->progress().PC, 0.0);
+}
+
+}  // namespace
+}  // namespace torquescope

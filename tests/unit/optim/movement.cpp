@@ -1,0 +1,107 @@
+#include "engine/optim/movement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/random_stream.hpp"
+#include "support/optimise.hpp"
+
+namespace torquescope {
+namespace {
+
+Population random_population(std::uint32_t generation) {
+  Population population(20, 3);
+  RandomStream random({6, 0, RandomDomain::test}, generation, 0);
+  for (double& x : population.numbers) x = random.uniform(-1.0, 1.0);
+  for (double& f : population.fitness) f = random.normal();
+  return population;
+}
+
+Population scaled(Population population, double x_scale, double f_scale, double f_shift = 0.0) {
+  for (double& x : population.numbers) x *= x_scale;
+  for (double& f : population.fitness) f = f * f_scale + f_shift;
+  return population;
+}
+
+Bounds const box = testing::cube(3, -1.0, 1.0);
+
+TEST(Movement, RawIsTheRootMeanSquareOfTheSeedsEquation) {
+  Population before(2, 2);
+  before.numbers = {0.0, 0.0, 0.5, 0.5};
+  before.fitness = {3.0, 5.0};
+  Population after = before;
+  after.numbers = {0.3, 0.4, 0.5, 0.5};
+  after.fitness = {1.0, 5.0};
+  auto const movement = movement_between(before, after, testing::cube(2, -1.0, 1.0), MovementNorm::raw);
+  EXPECT_DOUBLE_EQ(movement.PC, std::sqrt(0.25 / 2.0));
+  EXPECT_DOUBLE_EQ(movement.FC, std::sqrt(4.0 / 2.0));
+}
+
+TEST(Movement, AtRestIsZero) {
+  auto const population = random_population(1);
+  for (auto const norm : {MovementNorm::raw, MovementNorm::relative}) {
+    auto const movement = movement_between(population, population, box, norm);
+    EXPECT_EQ(movement.PC, 0.0);
+    EXPECT_EQ(movement.FC, 0.0);
+  }
+}
+
+TEST(Movement, RelativeKeepsItsBitsUnderPowersOfTwo) {
+  auto const before = random_population(1);
+  auto const after = random_population(2);
+  auto const reference = movement_between(before, after, box, MovementNorm::relative);
+  for (double const x_scale : {0x1p-30, 1.0, 0x1p10}) {
+    for (double const f_scale : {0x1p-200, 1.0, 0x1p60}) {
+      auto const movement = movement_between(scaled(before, x_scale, f_scale), scaled(after, x_scale, f_scale),
+                                             testing::cube(3, -x_scale, x_scale), MovementNorm::relative);
+      EXPECT_EQ(movement.PC, reference.PC);
+      EXPECT_EQ(movement.FC, reference.FC);
+    }
+  }
+}
+
+TEST(Movement, RelativeIgnoresAnOffsetOfFitness) {
+  auto const before = random_population(1);
+  auto const after = random_population(2);
+  auto const reference = movement_between(before, after, box, MovementNorm::relative);
+  auto const shifted =
+      movement_between(scaled(before, 1.0, 1.0, -1e3), scaled(after, 1.0, 1.0, -1e3), box, MovementNorm::relative);
+  EXPECT_NEAR(shifted.FC, reference.FC, 1e-12);
+}
+
+TEST(Movement, RelativeFunctionChangeIsAtMostTwo) {
+  Population before(4, 1);
+  Population after(4, 1);
+  before.numbers = after.numbers = {0.0, 0.0, 0.0, 0.0};
+  before.fitness = {1.0, 1.0, 1.0, 1.0};
+  after.fitness = {0.0, 0.0, 0.0, 0.0};
+  // everything moved by one, and one half is the standard deviation
+  EXPECT_DOUBLE_EQ(movement_between(before, after, testing::cube(1, -1.0, 1.0), MovementNorm::relative).FC, 2.0);
+}
+
+TEST(Movement, MembersWithoutFiniteFitnessHaveNoFunctionChange) {
+  auto before = random_population(1);
+  auto after = before;
+  before.fitness[3] = std::numeric_limits<double>::infinity();
+  after.fitness[4] = before.fitness[4] - 2.0;
+  for (auto const norm : {MovementNorm::raw, MovementNorm::relative}) {
+    double const FC = movement_between(before, after, box, norm).FC;
+    EXPECT_TRUE(std::isfinite(FC));
+    EXPECT_GT(FC, 0.0);
+  }
+  EXPECT_DOUBLE_EQ(movement_between(before, after, box, MovementNorm::raw).FC, std::sqrt(4.0 / 20.0));
+}
+
+TEST(Movement, HugeFitnessDoesNotBecomeNan) {
+  auto before = random_population(1);
+  auto after = before;
+  before.fitness[0] = 1.7e308;
+  after.fitness[0] = -1.7e308;
+  EXPECT_TRUE(std::isfinite(movement_between(before, after, box, MovementNorm::relative).FC));
+  EXPECT_FALSE(std::isnan(movement_between(before, after, box, MovementNorm::raw).FC));
+}
+
+}  // namespace
+}  // namespace torquescope

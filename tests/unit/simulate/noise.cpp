@@ -1,0 +1,69 @@
+#include "engine/simulate/noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace torquescope;
+
+namespace {
+
+RandomKey const key{11, 0, RandomDomain::simulation};
+
+std::vector<double> drawn(ColouredNoise noise, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(noise.next());
+  return values;
+}
+
+double autocovariance(std::vector<double> const& values, std::size_t lag) {
+  double sum = 0.0;
+  for (std::size_t i = lag; i < values.size(); ++i) sum += values[i] * values[i - lag];
+  return sum / static_cast<double>(values.size() - lag);
+}
+
+}  // namespace
+
+TEST(AddressedNoise, DependsOnTheAddressOnly) {
+  double const first = addressed_normal(key, NoiseStream::torque_white, 77);
+  addressed_normal(key, NoiseStream::position, 3);
+  drawn(ColouredNoise(key, NoiseStream::disturbance, 1.0, 0.1, 1000.0), 100);
+  EXPECT_EQ(addressed_normal(key, NoiseStream::torque_white, 77), first);
+}
+
+TEST(AddressedNoise, DiffersInEveryPartOfTheAddress) {
+  double const here = addressed_normal(key, NoiseStream::torque_white, 5);
+  EXPECT_NE(here, addressed_normal(key, NoiseStream::torque_white, 6));
+  EXPECT_NE(here, addressed_normal(key, NoiseStream::position, 5));
+  EXPECT_NE(here, addressed_normal({11, 1, RandomDomain::simulation}, NoiseStream::torque_white, 5));
+  EXPECT_NE(here, addressed_normal({12, 0, RandomDomain::simulation}, NoiseStream::torque_white, 5));
+}
+
+TEST(ColouredNoise, WhiteHasTheStandardDeviationAskedFor) {
+  auto const values = drawn({key, NoiseStream::torque_white, 0.3, 0.0, 1000.0}, 100000);
+  // standard error of a variance of n normals: sqrt(2 / n); five of them
+  EXPECT_NEAR(autocovariance(values, 0), 0.09, 5.0 * 0.09 * std::sqrt(2.0 / 100000));
+  EXPECT_NEAR(autocovariance(values, 1), 0.0, 5.0 * 0.09 / std::sqrt(100000.0));
+}
+
+TEST(ColouredNoise, CorrelationDecaysWithItsTime) {
+  constexpr int n = 400000;
+  auto const values = drawn({key, NoiseStream::torque_coloured, 2.0, 0.01, 1000.0}, n);
+  // effective number of independent samples: n / (2 * 10 samples); five standard errors
+  double const tolerance = 5.0 * 4.0 * std::sqrt(2.0 * 20.0 / n);
+  EXPECT_NEAR(autocovariance(values, 0), 4.0, tolerance);
+  EXPECT_NEAR(autocovariance(values, 10), 4.0 * std::exp(-1.0), tolerance);
+  EXPECT_NEAR(autocovariance(values, 100), 0.0, tolerance);
+}
+
+TEST(ColouredNoise, IsStationaryFromTheFirstSample) {
+  double sum = 0.0;
+  constexpr int recordings = 20000;
+  for (std::uint32_t run = 0; run < recordings; ++run) {
+    ColouredNoise noise({1, run, RandomDomain::simulation}, NoiseStream::torque_coloured, 1.0, 1.0, 100.0);
+    double const first = noise.next();
+    sum += first * first;
+  }
+  EXPECT_NEAR(sum / recordings, 1.0, 5.0 * std::sqrt(2.0 / recordings));
+}
