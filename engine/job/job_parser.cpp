@@ -211,9 +211,8 @@ std::string plain_words(std::string text) {
   return text;
 }
 
-// the quoted name in "cannot redefine existing integer 'seed'", or ""
-std::string redefined_name(std::string const& words) {
-  if (!words.starts_with("cannot redefine existing ")) return "";
+// the first quoted piece of a message: "cannot redefine existing integer 'seed'"; "" when nothing is quoted
+std::string quoted_piece(std::string const& words) {
   std::size_t const begin = words.find('\'');
   std::size_t const end = words.find('\'', begin + 1);
   return end == std::string::npos ? "" : words.substr(begin + 1, end - begin - 1);
@@ -230,24 +229,33 @@ std::string syntax_help(std::string const& message) {
   return "a job is TOML: key = 1.5, key = \"text\", key = [1, 2], [section]";
 }
 
+// the parser stops behind what it complains about: underline that instead, where the line has it
+void point_at(std::string const& piece, SourcePlace& place) {
+  std::size_t const found = piece.empty() ? std::string::npos : place.line_text.find(piece);
+  if (found == std::string::npos) return;
+  auto const letters = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; };
+  place.column =
+      1 + static_cast<int>(std::count_if(place.line_text.begin(),
+                                         place.line_text.begin() + static_cast<std::ptrdiff_t>(found), letters));
+  place.length = static_cast<int>(std::count_if(piece.begin(), piece.end(), letters));
+}
+
 Problem syntax_problem(toml::parse_error const& error, SectionReader const& reader) {
   std::string const message(error.description());
   std::string const words = plain_words(message);
   Problem problem;
   problem.place = reader.at(static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column));
-  if (std::string const name = redefined_name(words); !name.empty()) {
-    problem.what = fmt::format("\"{}\" is written twice", name);
+  std::string const piece = quoted_piece(words);
+  if (words.starts_with("cannot redefine existing ") && !piece.empty()) {
+    problem.what = fmt::format("\"{}\" is written twice", piece);
     problem.help = "keep one of the two";
-    // the parser stops behind the name: point at it
-    std::string const last_name = name.substr(name.rfind('.') + 1);
-    if (std::size_t const found = problem.place.line_text.find(last_name); found != std::string::npos) {
-      problem.place.column = static_cast<int>(found) + 1;
-      problem.place.length = static_cast<int>(last_name.size());
-    }
+    point_at(piece.substr(piece.rfind('.') + 1), problem.place);
     return problem;
   }
   problem.what = "this is not TOML: " + words;
   problem.help = syntax_help(message);
+  bool const is_number = words.find("be interpreted") != words.npos || words.find("representable") != words.npos;
+  if (is_number) point_at(piece, problem.place);
   return problem;
 }
 

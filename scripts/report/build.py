@@ -19,6 +19,7 @@ import tables
 import traces
 import words
 from figures import all_cases
+from read_result import ResultError
 from study import Study
 
 HERE = Path(__file__).resolve().parent
@@ -27,12 +28,13 @@ HERE = Path(__file__).resolve().parent
 def page(study):
     """The text of the page."""
     cases = all_cases(study)
-    most = max(2000, min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // max(1, sum(len(c.traces.get("series", ())) for c in cases.values()))))
+    lines = sum(len(case.traces.get("series", ())) for case in cases.values())
+    most = min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // lines)
     figures, samples = {}, {}
     for name, case in cases.items():
         figures[name] = _figure(name, case, most)
         if case.traces:
-            samples[name], _ = traces.packed(case.traces["time"], case.traces["series"], most)
+            samples[name] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"], most)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     verdict = words.verdict(study)
@@ -50,7 +52,7 @@ def _figure(name, case, most):
         drawn.append(svg.inline(figure, name, case.title, case.sentence, css_class, data))
     thinned = case.traces and len(case.traces["time"]) > most
     sentence = case.sentence + (f" Zooming shows {quantities.whole(most)} of {quantities.whole(len(case.traces['time']))} "
-                                "samples per trace: lowest and highest of each stretch." if thinned else "")
+                                f"samples: where the {case.traces['guided_by']} is lowest and highest in each stretch." if thinned else "")
     return {"title": case.title, "sentence": sentence, "svg": "".join(drawn), "wide": case.wide, "zooms": bool(case.traces)}
 
 
@@ -74,4 +76,8 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except ResultError as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(65)

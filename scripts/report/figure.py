@@ -11,6 +11,7 @@ import sys
 
 import style
 from figures import all_cases
+from read_result import ResultError
 from study import Study
 
 
@@ -41,4 +42,8 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except ResultError as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(65)

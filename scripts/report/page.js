@@ -55,10 +55,9 @@
     const x = (i) => (box.left + (time[i] - view.start) * perSecond).toFixed(1);
     const y = (i) => (box.bottom - (values[i] - box.low) * perUnit).toFixed(1);
     const points = [];
-    const keep = (...indices) => {
-      let last = -1;
-      for (const i of indices.sort((a, b) => a - b)) if (i !== last) points.push(x((last = i)) + " " + y(i));
-    };
+    let last = -1;
+    const put = (i) => { if (i !== last) points.push(x((last = i)) + " " + y(i)); };
+    const keep = (first, low, high, end) => { put(first); put(Math.min(low, high)); put(Math.max(low, high)); put(end); };
     let column = NaN, first = begin, low = begin, high = begin;
     for (let i = begin; i < end; i++) {
       const here = Math.floor((time[i] - view.start) * perSecond);
@@ -78,8 +77,11 @@
     return [1, 2, 2.5, 5, 10].find((factor) => factor * power >= rough) * power;
   }
 
-  const written = (value, step) =>
-    value.toFixed(Math.max(0, -Math.floor(Math.log10(step * 1.0001)) + (/^2\.5/.test((step / 10 ** Math.floor(Math.log10(step * 1.0001))).toFixed(2)) ? 1 : 0))).replace("-", "\u2212");
+  function written(value, step) {
+    const power = Math.floor(Math.log10(step * 1.0001));
+    const half = Math.abs(step / 10 ** power - 2.5) < 0.1 ? 1 : 0;  // 0.25 needs one more decimal than 0.2
+    return value.toFixed(Math.max(0, half - power)).replace("-", "\u2212");
+  }
 
   function element(svg, name, attributes, text) {
     const made = document.createElementNS(svg.namespaceURI, name);
@@ -167,6 +169,7 @@
 
     const load = () => (loading ??= unpack(traces[0].svg.dataset.samples).then((loaded) => (samples = loaded)));
 
+    const shown = (trace) => trace.svg.getBoundingClientRect().width > 0;
     async function show(start, stop) {
       await load();
       const first = samples.time[0], last = samples.time[samples.time.length - 1];
@@ -175,9 +178,16 @@
       start = Math.min(Math.max((start + stop) / 2 - length / 2, first), last - length);
       view = { start, stop: start + length };
       const before = performance.now();
-      for (const trace of traces) trace.draw(view, samples);
+      redraw(shown);
       figure.dataset.zoomMs = (performance.now() - before).toFixed(1);
     }
+    // the width that is not shown waits until it is
+    function redraw(now) {
+      if (!samples) return;
+      for (const trace of traces) if (trace.view !== view && now(trace)) trace.draw((trace.view = view), samples);
+    }
+    addEventListener("resize", () => redraw(shown));
+    addEventListener("beforeprint", () => redraw(() => true));
     const zoom = (factor) => {
       const centre = (view.start + view.stop) / 2, half = ((view.stop - view.start) / 2) * factor;
       return show(centre - half, centre + half);
@@ -185,11 +195,9 @@
     const move = (share) => show(view.start + share * (view.stop - view.start), view.stop + share * (view.stop - view.start));
     const actions = {
       in: () => zoom(0.5), out: () => zoom(2), left: () => move(-0.25), right: () => move(0.25),
-      back: () => show(home.start, home.stop), whole: () => show(-Infinity, Infinity),
+      back: () => show(home.start, home.stop),
+      whole: () => load().then(() => show(samples.time[0], samples.time[samples.time.length - 1])),
     };
-    const shown = (start, stop) => (Number.isFinite(start) ? show(start, stop) : null);
-    actions.whole = () => load().then(() => show(samples.time[0], samples.time[samples.time.length - 1]));
-    actions.back = () => shown(home.start, home.stop);
 
     const keys = { "+": "in", "=": "in", "-": "out", "−": "out", ArrowLeft: "left", ArrowRight: "right", 0: "back" };
     area.addEventListener("keydown", (event) => {
@@ -244,7 +252,7 @@
       const box = row(trace, at.y);
       const value = (y) => box.low + ((box.bottom - y) / (box.bottom - box.top)) * (box.high - box.low);
       const seconds = trace.time(to.x, view) - trace.time(at.x, view);
-      return `Δt ${seconds.toPrecision(3)} s, Δ ${(value(to.y) - value(at.y)).toPrecision(3)} ${figure.dataset.unit ?? ""}`.replace(/-/g, "\u2212");
+      return `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${(value(to.y) - value(at.y)).toPrecision(3)} ${box.unit}`.replace(/-/g, "\u2212");
     }
     figure.zoomTo = show;
   }

@@ -5,7 +5,8 @@ Source     FADE on the CRS A465: Table 3 (parameters, mean of 30 runs), Table 4 
 
 import math
 
-# label: inertia, viscous, coulomb_positive, coulomb_negative
+PARAMETERS = ("inertia", "viscous", "coulomb_positive", "coulomb_negative")
+# label: values in this order
 TABLE_3 = {"OLS": (0.0036, 0.0164, 0.0089, -0.2582), "DE": (0.0037, 0.0143, 0.0594, -0.3060),
            "FADE": (0.0038, 0.0169, 0.0112, -0.2261)}
 # label: MSE, standard deviation of the prediction error

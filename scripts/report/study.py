@@ -5,11 +5,10 @@ Source     engine/store/RESULT_FORMAT.md
 
 import numpy as np
 
+import seed
 import style
 from read_result import Result
 
-SEED_PARAMETERS = ("inertia", "viscous", "coulomb_positive", "coulomb_negative")
-SEED_OLS = (0.0036, 0.0164, 0.0089, -0.2582)  # Table 3 of the seed
 LEAST_SQUARES = ("ols", "wls", "irls")
 
 
@@ -120,6 +119,10 @@ class Study:
         return "force" if self.model.joint == "prismatic" else "torque"
 
     @property
+    def symbol(self):
+        return "F" if self.model.joint == "prismatic" else "τ"
+
+    @property
     def effort_unit(self):
         return self.train.unit_of("torque")
 
@@ -138,11 +141,11 @@ class Study:
 
     @property
     def is_seed_study(self):
-        if tuple(self.model.names) != SEED_PARAMETERS:
+        if tuple(self.model.names) != seed.PARAMETERS:
             return False
         if self.job.study is not None:
             return self.job.study == "crs_a465"
-        return self.truth_known and bool(np.allclose(self.model.truth, SEED_OLS, rtol=1e-9, atol=0))
+        return self.truth_known and bool(np.allclose(self.model.truth, seed.TABLE_3["OLS"], rtol=1e-9, atol=0))
 
 
 def held(history):

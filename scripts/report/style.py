@@ -46,7 +46,7 @@ LIGHT = {name: light for name, (light, _) in PALETTE.items()}
 
 # the estimators beyond the first of a colour are told apart by their dashes (and always by their labels)
 DASHES = {"de": (0, (5, 2))}
-MORE_DASHES = ((0, (1.2, 1.6)), (0, (7, 2, 1.5, 2)), (0, (3, 1.5)))
+MORE_DASHES = ((0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (1.5, 1.5)))
 
 matplotlib.rcParams.update({
     "figure.dpi": 72, "savefig.dpi": 72, "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none",

@@ -25,7 +25,7 @@ def inline(figure, name, title, description, css_class, attributes=None):
     text = buffer.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
-    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"<!--.*?-->|<style.*?</style>", "", text, flags=re.S)
     text = text.replace("xlink:href", "href")
     text = _PATH.sub(lambda match: f'd="{_short_path(match[1])}"', text)
     text = re.sub(r'id="part:([^"]+)"', r'data-part="\1"', text)

@@ -30,24 +30,18 @@ def m4(x, y, columns, start=None, stop=None):
     return first + np.unique(kept)
 
 
-def min_max_pairs(columns_of_y, most):
-    """Per row of `columns_of_y` [k][n] its lowest and highest value in each of most/2 buckets, in the order they came.
+def min_max_pairs(y, most):
+    """Indices of the lowest and the highest sample in each of most/2 buckets, ascending; all of them when n <= most.
 
-    Returns (indices [m] of the samples whose x stands for the points, values [k][m]); unchanged when n <= most.
+    Whole samples, so that other signals taken at the same indices keep their differences from this one.
     """
-    values = np.atleast_2d(np.asarray(columns_of_y, dtype=float))
-    n = values.shape[1]
-    if n <= most:
-        return np.arange(n), values
-    edges = np.linspace(0, n, most // 2 + 1).astype(int)
-    indices = np.column_stack([edges[:-1], (edges[:-1] + edges[1:]) // 2]).ravel()
-    thinned = np.empty((len(values), len(indices)))
-    for bucket, (begin, end) in enumerate(zip(edges[:-1], edges[1:])):
-        piece = values[:, begin:end]
-        low, high = piece.argmin(axis=1), piece.argmax(axis=1)
-        pair = np.column_stack([np.minimum(low, high), np.maximum(low, high)])
-        thinned[:, 2 * bucket:2 * bucket + 2] = np.take_along_axis(piece, pair, axis=1)
-    return indices, thinned
+    y = np.asarray(y, dtype=float)
+    if len(y) <= most:
+        return np.arange(len(y))
+    edges = np.linspace(0, len(y), most // 2 + 1).astype(int)
+    kept = [begin + _finite(pick, y[begin:end], instead) for begin, end in zip(edges[:-1], edges[1:])
+            for pick, instead in ((np.argmin, np.inf), (np.argmax, -np.inf))]
+    return np.unique(kept)
 
 
 def _finite(pick, values, instead_of_nan):

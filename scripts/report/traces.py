@@ -33,6 +33,8 @@ class Line:
 @dataclass
 class Row:
     words: str  # above the row
+    symbol: str  # of the quantity, for measuring
+    unit: str
     lines: list
     height: int
     low: float
@@ -64,6 +66,7 @@ def draw(time, rows, window, overview, width):
             axes.tick_params(labelbottom=False)
         canvas.text(LEFT, top - 8, style.fit(row.words, width - LEFT))
         layout["rows"].append({"top": top, "bottom": top + row.height, "low": row.low, "high": row.high,
+                               "symbol": row.symbol, "unit": row.unit,
                                "lines": [line.part for line in row.lines]})
         top += row.height
     canvas.text((LEFT + right) / 2, top + 34, "time (s)", ha="center")
@@ -113,20 +116,21 @@ def window_with_most(events, time, length=OPENED_S):
     return start, start + length
 
 
-def packed(time, series, most):
-    """Samples as JSON for the page: int16 (time int32), differences, deflate, base64. Returns (json text, was thinned)."""
-    names = list(series)
-    indices, values = thin.min_max_pairs([series[name] for name in names], most)
-    shown = time[indices]
+def packed(time, series, guide, most):
+    """Samples as JSON for the page: int16 (time int32), differences, deflate, base64.
+
+    Above `most` samples those stay that are lowest or highest in `guide` [n] over a short stretch: its spikes survive.
+    """
+    kept = thin.min_max_pairs(guide, most)
+    shown = time[kept]
     tick = float(shown[-1] - shown[0]) / 2**30 or 1.0
-    document = {"n": len(shown), "t": {"origin": float(shown[0]), "scale": tick,
-                                       "data": _deflated(np.rint((shown - shown[0]) / tick).astype(np.int64), np.int32)},
-                "series": {}}
-    for name, row in zip(names, values):
-        row = np.nan_to_num(row)
-        step = float(np.abs(row).max()) / 32767 or 1.0
-        document["series"][name] = {"scale": step, "data": _deflated(np.rint(row / step).astype(np.int64), np.int16)}
-    return json.dumps(document, separators=(",", ":")), len(time) > most
+    document = {"t": {"origin": float(shown[0]), "scale": tick,
+                      "data": _deflated(np.rint((shown - shown[0]) / tick).astype(np.int64), np.int32)}, "series": {}}
+    for name, values in series.items():
+        values = np.nan_to_num(np.asarray(values)[kept])
+        step = float(np.abs(values).max()) / 32767 or 1.0
+        document["series"][name] = {"scale": step, "data": _deflated(np.rint(values / step).astype(np.int64), np.int16)}
+    return json.dumps(document, separators=(",", ":"))
 
 
 def _deflated(integers, kind):

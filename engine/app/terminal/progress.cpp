@@ -62,11 +62,11 @@ double share_done(ProgressUpdate const& update) {
 
 std::optional<double> seconds_left(ProgressUpdate const& update) {
   if (update.seconds < estimate_after_seconds || is_done(update)) return std::nullopt;
-  double const share = update.runs_done > 0 && update.runs_total > 0
-                           ? static_cast<double>(update.runs_done) / static_cast<double>(update.runs_total)
-                           : share_done(update);
-  if (share <= 0.0) return std::nullopt;
-  return update.seconds * (1.0 - share) / share;
+  bool const by_runs = update.runs_done > 0 && update.runs_total > 0;
+  auto const done = static_cast<double>(by_runs ? update.runs_done : update.evaluations_done);
+  auto const total = static_cast<double>(by_runs ? update.runs_total : update.evaluations_total);
+  if (done <= 0.0 || total <= 0.0) return std::nullopt;
+  return update.seconds * std::max(0.0, total - done) / done;
 }
 
 std::string progress_line(ProgressUpdate const& update) {

@@ -23,7 +23,7 @@ class Case:
     title: str
     sentence: str  # what am I looking at
     wide: bool = False  # drawn at 1080 px as well
-    traces: dict = field(default_factory=dict)  # samples for zooming (traces.py); empty: a still picture
+    traces: dict = field(default_factory=dict)  # time, series, guide, guided_by for zooming (traces.packed); empty: still
 
     def figure(self, width):
         return self.draw(**self.arguments, width=width)

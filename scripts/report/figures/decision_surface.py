@@ -7,6 +7,7 @@ from matplotlib.path import Path
 import quantities
 import style
 from figures import Case
+from figures.membership_functions import MEANING
 
 MOST_CELLS = 48  # per side: finer cells cannot be told apart at this size
 
@@ -20,7 +21,7 @@ def draw(surface, first, second, path, output, first_name, second_name, width=st
     low, high = float(surface.min()), float(surface.max())
     level = np.clip(((surface - low) / max(high - low, 1e-300) * 9).astype(int), 0, 8)
     for step in range(9):
-        _cells(axes, level == step, _edges(first), _edges(second), style.LIGHT[f"ramp{step}"])
+        cells(axes, level == step, _edges(first), _edges(second), style.LIGHT[f"ramp{step}"])
     axes.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), xlabel=first_name)
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
@@ -48,8 +49,8 @@ def _edges(centres):
     return np.concatenate([centres[:1], middle, centres[-1:]])
 
 
-def _cells(axes, mask, x_edges, y_edges, colour):
-    # all cells of one step as one path: runs along a column become one rectangle
+def cells(axes, mask, x_edges, y_edges, colour):
+    """All cells of one step (mask [x][y]) as one path: runs along a column become one rectangle."""
     vertices, codes = [], []
     for i, column in enumerate(mask):
         turns = np.flatnonzero(np.diff(np.concatenate([[False], column, [False]]).astype(int)))
@@ -92,5 +93,4 @@ def cases(study):
 
 
 def _meaning(name):
-    from figures.membership_functions import MEANING
     return MEANING.get(name, name)

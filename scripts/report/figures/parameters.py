@@ -3,6 +3,7 @@
 import numpy as np
 
 import quantities
+import seed
 import style
 from figures import Case
 
@@ -69,11 +70,11 @@ def _draw_rows(axes, groups, published, row, name_room, count):
 
 
 def cases(study):
-    import seed
-
     reference = study.model.truth if study.truth_known else (study.ols or study.estimators[0]).chosen
     ols = study.ols
-    if ols is not None:
+    # a lone OLS measured by its own standard errors would draw the same bar for every parameter
+    by_errors = ols is not None and (study.truth_known or len(study.estimators) > 1)
+    if by_errors:
         size = np.asarray(ols.standard_error[0])
     else:
         size = np.where(reference != 0, np.abs(reference) / 100, 1.0)
@@ -91,7 +92,7 @@ def cases(study):
         published = [(f"{name}, published", (np.array(row) - reference) / size, style.LIGHT[name.lower()])
                      for name, row in seed.TABLE_3.items() if name != "OLS"]
     origin = "the truth" if study.truth_known else (ols or study.estimators[0]).short
-    unit = "in standard errors of OLS" if ols is not None else "% of the value"
+    unit = "in standard errors of OLS" if by_errors else "% of the value"
     axis_words = (f"difference from {origin}, {unit}", f"minus {origin}, {unit}")
     words = []
     for index in range(len(reference)):

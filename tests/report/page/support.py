@@ -1,0 +1,56 @@
+"""Where the page's own modules are, and result files made once per process in a folder that goes away."""
+
+import atexit
+import shutil
+import sys
+import tempfile
+import unittest
+from functools import lru_cache
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parents[2] / "scripts" / "report"), str(HERE)]
+
+try:
+    import h5py  # noqa: F401
+    import jinja2  # noqa: F401
+    import matplotlib  # noqa: F401
+except ImportError as error:
+    print(f"skipped: {error} (Debian: python3-h5py python3-matplotlib python3-jinja2)")
+    sys.exit(77)
+
+import make_result  # noqa: E402
+
+FOLDER = Path(tempfile.mkdtemp(prefix="torquescope_page_"))
+atexit.register(shutil.rmtree, FOLDER, True)
+KINDS = tuple(make_result.KINDS)
+
+
+@lru_cache(maxsize=None)
+def result(kind):
+    """Path of the result file of this kind (make_result.py)."""
+    path = FOLDER / f"{kind}.h5"
+    make_result.KINDS[kind](path)
+    return path
+
+
+@lru_cache(maxsize=None)
+def study(kind):
+    from study import Study
+    return Study(result(kind))
+
+
+@lru_cache(maxsize=None)
+def page(kind):
+    """Path of the built page."""
+    import build
+    path = FOLDER / f"{kind}.html"
+    path.write_text(build.page(study(kind)), encoding="utf-8")
+    return path
+
+
+def main():
+    """unittest.main with ctest's code for "skipped" when every test was."""
+    program = unittest.main(exit=False, verbosity=2)
+    everything_skipped = program.result.testsRun and len(program.result.skipped) == program.result.testsRun
+    sys.exit(77 if everything_skipped else not program.result.wasSuccessful())

@@ -1,0 +1,47 @@
+#include "engine/app/report/page_builder.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace torquescope {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PageProgram : public testing::Test {
+ protected:
+  PageProgram() {
+    char pattern[] = "/tmp/torquescope_page_XXXXXX";
+    folder_ = ::mkdtemp(pattern);
+  }
+  ~PageProgram() override { fs::remove_all(folder_); }
+  fs::path make(std::string const& name) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << "";
+    return folder_ / name;
+  }
+  fs::path folder_;
+};
+
+TEST_F(PageProgram, IsFoundInTheSourceTreeAboveTheBuildFolder) {
+  fs::path const program = make("scripts/report/build.py");
+  EXPECT_EQ(find_page_program("", folder_ / "build/dev/bin/torquescope"), program);
+}
+
+TEST_F(PageProgram, IsFoundBesideAnInstalledProgram) {
+  fs::path const program = make("usr/share/torquescope/report/build.py");
+  EXPECT_EQ(find_page_program("", folder_ / "usr/bin/torquescope"), program);
+}
+
+TEST_F(PageProgram, OfTheVariableComesFirst) {
+  make("scripts/report/build.py");
+  fs::path const program = make("mine/report/build.py");
+  EXPECT_EQ(find_page_program((folder_ / "mine").string(), folder_ / "build/dev/bin/torquescope"), program);
+}
+
+TEST_F(PageProgram, MayBeMissing) { EXPECT_EQ(find_page_program("", folder_ / "bin/torquescope"), std::nullopt); }
+
+}  // namespace
+}  // namespace torquescope
