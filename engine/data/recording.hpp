@@ -17,6 +17,16 @@ struct DataWarning {
   std::string text;   // "3 samples resampled: ..."
 };
 
+// what only the rows of the file show, before they were resampled; zeros for a simulated recording
+struct RowFacts {
+  double jitter = 0.0;            // rms deviation of the time steps from their median, share of a step
+  Eigen::Index resampled = 0;     // samples that do not stand where a row stood
+  Eigen::Index repeated = 0;      // rows dropped because their time stamp repeats
+  Eigen::Index missing = 0;       // rows the clock says are missing
+  double encoder_step = 0.0;      // smallest step of the position (rad or m); 0: not quantised, or too finely to see
+  double torque_limit_share = 0.0;  // share of time the torque sits exactly at its largest or smallest value
+};
+
 struct Recording {
   std::string name;    // file name without its folder, or "simulated"
   std::string sha256;  // of the bytes that were parsed (before decompression), or of the simulated numbers
@@ -29,6 +39,7 @@ struct Recording {
   Eigen::VectorXd acceleration{};        // optional, only together with velocity
   Eigen::VectorXd simulated_torque{};    // optional: the user's own simulator on the same motion
   std::vector<DataWarning> warnings{};
+  RowFacts rows{};
 };
 
 }  // namespace torquescope

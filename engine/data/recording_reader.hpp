@@ -25,9 +25,16 @@ struct RecordingOptions {
   double rate_hz = 0.0;                          // sampling rate when the file has no time column
   double delay_s = 0.0;                          // added to the torque's time stamps
   std::string gaps = "error";                    // NaN runs up to 5 samples: "error" or "fill"
-  std::string simulated_torque{};                // column of the user's own simulator
+  std::string simulated_torque{};                // column of the user's own simulator, in N m (not scaled, not delayed)
 
   static OptionTable<RecordingOptions> const& table();
+};
+
+// a column that is in the file but cannot serve as a signal: text in a cell, another length, another type
+struct UnusableColumn {
+  std::string name;
+  std::string reason;     // continues the name: "holds text: \"off\" in line 12"
+  std::int64_t line = 0;  // where, in text formats
 };
 
 // what any reader makes of a file: named columns of equal length
@@ -37,6 +44,7 @@ struct RawTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  // empty cells and "nan" are NaN
   std::vector<std::int64_t> line_of_row{};   // text formats: line in the file of each row; else empty
+  std::vector<UnusableColumn> unusable{};    // an error only if the job names one of them
 };
 
 // one per file in readers/; chosen by content, never by extension

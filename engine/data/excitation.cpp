@@ -1,0 +1,107 @@
+#include "engine/data/excitation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/base/contract.hpp"
+#include "engine/data/signal_facts.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double moving_from = 0.01;         // of the largest speed
+constexpr double one_direction = 0.995;      // of moving time
+constexpr double one_speed = 1.3;            // speed_spread below which speeds are one speed
+constexpr double fewest_encoder_steps = 50;  // of position range
+constexpr double visited = 0.01;             // of moving time: a quadrant counts
+
+double percentile(std::vector<double>& values, double share) {
+  auto const place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+std::span<double const> numbers(Eigen::VectorXd const& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+// direction, reversals, quadrants, speeds: everything that looks only at moving samples
+void measure_movement(Motion const& motion, Excitation& facts) {
+  double const threshold = moving_from * motion.dq.cwiseAbs().maxCoeff();
+  std::vector<double> speeds;
+  int last_direction = 0;
+  Eigen::Index forward = 0;
+  for (Eigen::Index i = 0; i < motion.dq.size(); ++i) {
+    if (std::fabs(motion.dq[i]) <= threshold) continue;
+    int const direction = motion.dq[i] > 0 ? 1 : -1;
+    facts.reversals += last_direction == -direction;
+    last_direction = direction;
+    forward += direction > 0;
+    speeds.push_back(std::fabs(motion.dq[i]));
+    bool const positive_torque = motion.torque[i] > 0;
+    facts.quadrant_share[positive_torque ? (direction > 0 ? 0 : 1) : (direction > 0 ? 3 : 2)] += 1;
+  }
+  if (speeds.empty()) return;
+  auto const moving = static_cast<double>(speeds.size());
+  facts.moving_share = moving / static_cast<double>(motion.dq.size());
+  facts.forward_share = static_cast<double>(forward) / moving;
+  for (double& share : facts.quadrant_share) {
+    share /= moving;
+    facts.quadrants += share >= visited;
+  }
+  double const slow = percentile(speeds, 0.10);
+  facts.speed_spread = percentile(speeds, 0.95) / slow;
+}
+
+}  // namespace
+
+Excitation measure_excitation(Recording const& recording, Motion const& motion) {
+  TORQUESCOPE_EXPECT(motion.dq.size() == motion.torque.size() && motion.dq.size() > 0);
+  Excitation facts;
+  facts.duration_s = static_cast<double>(motion.q.size()) / motion.rate_hz;
+  facts.position_least = motion.q.minCoeff();
+  facts.position_most = motion.q.maxCoeff();
+  facts.speed_least = motion.dq.minCoeff();
+  facts.speed_most = motion.dq.maxCoeff();
+  facts.acceleration_rms = std::sqrt(motion.ddq.squaredNorm() / static_cast<double>(motion.ddq.size()));
+  facts.torque_least = motion.torque.minCoeff();
+  facts.torque_most = motion.torque.maxCoeff();
+  measure_movement(motion, facts);
+  auto const& rows = recording.rows;
+  facts.encoder_step = rows.encoder_step > 0 ? rows.encoder_step : quantisation_step(numbers(recording.position));
+  facts.torque_limit_share =
+      rows.torque_limit_share > 0 ? rows.torque_limit_share : limit_share(numbers(recording.torque));
+  facts.torque_noise = white_noise(recording.torque);
+  facts.jitter = rows.jitter;
+  return facts;
+}
+
+std::vector<DataWarning> excitation_warnings(Excitation const& facts, char const* unit) {
+  std::vector<DataWarning> warnings;
+  auto const warn = [&](std::string text) { warnings.push_back({"excitation", std::move(text)}); };
+  double const range = facts.position_most - facts.position_least;
+  double const fastest = std::max(std::fabs(facts.speed_least), std::fabs(facts.speed_most));
+
+  double const one_way = std::max(facts.forward_share, 1 - facts.forward_share);
+  if (facts.moving_share > 0 && one_way > one_direction)
+    warn(
+        fmt::format("only one direction of motion ({:.3g} % of the moving time): viscous, Coulomb friction and offset "
+                    "cannot be separated; record both",
+                    100 * one_way));
+  if (facts.moving_share > 0 && facts.speed_spread < one_speed)
+    warn(fmt::format(
+        "only one speed ({:.3g} {}/s): viscous and Coulomb friction cannot be told apart; record at least 4 speeds",
+        fastest, unit));
+  if (facts.encoder_step > 0 && range < fewest_encoder_steps * facts.encoder_step)
+    warn(fmt::format(
+        "the whole motion spans {:.0f} encoder steps ({:.3g} {}): speed is mostly quantisation; record a larger motion",
+        range / facts.encoder_step, range, unit));
+  if (facts.moving_share > 0 && facts.reversals == 0 && one_way <= one_direction)
+    warn("the motion never reverses: friction at reversals cannot be seen");
+  return warnings;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,23 @@
+#pragma once
+// What a recording allows of the options in [filter].
+//
+// Errors     Error 78: a cut-off at or above half the sampling rate, decimate_to_hz that divides the rate into no whole
+//            number, a parallel cut-off above half the kept rate; 65: the recording is shorter than the filter
+
+#include <Eigen/Core>
+
+#include "engine/data/motion.hpp"
+
+namespace torquescope {
+
+// parallel_cutoff_hz as written, or 0.4 * decimate_to_hz, or 0 for none
+double parallel_cutoff_of(FilterOptions const& options);
+
+void check_cutoff(char const* key, double cutoff_hz, double rate_hz, Section const& section);
+void check_length(FilterOptions const& options, Eigen::Index n_samples, double rate_hz);
+// every how manieth sample is kept
+Eigen::Index decimation_factor(FilterOptions const& options, double rate_hz, Section const& section);
+// samples dropped at each end
+Eigen::Index edge_samples(FilterOptions const& options, double rate_hz);
+
+}  // namespace torquescope

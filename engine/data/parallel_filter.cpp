@@ -1,0 +1,48 @@
+#include "engine/base/contract.hpp"
+#include "engine/data/filter_checks.hpp"
+#include "engine/data/motion.hpp"
+#include "engine/data/zero_phase.hpp"
+
+namespace torquescope {
+
+struct ParallelFilter::State {
+  std::vector<FilterSection> sections{};  // empty: no low-pass
+  Eigen::Index n_samples = 0;
+  Eigen::Index edge = 0;
+  Eigen::Index factor = 1;
+  Eigen::Index kept = 0;
+  double rate_hz = 0.0;
+};
+
+ParallelFilter::ParallelFilter(FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
+                               Section const& section)
+    : state_(std::make_unique<State>()) {
+  double const cutoff_hz = parallel_cutoff_of(options);
+  check_cutoff("parallel_cutoff_hz", cutoff_hz, rate_hz, section);
+  check_length(options, n_samples, rate_hz);
+  state_->factor = decimation_factor(options, rate_hz, section);
+  if (cutoff_hz > 0) state_->sections = butterworth_lowpass(static_cast<int>(options.order), cutoff_hz, rate_hz);
+  state_->n_samples = n_samples;
+  state_->edge = edge_samples(options, rate_hz);
+  state_->kept = (n_samples - 2 * state_->edge + state_->factor - 1) / state_->factor;
+  state_->rate_hz = rate_hz / static_cast<double>(state_->factor);
+}
+
+ParallelFilter::~ParallelFilter() = default;
+ParallelFilter::ParallelFilter(ParallelFilter&&) noexcept = default;
+
+Eigen::Index ParallelFilter::kept_samples() const { return state_->kept; }
+
+double ParallelFilter::kept_rate_hz() const { return state_->rate_hz; }
+
+Eigen::VectorXd ParallelFilter::apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const {
+  TORQUESCOPE_EXPECT(signal.size() == state_->n_samples);
+  return state_->sections.empty() ? pick(signal) : pick(zero_phase(state_->sections, signal));
+}
+
+Eigen::VectorXd ParallelFilter::pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const {
+  TORQUESCOPE_EXPECT(signal.size() == state_->n_samples);
+  return signal(Eigen::seqN(state_->edge, state_->kept, state_->factor));
+}
+
+}  // namespace torquescope

@@ -1,0 +1,192 @@
+#include "engine/data/sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/data/data_problem.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double even_within_steps = 0.005;
+constexpr double slowest_step_s = 0.5;
+
+// stamps as a person would write them: enough digits to see the step
+std::string stamp(double time_s, double step_s) {
+  int const digits = std::clamp(static_cast<int>(std::ceil(-std::log10(std::fabs(step_s) + 1e-12))), 3, 9);
+  return fmt::format("{:.{}f}", time_s, digits);
+}
+
+void check_forwards(std::vector<double> const& stamps, RawTable const& table) {
+  for (std::size_t i = 1; i < stamps.size(); ++i)
+    validate(stamps[i] >= stamps[i - 1], [&] {
+      double const step = stamps[i] - stamps[i - 1];
+      return bad_data(fmt::format("time runs backwards in {} ({} -> {} s)", row_name(table, i),
+                                  stamp(stamps[i - 1], step), stamp(stamps[i], step)),
+                      table.path, line_of(table, i),
+                      fmt::format("two recordings in one file? split it at {}", row_name(table, i)));
+    });
+}
+
+double median(std::vector<double> values) {
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double> steps_of(std::vector<double> const& times) {
+  std::vector<double> steps(times.size());
+  std::adjacent_difference(times.begin(), times.end(), steps.begin());
+  steps.erase(steps.begin());
+  return steps;
+}
+
+// one unit of the last printed decimal, or 0 when the stamps are not rounded
+double printed_unit(std::vector<double> const& stamps) {
+  double unit = 1.0;
+  for (int decimals = 0; decimals <= 9; ++decimals, unit /= 10) {
+    bool const fits = std::all_of(stamps.begin(), stamps.end(), [&](double t) {
+      double const scaled = t / unit;
+      return std::fabs(scaled) < 1e15 && std::fabs(scaled - std::round(scaled)) < 1e-3;
+    });
+    if (fits) return unit;
+  }
+  return 0.0;
+}
+
+struct EvenGrid {
+  double first, step;
+  double largest_deviation;
+};
+
+// the straight line nearest to the stamps over their index
+EvenGrid nearest_grid(std::vector<double> const& times) {
+  auto const n = static_cast<double>(times.size());
+  double const middle = (n - 1) / 2;
+  double const mean = std::accumulate(times.begin(), times.end(), 0.0) / n;
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    double const from_middle = static_cast<double>(i) - middle;
+    product += from_middle * (times[i] - mean);
+    square += from_middle * from_middle;
+  }
+  double const step = product / square;
+  EvenGrid grid{mean - step * middle, step, 0.0};
+  for (std::size_t i = 0; i < times.size(); ++i)
+    grid.largest_deviation =
+        std::max(grid.largest_deviation, std::fabs(times[i] - grid.first - step * static_cast<double>(i)));
+  return grid;
+}
+
+void check_step(double step_s, RawTable const& table) {
+  validate(step_s > 0, [&] {
+    return bad_data(fmt::format("time stands still in {}", table.path), table.path, 0,
+                    "name the right time column, or leave columns.time out and write rate_hz");
+  });
+  validate(step_s < slowest_step_s, [&] {
+    return bad_data(fmt::format("the time step is {:.6g} s: are the stamps counts or milliseconds?", step_s),
+                    table.path, 0, "give time in seconds, or leave columns.time out and write rate_hz");
+  });
+}
+
+void check_gaps(std::vector<double> const& stamps, Sampling const& sampling, double step, RawTable const& table) {
+  for (std::size_t k = 1; k < sampling.rows.size(); ++k) {
+    std::size_t const row = sampling.rows[k];
+    double const gap = sampling.times[k] - sampling.times[k - 1];
+    validate(gap <= largest_gap_steps * step, [&] {
+      double const before = stamps[sampling.rows[k - 1]];
+      return bad_data(
+          fmt::format("{:.0f} samples are missing before {} ({} -> {} s)", gap / step - 1, row_name(table, row),
+                      stamp(before, step), stamp(stamps[row], step)),
+          table.path, line_of(table, row),
+          fmt::format("cut the recording there; up to {:.0f} missing samples are interpolated", largest_gap_steps - 1));
+    });
+  }
+}
+
+void count_missing(Sampling& sampling, std::vector<double> const& steps, double typical) {
+  double sum = 0.0;
+  Eigen::Index counted = 0;
+  for (double step : steps) {
+    if (step > 1.5 * typical) {
+      sampling.facts.missing += static_cast<Eigen::Index>(std::llround(step / typical)) - 1;
+      continue;
+    }
+    sum += (step - typical) * (step - typical);
+    ++counted;
+  }
+  sampling.facts.jitter = counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) / typical : 0.0;
+}
+
+// even stamps: the grid replaces them, and the rate is what they allow to be rounded to
+void put_on_grid(Sampling& sampling, EvenGrid const& grid, double uncertainty_s) {
+  auto const n = static_cast<double>(sampling.times.size());
+  sampling.rate_hz = roundest(1.0 / grid.step, std::max(uncertainty_s / (grid.step * n), 1e-9));
+  for (std::size_t i = 0; i < sampling.times.size(); ++i) sampling.times[i] = static_cast<double>(i) / sampling.rate_hz;
+}
+
+}  // namespace
+
+double roundest(double value, double tolerance) {
+  for (int digits = 1; digits <= 15; ++digits) {
+    double const rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
+    if (std::fabs(rounded - value) <= tolerance * std::fabs(value)) return rounded;
+  }
+  return value;
+}
+
+Sampling sampling_at(double rate_hz, std::size_t n_rows) {
+  Sampling sampling;
+  sampling.rate_hz = rate_hz;
+  sampling.rows.resize(n_rows);
+  std::iota(sampling.rows.begin(), sampling.rows.end(), std::size_t{0});
+  for (std::size_t i = 0; i < n_rows; ++i) sampling.times.push_back(static_cast<double>(i) / rate_hz);
+  return sampling;
+}
+
+Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table) {
+  check_forwards(stamps_s, table);
+  Sampling sampling;
+  std::vector<double> since_first(stamps_s.size());
+  std::transform(stamps_s.begin(), stamps_s.end(), since_first.begin(), [&](double t) { return t - stamps_s.front(); });
+
+  // coarse stamps may repeat although the clock behind them is even: judge before dropping anything
+  auto const all = nearest_grid(since_first);
+  check_step(all.step, table);
+  double const unit = printed_unit(stamps_s);
+  constexpr double rounding = 0.6;  // of the last digit: half, and some for the fitted line
+  double const allowed = std::max(even_within_steps * all.step, rounding * unit);
+  if (all.largest_deviation <= allowed) {
+    sampling.rows.resize(stamps_s.size());
+    std::iota(sampling.rows.begin(), sampling.rows.end(), std::size_t{0});
+    sampling.times = std::move(since_first);
+    put_on_grid(sampling, all, std::max(unit, all.largest_deviation));
+    return sampling;
+  }
+
+  for (std::size_t i = 0; i < stamps_s.size(); ++i) {
+    if (i > 0 && stamps_s[i] == stamps_s[i - 1]) continue;
+    sampling.rows.push_back(i);
+    sampling.times.push_back(since_first[i]);
+  }
+  sampling.even = false;
+  sampling.facts.repeated = static_cast<Eigen::Index>(stamps_s.size() - sampling.rows.size());
+  auto const steps = steps_of(sampling.times);
+  double const typical = median(steps);
+  check_step(typical, table);
+  check_gaps(stamps_s, sampling, typical, table);
+  count_missing(sampling, steps, typical);
+  sampling.rate_hz = roundest(1.0 / typical, even_within_steps);
+  // rows left out, or their stamps doubled, on an otherwise even clock
+  auto const kept = nearest_grid(sampling.times);
+  if (kept.largest_deviation <= allowed) {
+    sampling.even = true;
+    put_on_grid(sampling, kept, std::max(unit, kept.largest_deviation));
+  }
+  return sampling;
+}
+
+}  // namespace torquescope
