@@ -9,6 +9,9 @@
 // Intervals  critical_value(L, n) replaces 1.96: the fixed-b law of a Bartlett t statistic with b = (L + 1) / n,
 // because a
 //            bandwidth that is not small against n makes the error itself uncertain
+// Coverage   of 95 % intervals, 400 draws of 2000 samples, worst of the seed's four parameters: 0.95, 0.94, 0.93, 0.89
+// for
+//            noise with rho = 0, 0.5, 0.9, 0.98; naive ones 0.95, 0.77, 0.45, 0.27 (tests/unit/problem/hac.cpp)
 // Requires   rows in time order within each recording
 // Threads    free functions
 // Source     Newey, West 1987; Andrews 1991 eq. 6.4; Kiefer, Vogelsang 2005 table 1 (checked by simulation)

