@@ -17,6 +17,7 @@ struct ScaledQr {
 };
 
 ScaledQr factorise(RegressionData const& data, Eigen::VectorXd const& root_weights) {
+  if (too_few_rows(data)) throw not_identifiable(data);
   Eigen::MatrixXd rows = data.phi;
   if (root_weights.size() > 0) rows = root_weights.asDiagonal() * rows;
   ScaledQr factors;

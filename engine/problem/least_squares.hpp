@@ -1,6 +1,5 @@
 #pragma once
-// What a closed form estimator returns, and the parts that all of them share: the weighted solution and its
-// covariances.
+// What a closed form estimator returns, and what all of them share: the weighted solution and its covariances.
 //
 // Equation   parameters = argmin sum_t w_t (tau_t - phi_t parameters)^2, by Householder QR of the column-scaled rows
 //            (the normal equations of the seed's eq. 11 square the condition number)

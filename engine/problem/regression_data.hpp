@@ -3,8 +3,7 @@
 //
 // Shapes     n rows over all recordings, one after the other; R columns
 // Units      s, rad or m, N m or N; rates in Hz
-// Errors     make_regression_data: Error 78, 65 as differentiate() and ParallelFilter; 65 when recordings keep
-// different
+// Errors     make_regression_data: Error 78, 65 as differentiate() and ParallelFilter; 65 when recordings keep unequal
 //            rates (rows would weigh unequal times)
 // Threads    plain record
 // Source     parallel filtering: Gautier 1997; Janot, Vandanjon, Gautier 2014

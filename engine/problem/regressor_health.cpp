@@ -94,16 +94,22 @@ std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correl
   return words;
 }
 
+std::string few_rows_words(RegressionData const& data) {
+  return fmt::format("{} samples are too few for {} parameters and their errors", data.rows(), data.parameters());
+}
+
 }  // namespace
+
+bool too_few_rows(RegressionData const& data) { return data.rows() <= data.parameters(); }
 
 RegressorHealth regressor_health(RegressionData const& data) {
   TORQUESCOPE_EXPECT(data.columns.size() == static_cast<std::size_t>(data.phi.cols()));
   RegressorHealth health;
-  if (data.rows() < data.parameters()) {
+  if (too_few_rows(data)) {
     health.identifiable = false;
     health.condition_number = health.condition_number_raw = std::numeric_limits<double>::infinity();
     health.correlation = Eigen::MatrixXd::Identity(data.parameters(), data.parameters());
-    health.words = fmt::format("{} samples cannot tell {} parameters apart", data.rows(), data.parameters());
+    health.words = few_rows_words(data);
     return health;
   }
   auto const unit_columns = scaled(data);
@@ -125,8 +131,8 @@ RegressorHealth regressor_health(RegressionData const& data) {
 Error not_identifiable(RegressionData const& data) {
   Problem problem{ExitCode::bad_data, ""};
   problem.key = "model.terms";
-  if (data.rows() < data.parameters()) {
-    problem.what = fmt::format("{} samples cannot tell {} parameters apart", data.rows(), data.parameters());
+  if (too_few_rows(data)) {
+    problem.what = few_rows_words(data);
     problem.help = "use a longer recording, or a higher filter.decimate_to_hz";
     return Error(std::move(problem));
   }

@@ -27,9 +27,12 @@ struct RegressorHealth {
   std::string words;  // "" when healthy: "viscous and offset correlate 0.97: wider speeds would help"
 };
 
+// no row left over to measure an error with
+bool too_few_rows(RegressionData const& data);
+
 RegressorHealth regressor_health(RegressionData const& data);
 
-// Requires   not regressor_health(data).identifiable, or fewer rows than parameters
+// Requires   not regressor_health(data).identifiable
 Error not_identifiable(RegressionData const& data);
 
 }  // namespace torquescope

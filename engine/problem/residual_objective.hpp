@@ -1,6 +1,5 @@
 #pragma once
-// The fitness of a search on the linear problem: mean (or summed) loss of the residuals, and the distance to the
-// optimum.
+// The fitness of a search on the linear problem: mean or summed loss of the residuals, and the gap to the optimum.
 //
 // Equation   fitness = sum_t loss(tau_t - phi_t x), divided by n for FitnessScale::mse
 //            gap = MSE(x) - MSE(ols) = |R (x - ols)|^2 / n with phi = Q R: no difference of near-equal numbers, never

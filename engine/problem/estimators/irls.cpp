@@ -47,15 +47,17 @@ Eigen::VectorXd huber_weights(Eigen::VectorXd const& residual, double limit) {
   return residual.unaryExpr([limit](double e) { return std::abs(e) <= limit ? 1.0 : limit / std::abs(e); });
 }
 
-// naive: sigma^2 of psi over the squared mean of psi' (Huber 1981 eq. 7.6.10); HAC: scores psi_t phi_t
+// Both covariances take the slope psi' as independent of the motion (Huber 1981 eq. 7.6.10): weighting phi by it row by
+// row fails where one direction of motion holds nothing but far residuals.
 void add_errors(LeastSquaresFit& fit, RegressionData const& data, double limit, std::int64_t hac_lags) {
   Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
   Eigen::VectorXd const psi = fit.weights.cwiseProduct(residual);
-  Eigen::VectorXd const slope = residual.unaryExpr([limit](double e) { return std::abs(e) <= limit ? 1.0 : 0.0; });
-  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
-  double const mean_slope = slope.mean();
-  fit.covariance_naive = psi.squaredNorm() / freedom / (mean_slope * mean_slope) * inverse_information(data, {});
-  finish_fit(fit, data, psi.asDiagonal() * data.phi, inverse_information(data, slope), hac_lags);
+  auto const n = static_cast<double>(data.rows());
+  double const mean_slope = std::max(1.0, static_cast<double>((residual.array().abs() <= limit).count())) / n;
+  double const freedom = std::max(1.0, n - static_cast<double>(data.parameters()));
+  Eigen::MatrixXd const bread = inverse_information(data, {}) / mean_slope;
+  fit.covariance_naive = psi.squaredNorm() / freedom / mean_slope * bread;
+  finish_fit(fit, data, psi.asDiagonal() * data.phi, bread, hac_lags);
 }
 
 LeastSquaresFit fit_irls(RegressionData const& data, IrlsOptions const& options) {
@@ -64,8 +66,9 @@ LeastSquaresFit fit_irls(RegressionData const& data, IrlsOptions const& options)
   fit.iterations = 0;
   fit.weights = Eigen::VectorXd::Ones(data.rows());
   fit.parameters = solve_weighted(data, {});
-  // more than half of the residuals may be exactly zero: rounding of the torque is the least scale there is
-  double const least_scale = std::numeric_limits<double>::epsilon() * data.tau.norm() / std::sqrt(double(data.rows()));
+  // residuals of noise-free data are rounding errors: there is nothing to be robust against
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  double const least_scale = rounding * data.tau.norm() / std::sqrt(static_cast<double>(data.rows()));
   double limit = 0.0;
   while (!fit.converged && fit.iterations < options.max_iterations) {
     Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;

@@ -95,11 +95,17 @@ TEST(NotIdentifiable, NamesProportionalColumnsAndTheMotionThatSeparatesThem) {
   }
 }
 
-TEST(NotIdentifiable, CountsSamplesFirst) {
-  auto const data = data_of(test::seed_terms, test::multisine(0.03));
+TEST(NotIdentifiable, WantsMoreSamplesThanParameters) {
+  auto const data = data_of(test::seed_terms, test::multisine(0.04));
   EXPECT_FALSE(regressor_health(data).identifiable);
-  EXPECT_THAT(regressor_health(data).words, HasSubstr("3 samples cannot tell 4 parameters apart"));
-  EXPECT_THAT(not_identifiable(data).problems()[0].what, HasSubstr("3 samples"));
+  EXPECT_THAT(regressor_health(data).words, HasSubstr("4 samples are too few for 4 parameters"));
+  try {
+    test::fit("ols", data);
+    FAIL() << "fitted 4 parameters to 4 samples";
+  } catch (Error const& error) {
+    EXPECT_THAT(error.problems()[0].what, HasSubstr("4 samples"));
+    EXPECT_THAT(error.problems()[0].help, HasSubstr("longer recording"));
+  }
 }
 
 }  // namespace
