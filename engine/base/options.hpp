@@ -145,7 +145,8 @@ void OptionTable<Options>::apply(Section const& section, Options& options, std::
 
 template <class Options>
 std::vector<OptionDescription> OptionTable<Options>::describe() const {
-  Options const defaults{};
+  // static: GCC 12 takes a small Options on the stack for an uninitialised one
+  static Options const defaults{};
   std::vector<OptionDescription> descriptions;
   for (auto const& option : options_) {
     OptionValue const value = std::visit([&](auto member) { return OptionValue(defaults.*member); }, option.member);

@@ -1,6 +1,5 @@
 #pragma once
-// An effect whose words (name, title, equation, source, parameters) are a table; a file in effects/ adds the two
-// formulas.
+// An effect whose words (name, title, equation, source, parameters) are a table; files in effects/ add the formulas.
 
 #include <string>
 #include <utility>

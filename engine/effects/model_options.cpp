@@ -10,7 +10,10 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
        {"terms", &ModelOptions::terms,
         "effects whose torques add up (torquescope list effects); default: the seed's four"},
        {"velocity_deadband", &ModelOptions::velocity_deadband, "rad/s or m/s", 0.0, 1e3,
-        "dry friction is zero at and below this speed; 0: only at rest"}});
+        "dry friction is zero at and below this speed; 0: only at rest"},
+       {"lower", &ModelOptions::lower, "SI", -1e12, 1e12,
+        "least parameters of the population methods: one number for all, or one for each in the order of the terms"},
+       {"upper", &ModelOptions::upper, "SI", -1e12, 1e12, "greatest parameters, alike"}});
   return table;
 }
 

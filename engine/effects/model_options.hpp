@@ -1,5 +1,5 @@
 #pragma once
-// The [model] section of a job: which terms one joint has.
+// The [model] section of a job: which terms one joint has, and the box a search may look in (objective_options.hpp).
 
 #include <string>
 #include <vector>
@@ -13,6 +13,8 @@ struct ModelOptions {
   std::string joint = "revolute";
   std::vector<std::string> terms{"inertia", "viscous", "coulomb_positive", "coulomb_negative"};
   double velocity_deadband = 0.0;
+  std::vector<double> lower{-1.0};
+  std::vector<double> upper{1.0};
 
   static OptionTable<ModelOptions> const& table();
 };

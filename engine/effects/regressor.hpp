@@ -4,9 +4,9 @@
 // Equation   tau = columns(motion) * parameters; sum over the terms, in the order the job lists them
 // Shapes     columns: n_samples x size(), column-major, at the full rate (before the parallel filter)
 // Units      SI; units() are those of the joint's kind
-// Errors     Error 78, all problems at once: unknown, repeated or redundant terms, no terms, an angle's effect on a
-// slide Threads    const object, any number of threads Source     Gautier, Khalil 1990; deadband: FADE.md item 20 (0 is
-// the seed's sign(0) = 0)
+// Errors     Error 78, all problems at once: unknown, repeated or redundant terms, none, an angle's effect on a slide
+// Threads    const object, any number of threads
+// Source     Gautier, Khalil 1990; deadband: FADE.md item 20 (0 is the seed's sign(0) = 0)
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -1,0 +1,42 @@
+// Ordinary least squares: the smallest squared error that any parameters can have on the recordings.
+//
+// Source     seed eq. 11, solved by QR instead of the normal equations
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/problem/estimator.hpp"
+
+namespace torquescope::estimators {
+namespace {
+
+struct OlsOptions {
+  std::int64_t hac_lags = -1;
+
+  static OptionTable<OlsOptions> const& table() {
+    static OptionTable<OlsOptions> const table("estimator", "ordinary least squares", {hac_lags_option<OlsOptions>()});
+    return table;
+  }
+};
+
+LeastSquaresFit fit_ols(RegressionData const& data, OlsOptions const& options) {
+  LeastSquaresFit fit;
+  fit.parameters = solve_weighted(data, {});
+  Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
+  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
+  double const variance = residual.squaredNorm() / freedom;
+  auto const bread = inverse_information(data, {});
+  fit.covariance_naive = variance * bread;
+  fit.scale = std::sqrt(variance);
+  finish_fit(fit, data, residual.asDiagonal() * data.phi, bread, options.hac_lags);
+  return fit;
+}
+
+}  // namespace
+
+EstimatorChoice ols() {
+  return {"ols", "ordinary least squares", "Gauss 1809; seed eq. 11", OlsOptions::table().describe(),
+          prepare_with<OlsOptions>(fit_ols)};
+}
+
+}  // namespace torquescope::estimators

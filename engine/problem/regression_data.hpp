@@ -1,0 +1,49 @@
+#pragma once
+// The linear problem tau = phi * parameters of one joint, after the parallel filter: what every estimator works on.
+//
+// Shapes     n rows over all recordings, one after the other; R columns
+// Units      s, rad or m, N m or N; rates in Hz
+// Errors     make_regression_data: Error 78, 65 as differentiate() and ParallelFilter; 65 when recordings keep unequal
+//            rates (rows would weigh unequal times)
+// Threads    plain record
+// Source     parallel filtering: Gautier 1997; Janot, Vandanjon, Gautier 2014
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/data/motion.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/effects/regressor.hpp"
+
+namespace torquescope {
+
+struct RegressionData {
+  Eigen::MatrixXd phi;                   // [n][R], filtered like the torque
+  Eigen::VectorXd tau;                   // [n]
+  std::vector<RegressorColumn> columns;  // [R] names, units and needs
+
+  // the kept samples, for people and plots; time restarts with each recording
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd q;
+  Eigen::VectorXd dq;
+  Eigen::VectorXd ddq;
+  std::vector<std::int64_t> recording;        // [n] which recording a row belongs to
+  std::vector<Eigen::Index> first_row{0, 0};  // [recordings + 1]; recording k owns rows first_row[k] .. first_row[k+1]
+
+  std::vector<std::string> recording_names;  // [recordings]
+  std::vector<double> rate_hz;               // [recordings] as recorded
+  double kept_rate_hz = 0.0;                 // of the rows
+
+  Eigen::Index rows() const { return tau.size(); }
+  Eigen::Index parameters() const { return phi.cols(); }
+  std::size_t recordings() const { return first_row.size() - 1; }
+};
+
+// differentiate, columns, parallel filter on torque and every column, one recording after the other;
+// `filter` is the job's [filter] section, for the places in messages
+RegressionData make_regression_data(std::vector<Recording> const& recordings, FilterOptions const& options,
+                                    Regressor const& regressor, Section const& filter);
+
+}  // namespace torquescope

@@ -1,0 +1,152 @@
+#include "engine/problem/regressor_health.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double reported_correlation = 0.95;
+constexpr double reported_condition = 30.0;
+// a column belongs to a weak direction when it holds at least this share of it
+constexpr double member_share = 0.2;
+
+// "a", "a and b", "a, b and c"
+std::string listed(std::vector<std::string> const& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+bool both_directions(RegressionData const& data) {
+  return data.dq.size() > 0 && data.dq.minCoeff() < 0.0 && data.dq.maxCoeff() > 0.0;
+}
+
+// the motion that the given columns need more of
+std::string advice(RegressionData const& data, std::vector<std::size_t> const& members) {
+  bool position = false, velocity = false, acceleration = false;
+  for (auto const member : members) {
+    position = position || data.columns[member].needs_position;
+    velocity = velocity || data.columns[member].needs_velocity;
+    acceleration = acceleration || data.columns[member].needs_acceleration;
+  }
+  std::vector<std::string> wanted;
+  if (velocity) wanted.push_back(both_directions(data) ? "wider speeds" : "motion in both directions");
+  if (acceleration) wanted.push_back("stronger accelerations");
+  if (position) wanted.push_back("a wider range of positions");
+  return listed(wanted) + " would help";
+}
+
+Eigen::VectorXd column_lengths(RegressionData const& data) { return data.phi.colwise().norm(); }
+
+// columns of length one; a column of zeros stays
+Eigen::MatrixXd scaled(RegressionData const& data) {
+  Eigen::VectorXd lengths = column_lengths(data);
+  for (auto& length : lengths) length = length > 0.0 ? length : 1.0;
+  return data.phi * lengths.cwiseInverse().asDiagonal();
+}
+
+double condition(Eigen::VectorXd const& singular_values) {
+  double const least = singular_values[singular_values.size() - 1];
+  return least > 0.0 ? singular_values[0] / least : std::numeric_limits<double>::infinity();
+}
+
+// singular values and right vectors, from the R x R factor of phi = Q R
+Eigen::JacobiSVD<Eigen::MatrixXd> right_svd(Eigen::MatrixXd const& phi) {
+  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(phi);
+  Eigen::MatrixXd const r = qr.matrixQR().topRows(phi.cols()).triangularView<Eigen::Upper>();
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(r, Eigen::ComputeFullV);
+}
+
+// columns that make up the weakest direction
+std::vector<std::size_t> weakest_members(Eigen::MatrixXd const& right_vectors) {
+  Eigen::VectorXd const direction = right_vectors.col(right_vectors.cols() - 1).cwiseAbs();
+  std::vector<std::size_t> members;
+  for (Eigen::Index r = 0; r < direction.size(); ++r)
+    if (direction[r] >= member_share * direction.maxCoeff()) members.push_back(static_cast<std::size_t>(r));
+  return members;
+}
+
+std::vector<std::string> names_of(RegressionData const& data, std::vector<std::size_t> const& members) {
+  std::vector<std::string> names;
+  for (auto const member : members) names.push_back(data.columns[member].name);
+  return names;
+}
+
+std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correlation) {
+  std::string words;
+  for (Eigen::Index i = 0; i < correlation.cols(); ++i) {
+    for (Eigen::Index j = i + 1; j < correlation.cols(); ++j) {
+      if (std::abs(correlation(i, j)) < reported_correlation) continue;
+      std::vector<std::size_t> const pair{static_cast<std::size_t>(i), static_cast<std::size_t>(j)};
+      words += fmt::format("{}{} correlate {:.{}f}: {}", words.empty() ? "" : "; ", listed(names_of(data, pair)),
+                           correlation(i, j), std::abs(correlation(i, j)) > 0.995 ? 4 : 2, advice(data, pair));
+    }
+  }
+  return words;
+}
+
+std::string few_rows_words(RegressionData const& data) {
+  return fmt::format("{} samples are too few for {} parameters and their errors", data.rows(), data.parameters());
+}
+
+}  // namespace
+
+bool too_few_rows(RegressionData const& data) { return data.rows() <= data.parameters(); }
+
+RegressorHealth regressor_health(RegressionData const& data) {
+  TORQUESCOPE_EXPECT(data.columns.size() == static_cast<std::size_t>(data.phi.cols()));
+  RegressorHealth health;
+  if (too_few_rows(data)) {
+    health.identifiable = false;
+    health.condition_number = health.condition_number_raw = std::numeric_limits<double>::infinity();
+    health.correlation = Eigen::MatrixXd::Identity(data.parameters(), data.parameters());
+    health.words = few_rows_words(data);
+    return health;
+  }
+  auto const unit_columns = scaled(data);
+  health.correlation = unit_columns.transpose() * unit_columns;
+  auto const svd = right_svd(unit_columns);
+  health.condition_number = condition(svd.singularValues());
+  health.condition_number_raw = condition(right_svd(data.phi).singularValues());
+  health.identifiable = health.condition_number * identifiable_threshold < 1.0;
+
+  health.words = pair_words(data, health.correlation);
+  if (health.words.empty() && health.condition_number > reported_condition) {
+    auto const members = weakest_members(svd.matrixV());
+    health.words = fmt::format("{} are nearly dependent (condition number {:.0f}): {}", listed(names_of(data, members)),
+                               health.condition_number, advice(data, members));
+  }
+  return health;
+}
+
+Error not_identifiable(RegressionData const& data) {
+  Problem problem{ExitCode::bad_data, ""};
+  problem.key = "model.terms";
+  if (too_few_rows(data)) {
+    problem.what = few_rows_words(data);
+    problem.help = "use a longer recording, or a higher filter.decimate_to_hz";
+    return Error(std::move(problem));
+  }
+
+  auto const lengths = column_lengths(data);
+  std::vector<std::size_t> silent;
+  for (Eigen::Index r = 0; r < lengths.size(); ++r)
+    if (lengths[r] == 0.0) silent.push_back(static_cast<std::size_t>(r));
+  auto const members = silent.empty() ? weakest_members(right_svd(scaled(data)).matrixV()) : silent;
+  auto const names = listed(names_of(data, members));
+  problem.what = silent.empty() ? "the recording cannot tell " + names + " apart: they are proportional in this motion"
+                                : "the recording never excites " + names + ": the regressor is zero there";
+  problem.help = "remove a term, or record again: " + advice(data, members);
+  return Error(std::move(problem));
+}
+
+}  // namespace torquescope

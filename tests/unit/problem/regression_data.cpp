@@ -1,0 +1,100 @@
+#include "engine/problem/regression_data.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "unit/problem/joint_data.hpp"
+
+namespace torquescope {
+namespace {
+
+using testing::HasSubstr;
+
+// the seed's joint as a data logger sees it: position and torque only
+Recording logged(std::string name, double seconds, double rate_hz, Eigen::Vector4d const& parameters) {
+  auto const n = static_cast<Eigen::Index>(std::lround(seconds * rate_hz));
+  Recording recording;
+  recording.name = std::move(name);
+  recording.rate_hz = rate_hz;
+  recording.time_s.resize(n);
+  recording.position.resize(n);
+  recording.torque.resize(n);
+  Regressor const regressor(test::seed_terms, JointKind::revolute);
+  double const w = 2.0 * std::numbers::pi * 0.5, u = 2.0 * std::numbers::pi * 1.3;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double const t = static_cast<double>(i) / rate_hz;
+    JointState const state{t, std::sin(w * t) + 0.2 * std::sin(u * t), w * std::cos(w * t) + 0.2 * u * std::cos(u * t),
+                           -w * w * std::sin(w * t) - 0.2 * u * u * std::sin(u * t)};
+    recording.time_s[i] = t;
+    recording.position[i] = state.q;
+    recording.torque[i] = regressor.torque(state, {parameters.data(), 4});
+  }
+  return recording;
+}
+
+FilterOptions filter() {
+  FilterOptions options;
+  options.cutoff_hz = 40.0;
+  options.parallel_cutoff_hz = 20.0;
+  options.decimate_to_hz = 100.0;
+  return options;
+}
+
+Regressor seed_regressor() { return Regressor(test::seed_terms, JointKind::revolute); }
+
+TEST(RegressionData, GivesTheTruthBackFromPositionAndTorque) {
+  auto const data = make_regression_data({logged("a", 20.0, 1000.0, test::seed_ols)}, filter(), seed_regressor(), {});
+  auto const fit = test::fit("ols", data);
+  // the filtered velocity changes sign up to a sample early or late (PHYSICS.md section 3): friction within 0.5 %
+  for (Eigen::Index r = 0; r < 4; ++r)
+    EXPECT_NEAR(fit.parameters[r], test::seed_ols[r], 0.005 * test::seed_ols.cwiseAbs().maxCoeff()) << r;
+  EXPECT_LT(fit.metrics.relerr, 0.01);
+}
+
+TEST(RegressionData, StacksRecordingsAndKnowsWhoseRowsAreWhose) {
+  auto const first = logged("first", 10.0, 1000.0, test::seed_ols),
+             second = logged("second", 6.0, 500.0, test::seed_ols);
+  auto const both = make_regression_data({first, second}, filter(), seed_regressor(), {});
+  auto const alone = make_regression_data({second}, filter(), seed_regressor(), {});
+  ASSERT_EQ(both.recordings(), 2u);
+  EXPECT_EQ(both.first_row[2], both.rows());
+  EXPECT_EQ(both.rows() - both.first_row[1], alone.rows());
+  EXPECT_EQ(both.phi.bottomRows(alone.rows()), alone.phi);  // no filter runs across the border
+  EXPECT_EQ(both.tau.tail(alone.rows()), alone.tau);
+  EXPECT_EQ(both.recording.front(), 0);
+  EXPECT_EQ(both.recording[static_cast<std::size_t>(both.first_row[1])], 1);
+  EXPECT_THAT(both.recording_names, testing::ElementsAre("first", "second"));
+  EXPECT_THAT(both.rate_hz, testing::ElementsAre(1000.0, 500.0));
+  EXPECT_EQ(both.kept_rate_hz, 100.0);
+  EXPECT_EQ(both.phi.rows(), both.rows());
+  EXPECT_EQ(both.q.size(), both.rows());
+  EXPECT_EQ(both.recording.size(), static_cast<std::size_t>(both.rows()));
+}
+
+TEST(RegressionData, FiltersTorqueAndColumnsAlike) {
+  // if torque is a combination of the columns before the filter, it is the same combination after it
+  Regressor const regressor({"inertia", "viscous"}, JointKind::revolute);
+  auto recording = logged("a", 10.0, 1000.0, test::seed_ols);
+  auto const motion = differentiate(recording, filter(), {});
+  recording.torque = regressor.columns(motion) * Eigen::Vector2d(0.3, 0.7);
+  auto const data = make_regression_data({recording}, filter(), regressor, {});
+  EXPECT_LT((data.tau - data.phi * Eigen::Vector2d(0.3, 0.7)).norm(), 1e-12 * data.tau.norm());
+}
+
+TEST(RegressionData, RefusesRecordingsThatKeepDifferentRates) {
+  auto options = filter();
+  options.decimate_to_hz = 0.0;
+  try {
+    make_regression_data({logged("fast", 10.0, 1000.0, test::seed_ols), logged("slow", 10.0, 500.0, test::seed_ols)},
+                         options, seed_regressor(), {});
+    FAIL();
+  } catch (Error const& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_THAT(error.problems()[0].what, HasSubstr("slow keeps 500 samples a second, fast keeps 1000"));
+    EXPECT_THAT(error.problems()[0].help, HasSubstr("decimate_to_hz = 500"));
+  }
+}
+
+}  // namespace
+}  // namespace torquescope
