@@ -8,12 +8,9 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
       {{"joint", &ModelOptions::joint, std::vector<std::string>{"revolute", "prismatic"},
         "kind of joint: turns or slides"},
        {"terms", &ModelOptions::terms,
-        "effects whose torques add up (torquescope list effects); default: the seed's four"},
+        "effects whose torques add up (torquescope list effects)"},
        {"velocity_deadband", &ModelOptions::velocity_deadband, "rad/s or m/s", 0.0, 1e3,
-        "dry friction is zero at and below this speed; 0: only at rest"},
-       {"lower", &ModelOptions::lower, "SI", -1e12, 1e12,
-        "least parameters of the population methods: one number for all, or one for each in the order of the terms"},
-       {"upper", &ModelOptions::upper, "SI", -1e12, 1e12, "greatest parameters, alike"}});
+        "dry friction is zero at and below this speed; 0: only at rest"}});
   return table;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The [model] section of a job: which terms one joint has, and the box a search may look in (objective_options.hpp).
+// The [model] section of a job: which terms one joint has.
 
 #include <string>
 #include <vector>
@@ -11,10 +11,8 @@ namespace torquescope {
 
 struct ModelOptions {
   std::string joint = "revolute";
-  std::vector<std::string> terms{"inertia", "viscous", "coulomb_positive", "coulomb_negative"};
+  std::vector<std::string> terms{};
   double velocity_deadband = 0.0;
-  std::vector<double> lower{-1.0};
-  std::vector<double> upper{1.0};
 
   static OptionTable<ModelOptions> const& table();
 };

@@ -54,6 +54,10 @@ class FuzzyController {
 
   ControlParameters operator()(double PC, double FC) const;
 
+  // the two levels each system reads: a point on its decision surface
+  std::array<double, 2> F_inputs(double PC, double FC) const { return F_.inputs(change_levels(PC, FC)); }
+  std::array<double, 2> CR_inputs(double PC, double FC) const { return CR_.inputs(change_levels(PC, FC)); }
+
   MamdaniSystem const& F_system() const { return F_.system; }
   MamdaniSystem const& CR_system() const { return CR_.system; }
 
@@ -63,6 +67,7 @@ class FuzzyController {
     double ChangeLevels::*first;
     double ChangeLevels::*second;
     MamdaniSystem system;
+    std::array<double, 2> inputs(ChangeLevels const& levels) const { return {levels.*first, levels.*second}; }
     double operator()(ChangeLevels const& levels) const { return system(levels.*first, levels.*second); }
   };
   static Wired wire_F(FuzzyControllerSettings const& settings);

@@ -24,6 +24,8 @@
 
 namespace torquescope {
 
+class FuzzyController;
+
 // what a search has reached after tell(); everything the result file stores per generation
 struct Progress {
   std::int64_t generation = 0;   // 0: the initial population
@@ -77,6 +79,8 @@ struct OptimiserChoice {
       prepare;
   // members of a population under these options: sizes of the result file (after prepare found no problem)
   std::function<std::size_t(Section const&, std::size_t dimension)> population_size;
+  // the fuzzy controller that these options make, to draw it; empty for methods without one
+  std::function<std::shared_ptr<FuzzyController const>(Section const&)> controller{};
 };
 
 // every optimiser that CMakeLists.txt lists, in that order

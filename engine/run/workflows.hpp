@@ -15,6 +15,9 @@
 
 namespace torquescope {
 
+// instruction set of the kernels on this machine: "AVX3", "AVX2", ...
+std::string vector_target();
+
 // one line of `torquescope check`
 struct CheckLine {
   enum class Level { ok, warn };
@@ -35,6 +38,7 @@ class Experiment {
   std::string job_line() const;   // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
   std::string data_line() const;  // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
   std::uint64_t seed() const;
+  std::string inputs_sha256() const;  // of the job's text and every recording: two results of equal inputs are equal
   std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
   std::vector<CheckLine> check(int threads) const;
   std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts

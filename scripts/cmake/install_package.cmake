@@ -7,6 +7,9 @@ install(EXPORT torquescope_targets NAMESPACE torquescope:: DESTINATION ${CMAKE_I
 install(DIRECTORY engine kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base)
+# the Python page builder, where the installed program looks for it
+install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope FILES_MATCHING
+        PATTERN "*.py" PATTERN "page.*")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)

@@ -15,7 +15,6 @@
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/job/job.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
@@ -36,19 +35,20 @@ Error output_exists(std::filesystem::path const& output, std::string const& why)
   return Error(problem);
 }
 
-// whether this very job has already made the output; Error 73 when something else did
-bool already_complete(std::filesystem::path const& output, std::string const& job_sha256) {
+// whether this very job, on these very recordings, has already made the output; Error 73 when something else did
+bool already_complete(std::filesystem::path const& output, std::string const& inputs_sha256) {
   std::error_code ignored;
   auto const status = std::filesystem::symlink_status(output, ignored);
   if (!std::filesystem::exists(status)) return false;
   if (std::filesystem::is_directory(status)) throw output_exists(output, "is a folder");
   std::string made_by;
   try {
-    made_by = read_summary(output).job_sha256;
+    made_by = read_summary(output).inputs_sha256;
   } catch (Error const& error) {
     throw output_exists(output, "is no complete result file: " + error.problems().front().what);
   }
-  if (made_by != job_sha256) throw output_exists(output, "was made by another job (sha256 differs)");
+  if (made_by != inputs_sha256)
+    throw output_exists(output, "was made by another job, or from other recordings (sha256 differs)");
   return true;
 }
 
@@ -82,7 +82,8 @@ void print_before_start(Session const& session, Experiment const& experiment, Th
   session.note(session.topic_line("job", experiment.job_line()));
   session.note(session.topic_line("data", experiment.data_line()));
   session.note(
-      session.topic_line("threads", fmt::format("{} ({}), seed {}", threads.count, threads.reason, experiment.seed())));
+      session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason, vector_target(),
+                                                            experiment.seed())));
   if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
   for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
 }
@@ -92,7 +93,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 
-  if (already_complete(output, read_job(arguments.job).sha256)) {
+  if (already_complete(output, experiment.inputs_sha256())) {
     session.note(session.topic_line("job", experiment.job_line()));
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);

@@ -127,6 +127,7 @@ ResultSummary read_summary(std::filesystem::path const& file) {
   summary.name = reader.attribute<std::string>("/job", "name");
   summary.study = text_or_empty(reader, "/job", "study");
   summary.job_sha256 = reader.attribute<std::string>("/job", "sha256");
+  summary.inputs_sha256 = reader.attribute<std::string>("/job", "inputs_sha256");
   summary.seed = reader.attribute<std::int64_t>("/job", "seed");
   summary.joint = text_or_empty(reader, "/model", "joint");
   summary.equation = text_or_empty(reader, "/model", "equation");

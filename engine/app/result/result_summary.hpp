@@ -45,7 +45,7 @@ struct ResultSummary {
   std::filesystem::path file;
   std::uintmax_t bytes = 0;
   std::string content_sha256;
-  std::string name, study, job_sha256;
+  std::string name, study, job_sha256, inputs_sha256;
   std::int64_t seed = 0;
   std::string joint, equation, health_words;
   std::vector<std::string> names, units;  // [R]

@@ -91,11 +91,15 @@ class FuzzyAdaptiveDe final : public GenerationalSearch {
   std::shared_ptr<FuzzyController const> controller_;  // shared by all runs
 };
 
-MakeSearch configure_fade(FadeOptions const& options) {
-  auto const controller = std::make_shared<FuzzyController const>(FuzzyControllerSettings{
+std::shared_ptr<FuzzyController const> make_controller(FadeOptions const& options) {
+  return std::make_shared<FuzzyController const>(FuzzyControllerSettings{
       named_choice<Pairing>(pairing_words(), options.pairing), options.F_universe, options.d12_small_mean,
       named_choice<Defuzzification>(defuzzification_words(), options.defuzzification),
       static_cast<std::size_t>(options.centroid_points)});
+}
+
+MakeSearch configure_fade(FadeOptions const& options) {
+  auto const controller = make_controller(options);
   auto const n_members = static_cast<std::size_t>(options.population);
   auto const norm = named_choice<MovementNorm>(movement_norm_words(), options.norm);
   TrialSettings const first{options.F_first, options.CR_first,
@@ -108,8 +112,16 @@ MakeSearch configure_fade(FadeOptions const& options) {
 }  // namespace
 
 OptimiserChoice fade_optimiser() {
-  return make_choice<FadeOptions>("fade", "Fuzzy Adaptive DE", "Liu, Lampinen: Soft Computing 9 (2005) 448-462",
-                                  fade_options(), configure_fade);
+  auto choice = make_choice<FadeOptions>("fade", "Fuzzy Adaptive DE", "Liu, Lampinen: Soft Computing 9 (2005) 448-462",
+                                         fade_options(), configure_fade);
+  choice.controller = [](Section const& section) {
+    // keys of other tables and problems were dealt with by prepare()
+    FadeOptions options;
+    std::vector<Problem> told_before;
+    fade_options().apply(section, options, told_before);
+    return make_controller(options);
+  };
+  return choice;
 }
 
 }  // namespace torquescope

@@ -115,14 +115,10 @@ TEST(VelocityDeadband, OfZeroIsTheSignFunction) {
   EXPECT_EQ(regressor.columns(motion).col(0), Eigen::Vector3d(1.0, 0.0, -1.0));
 }
 
-TEST(ModelOptions, DefaultToTheSeedsModel) {
-  auto const regressor = make_regressor({}, {});
-  EXPECT_EQ(regressor.names(), seed_terms);
-  EXPECT_EQ(regressor.joint(), JointKind::revolute);
-}
+TEST(ModelOptions, HaveNoTermsUnlessWritten) { EXPECT_THROW(make_regressor({}, {"model"}), Error); }
 
 TEST(ModelOptions, AreReadFromTheModelSection) {
-  Section const section{"model", {}, {{"joint", std::string("prismatic")}, {"velocity_deadband", 0.01}}};
+  Section const section{"model", {}, {{"joint", std::string("prismatic")}, {"terms", std::vector<std::string>{"viscous"}}, {"velocity_deadband", 0.01}}};
   ModelOptions options;
   std::vector<Problem> problems;
   ModelOptions::table().apply(section, options, problems);

@@ -1,14 +1,11 @@
 #include "engine/problem/objective_options.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(Losses, AreTheWordsOfTheLossOption) {
   for (auto const& choice : loss_choices()) {
@@ -50,43 +47,6 @@ TEST(HuberDelta, IsTakenAsWritten) {
 TEST(FitnessScale, IsMseUnlessWritten) {
   EXPECT_EQ(fitness_scale({}), FitnessScale::mse);
   EXPECT_EQ(fitness_scale({"squares", 0.0, "sse"}), FitnessScale::sse);
-}
-
-Bounds box(std::vector<double> lower, std::vector<double> upper) {
-  ModelOptions options;
-  options.lower = std::move(lower);
-  options.upper = std::move(upper);
-  return parameter_box(options, Regressor(test::seed_terms, JointKind::revolute), {});
-}
-
-TEST(ParameterBox, IsTheSeedsUnitBoxUnlessWritten) {
-  auto const bounds = parameter_box({}, Regressor(test::seed_terms, JointKind::revolute), {});
-  EXPECT_THAT(bounds.lower, ElementsAre(-1.0, -1.0, -1.0, -1.0));
-  EXPECT_THAT(bounds.upper, ElementsAre(1.0, 1.0, 1.0, 1.0));
-}
-
-TEST(ParameterBox, SpreadsOneNumberAndTakesOneForEach) {
-  auto const bounds = box({0.0}, {1.0, 2.0, 3.0, 4.0});
-  EXPECT_THAT(bounds.lower, ElementsAre(0.0, 0.0, 0.0, 0.0));
-  EXPECT_THAT(bounds.upper, ElementsAre(1.0, 2.0, 3.0, 4.0));
-}
-
-TEST(ParameterBox, RefusesAWrongCountAndAnEmptyBox) {
-  try {
-    box({0.0, 0.0}, {1.0, 2.0, 3.0});
-    FAIL();
-  } catch (Error const& error) {
-    ASSERT_EQ(error.problems().size(), 2u);
-    EXPECT_THAT(error.problems()[0].what, HasSubstr("model.lower has 2 numbers, the model has 4 parameters"));
-    EXPECT_THAT(error.problems()[0].notes[0], HasSubstr("inertia, viscous"));
-  }
-  try {
-    box({0.0}, {1.0, 0.0, 1.0, 1.0});
-    FAIL();
-  } catch (Error const& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_job);
-    EXPECT_THAT(error.problems()[0].what, HasSubstr("the box of viscous is empty"));
-  }
 }
 
 }  // namespace

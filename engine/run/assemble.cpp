@@ -1,0 +1,145 @@
+// From a job file to an Experiment: every name becomes an object, every problem of the job is told at once.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/run/experiment_parts.hpp"
+#include "engine/run/job_sections.hpp"
+#include "engine/run/search_box.hpp"
+#include "engine/run/simulated_recordings.hpp"
+
+namespace torquescope {
+
+namespace {
+
+Problem missing(Job const& job, std::string what, std::string help) {
+  Problem problem;
+  problem.what = std::move(what);
+  problem.place.file = job.path.string();
+  problem.help = std::move(help);
+  return problem;
+}
+
+void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {
+  bool const reads = !recording.train.empty();
+  bool const simulates = job.find("simulate") != nullptr;
+  if (!reads && !simulates)
+    problems.push_back(missing(job, "the job has no data: neither recording.train nor [simulate]",
+                               "write [recording] with train = \"FILE.csv\", or [simulate] with a plant"));
+  if (reads && simulates) {
+    Problem problem;
+    problem.what = "the job has both recording.train and [simulate]";
+    problem.place = job.find("simulate")->place;
+    problem.key = "simulate";
+    problem.help = "remove one of them; `torquescope simulate` writes a recording that train can name";
+    problems.push_back(problem);
+  }
+  if (job.all("estimator").empty())
+    problems.push_back(missing(job, "the job has no [[estimator]]", "write [[estimator]] with name = \"ols\""));
+}
+
+std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> const& files,
+                                       RecordingOptions const& options, Section const& section) {
+  std::vector<Recording> recordings;
+  for (auto const& file : files)
+    recordings.push_back(make_recording(read_table(job.resolve(file), section), options, section));
+  return recordings;
+}
+
+void check_same_rate(std::vector<Recording> const& recordings, Section const& section) {
+  for (auto const& recording : recordings) {
+    double const first = recordings.front().rate_hz;
+    validate(std::fabs(recording.rate_hz - first) <= 1e-3 * first, [&] {
+      Problem problem;
+      problem.code = ExitCode::bad_data;
+      problem.what = fmt::format("{} is sampled at {:.6g} Hz, {} at {:.6g} Hz", recordings.front().name, first,
+                                 recording.name, recording.rate_hz);
+      problem.place = section.where("train");
+      problem.key = "recording.train";
+      problem.help = "recordings of one job share one sampling rate: resample one of them, or use two jobs";
+      return problem;
+    });
+  }
+}
+
+void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan) {
+  auto simulated = simulate_recordings(plan, static_cast<std::uint64_t>(parts.experiment.seed));
+  parts.train.simulated = true;
+  parts.train.recordings.push_back(std::move(simulated.train));
+  if (!simulated.validate.empty()) parts.validate = DataSet{std::move(simulated.validate), {}, {}, true};
+  auto const names = parts.regressor->names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (auto const& [name, value] : simulated.truth)
+      if (name == names[i]) parts.truth[static_cast<Eigen::Index>(i)] = value;
+}
+
+void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
+  Section const section = section_or_empty(parts.job, "recording");
+  parts.train.recordings = read_recordings(parts.job, options.train, options, section);
+  check_same_rate(parts.train.recordings, section);
+  if (!options.validate.empty()) {
+    parts.validate = DataSet{read_recordings(parts.job, options.validate, options, section), {}, {}, false};
+    check_same_rate(parts.validate->recordings, section);
+  }
+}
+
+// the rows of the fit, and what the motion can tell; excitation's warnings join those of the recording
+void prepare(DataSet& set, Experiment::Parts const& parts) {
+  Section const filter = section_or_empty(parts.job, "filter");
+  set.regression = make_regression_data(set.recordings, parts.filter, *parts.regressor, filter);
+  char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
+  for (auto& recording : set.recordings) {
+    set.excitation.push_back(measure_excitation(recording, differentiate(recording, parts.filter, filter)));
+    for (auto const& warning : excitation_warnings(set.excitation.back(), unit)) recording.warnings.push_back(warning);
+  }
+}
+
+}  // namespace
+
+Experiment::Experiment(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Experiment::Experiment(Experiment&&) noexcept = default;
+Experiment::~Experiment() = default;
+
+Experiment Experiment::load(std::filesystem::path const& job_file) {
+  auto parts = std::make_unique<Parts>();
+  parts->job = read_job(job_file);
+  Job const& job = parts->job;
+
+  // everything the text alone can be refused for
+  std::vector<Problem> problems;
+  check_section_names(job, problems);
+  parts->experiment = read_options<ExperimentOptions>(job, problems);
+  if (parts->experiment.name.empty()) parts->experiment.name = job_file.stem().string();
+  parts->output = read_options<OutputOptions>(job, problems);
+  parts->filter = read_options<FilterOptions>(job, problems);
+  auto const recording = read_options<RecordingOptions>(job, problems);
+  auto const model = read_options<ModelOptions>(job, problems);
+  check_sources(job, recording, problems);
+  parts->estimators = plan_estimators(job.all("estimator"), problems);
+  try {
+    parts->regressor = make_regressor(model, section_or_empty(job, "model"));
+    parts->box = read_search_box(parts->regressor->names(), job.find("model.bounds"), problems);
+  } catch (Error const& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+  bool const simulates = job.find("simulate") != nullptr;
+  SimulationPlan plan;
+  if (simulates && parts->regressor) plan = plan_simulation(job, parts->regressor->joint(), problems);
+  if (!problems.empty()) throw Error(std::move(problems));
+
+  // then the data
+  auto const n = static_cast<Eigen::Index>(parts->regressor->size());
+  parts->truth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  if (simulates)
+    use_simulation(*parts, plan);
+  else
+    use_files(*parts, recording);
+  prepare(parts->train, *parts);
+  if (parts->validate) prepare(*parts->validate, *parts);
+  parts->health = regressor_health(parts->train.regression);
+  return Experiment(std::move(parts));
+}
+
+}  // namespace torquescope

@@ -1,0 +1,52 @@
+#pragma once
+// What one [[estimator]] of a job will do: a closed form, or runs of a population method. Names become objects here.
+//
+// Errors     problems are appended (78): unknown name, keys of another estimator, labels used twice
+// Threads    plans are immutable once made
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/optim/fuzzy_controller.hpp"
+#include "engine/optim/optimiser.hpp"
+#include "engine/optim/stop_rules.hpp"
+#include "engine/problem/estimator.hpp"
+#include "engine/problem/objective_options.hpp"
+
+namespace torquescope {
+
+// keys every [[estimator]] may have
+struct EstimatorOptions {
+  std::string name{};   // kind: ols, wls, irls, de, fade, ...
+  std::string label{};  // name in results; default: the kind
+
+  static OptionTable<EstimatorOptions> const& table();
+};
+
+struct EstimatorPlan {
+  std::string label;
+  std::string kind;
+  std::string title;
+  std::vector<std::pair<std::string, OptionValue>> options{};  // every option with its value, for the result file
+
+  // closed forms
+  Estimate fit{};
+
+  // population methods
+  std::function<std::unique_ptr<Optimiser>(Bounds const&, RandomKey)> make_optimiser{};
+  std::shared_ptr<FuzzyController const> controller{};  // of methods that have one
+  StopRules stop_rules{};
+  ObjectiveOptions objective{};
+
+  bool is_closed_form() const { return static_cast<bool>(fit); }
+};
+
+// one plan per section, in their order
+std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& sections, std::vector<Problem>& problems);
+
+}  // namespace torquescope

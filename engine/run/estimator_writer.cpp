@@ -1,0 +1,129 @@
+#include "engine/run/estimator_writer.hpp"
+
+#include <algorithm>
+
+#include "engine/effects/joint_form.hpp"
+
+namespace torquescope {
+
+namespace {
+
+std::string group_of(std::string const& label) { return "/runs/" + label; }
+
+struct HistoryDataset {
+  char const* name;
+  std::vector<double> RunHistory::*values;
+  Note note;
+};
+
+std::vector<HistoryDataset> const& per_generation() {
+  static std::vector<HistoryDataset> const datasets{
+      {"F", &RunHistory::F, {"1", "mutation factor"}},
+      {"CR", &RunHistory::CR, {"1", "crossover rate"}},
+      {"PC", &RunHistory::PC, {"1", "parameter change", "FADE eq. 8"}},
+      {"FC", &RunHistory::FC, {"1", "function value change", "FADE eq. 8"}},
+      {"best", &RunHistory::best, {"(N m)2", "best fitness so far, as MSE"}},
+      {"gap_history", &RunHistory::gap, {"(N m)2", "best MSE above the least-squares floor"}},
+  };
+  return datasets;
+}
+
+void write_numbers(ResultWriter& writer, std::string const& path, std::vector<double> const& values, Note const& note) {
+  writer.numbers(path, {values.size()}, values, note);
+}
+
+// [run][R]
+void write_parameters(ResultWriter& writer, std::string const& path, std::vector<Eigen::VectorXd> const& vectors,
+                      Note const& note) {
+  std::vector<double> rows;
+  for (auto const& vector : vectors) rows.insert(rows.end(), vector.begin(), vector.end());
+  writer.numbers(path, {vectors.size(), static_cast<std::size_t>(vectors.front().size())}, rows, note);
+}
+
+void write_summary(ResultWriter& writer, std::string const& group, RunResults const& results) {
+  auto const mse = RunResults::each(results.train, &PredictionMetrics::mse);
+  writer.attribute(group, "runs", static_cast<std::int64_t>(results.runs()));
+  writer.attribute(group, "mse_median", median(mse));
+  writer.attribute(group, "mse_best", *std::min_element(mse.begin(), mse.end()));
+  writer.attribute(group, "mse_worst", *std::max_element(mse.begin(), mse.end()));
+  writer.attribute(group, "mse_std", standard_deviation(mse));
+  writer.attribute(group, "gap_median", median(results.gap));
+  writer.attribute(group, "relerr_median", median(RunResults::each(results.train, &PredictionMetrics::relerr)));
+  writer.attribute(group, "residual_std_median",
+                   median(RunResults::each(results.train, &PredictionMetrics::residual_std)));
+  if (!results.validate.empty())
+    writer.attribute(group, "validation_relerr_median",
+                     median(RunResults::each(results.validate, &PredictionMetrics::relerr)));
+  writer.attribute(group, "median_run", static_cast<std::int64_t>(lower_median_index(results.gap)));
+  std::int64_t evaluations = 0, nonfinite = 0;
+  for (std::size_t run = 0; run < results.runs(); ++run) {
+    evaluations += results.evaluations[run];
+    nonfinite += results.nonfinite[run];
+  }
+  writer.attribute(group, "evaluations_total", evaluations);
+  writer.attribute(group, "nonfinite_total", nonfinite);
+  Eigen::VectorXd const average = mean(results.parameters);
+  writer.attribute(group, "parameters_mean", std::vector<double>(average.begin(), average.end()));
+}
+
+}  // namespace
+
+void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape) {
+  std::string const group = group_of(label) + "/";
+  std::size_t const generations = shape.generations + 1;
+  writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
+                      {"SI", "population after selection"});
+  writer.declare_runs(group + "fitness", shape.runs, {generations, shape.members}, {"1", "fitness of the population"});
+  for (auto const& dataset : per_generation())
+    writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note);
+  writer.declare_runs(group + "evaluations", shape.runs, {generations}, {"1", "evaluations so far"},
+                      RunValues::whole_number);
+}
+
+void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history) {
+  std::string const group = group_of(label) + "/";
+  writer.write_run(group + "population", run, history.population);
+  writer.write_run(group + "fitness", run, history.fitness);
+  for (auto const& dataset : per_generation()) writer.write_run(group + dataset.name, run, history.*dataset.values);
+  writer.write_run(group + "evaluations", run, history.evaluations);
+}
+
+void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results) {
+  std::string const group = group_of(plan.label);
+  writer.attribute(group, "kind", plan.kind);
+  writer.attribute(group, "title", plan.title);
+  for (auto const& [key, value] : plan.options) writer.attribute(group, key, value);
+  write_parameters(writer, group + "/parameters", results.parameters, {"SI", "estimated parameters"});
+  auto const metric = [&](char const* name, double PredictionMetrics::*member, Note const& note) {
+    write_numbers(writer, group + "/" + name, RunResults::each(results.train, member), note);
+  };
+  metric("mse", &PredictionMetrics::mse, {"(N m)2", "mean squared error"});
+  metric("sse", &PredictionMetrics::sse, {"(N m)2", "sum of squared errors", "seed eq. 10"});
+  metric("relerr", &PredictionMetrics::relerr, {"1", "relative error"});
+  metric("residual_std", &PredictionMetrics::residual_std, {"N m", "standard deviation of the residual"});
+  metric("residual_mean", &PredictionMetrics::residual_mean, {"N m", "mean residual"});
+  if (!results.validate.empty())
+    write_numbers(writer, group + "/validation_relerr",
+                  RunResults::each(results.validate, &PredictionMetrics::relerr),
+                  {"1", "relative error on unseen data"});
+  write_numbers(writer, group + "/gap", results.gap, {"(N m)2", "MSE above the least-squares floor"});
+  writer.texts(group + "/stop_reason", results.stop_reason, {"1", "why each run ended"});
+  write_summary(writer, group, results);
+}
+
+void write_least_squares(ResultWriter& writer, std::string const& label, LeastSquaresFit const& fit,
+                         JointForm const* form) {
+  std::string const group = group_of(label);
+  write_parameters(writer, group + "/standard_error", {fit.standard_error}, {"SI", "standard error", "Newey-West"});
+  write_parameters(writer, group + "/standard_error_naive", {fit.standard_error_naive},
+                   {"SI", "standard error if residuals were white"});
+  auto const n = static_cast<std::size_t>(fit.parameters.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> const intervals = fit.ci95;
+  writer.numbers(group + "/ci95", {1, n, 2}, {intervals.data(), 2 * n}, {"SI", "95 % interval"});
+  if (!form) return;
+  write_parameters(writer, group + "/joint_form", {form->values(fit.parameters)}, {"SI", "equivalent form"});
+  write_parameters(writer, group + "/joint_form_standard_error", {form->standard_errors(fit.covariance_hac)},
+                   {"SI", "standard error of the equivalent form"});
+}
+
+}  // namespace torquescope

@@ -1,0 +1,38 @@
+#pragma once
+// Writes one estimator's runs into the result file: /runs/<label> (RESULT_FORMAT.md).
+//
+// Use        declare_histories(), then write_history() per run in order, then write_results()
+// Errors     those of ResultWriter
+
+#include <cstddef>
+#include <string>
+
+#include "engine/run/estimator_plan.hpp"
+#include "engine/run/run_history.hpp"
+#include "engine/run/run_summary.hpp"
+#include "engine/store/result_writer.hpp"
+
+namespace torquescope {
+
+// sizes of every history of one population method
+struct HistoryShape {
+  std::size_t runs = 0;
+  std::size_t generations = 0;  // without the initial one
+  std::size_t members = 0;
+  std::size_t parameters = 0;
+};
+
+void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape);
+void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history);
+void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results);
+
+// what only least squares has: errors, intervals, the equivalent form (nullptr: the model has none)
+struct JointForm;
+void write_least_squares(ResultWriter& writer, std::string const& label, LeastSquaresFit const& fit,
+                         JointForm const* form);
+
+// curves, surfaces and the path of every run on them; PC and FC: [run][generation]
+void write_controller(ResultWriter& writer, std::string const& label, FuzzyController const& controller,
+                      HistoryShape const& shape, std::vector<double> const& PC, std::vector<double> const& FC);
+
+}  // namespace torquescope

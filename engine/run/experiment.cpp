@@ -1,0 +1,131 @@
+// What an Experiment says of itself: the lines `run` prints first and the lines of `check`.
+
+#include <fmt/format.h>
+
+#include "engine/base/digest.hpp"
+#include "engine/run/experiment_parts.hpp"
+#include "kernels/dispatch.hpp"
+
+namespace torquescope {
+
+namespace {
+
+std::string counted(std::size_t n, std::string const& thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+
+std::size_t runs_of(EstimatorPlan const& plan, ExperimentOptions const& experiment) {
+  return plan.is_closed_form() ? 1 : static_cast<std::size_t>(experiment.runs);
+}
+
+std::string excitation_words(Excitation const& facts, JointKind joint) {
+  return fmt::format("speed {:.3g} to {:.3g} {}/s, {} reversals, {}", facts.speed_least, facts.speed_most,
+                     joint == JointKind::revolute ? "rad" : "m", facts.reversals,
+                     counted(static_cast<std::size_t>(facts.quadrants), "quadrant"));
+}
+
+std::size_t samples_of(std::vector<Recording> const& recordings) {
+  std::size_t samples = 0;
+  for (auto const& recording : recordings) samples += static_cast<std::size_t>(recording.time_s.size());
+  return samples;
+}
+
+double seconds_of(std::vector<Recording> const& recordings) {
+  return static_cast<double>(samples_of(recordings)) / recordings.front().rate_hz;
+}
+
+}  // namespace
+
+std::string const& Experiment::name() const { return parts_->experiment.name; }
+
+std::uint64_t Experiment::seed() const { return static_cast<std::uint64_t>(parts_->experiment.seed); }
+
+std::filesystem::path Experiment::output_file() const {
+  return parts_->output.file.empty() ? std::filesystem::path(name() + ".h5") : std::filesystem::path(parts_->output.file);
+}
+
+std::string Experiment::inputs_sha256() const {
+  Digest digest;
+  digest.text(parts_->job.sha256);
+  for (auto const& recording : parts_->train.recordings) digest.text(recording.sha256);
+  if (parts_->validate)
+    for (auto const& recording : parts_->validate->recordings) digest.text(recording.sha256);
+  return digest.hex();
+}
+
+std::string vector_target() { return std::string(kernels::instruction_set()); }
+
+std::string Experiment::job_line() const {
+  std::vector<std::string> labels;
+  std::size_t runs = 0;
+  for (auto const& plan : parts_->estimators) {
+    labels.push_back(plan.label);
+    runs += runs_of(plan, parts_->experiment);
+  }
+  return fmt::format("{}: 1 joint, {}; {}; {}", name(), counted(parts_->regressor->size(), "parameter"),
+                     fmt::join(labels, ", "), counted(runs, "run"));
+}
+
+std::string Experiment::data_line() const {
+  auto const& recordings = parts_->train.recordings;
+  std::string line = recordings.size() == 1 ? recordings.front().name : counted(recordings.size(), "recording");
+  line += fmt::format(", {} samples, {:.4g} s at {:.6g} Hz", samples_of(recordings), seconds_of(recordings),
+                      recordings.front().rate_hz);
+  if (parts_->filter.cutoff_hz > 0.0) line += fmt::format("; cutoff {:.4g} Hz", parts_->filter.cutoff_hz);
+  if (parts_->validate) line += fmt::format("; unseen {:.4g} s", seconds_of(parts_->validate->recordings));
+  return line;
+}
+
+std::vector<std::string> Experiment::warnings() const {
+  std::vector<std::string> lines;
+  auto const add = [&](DataSet const& set) {
+    for (auto const& recording : set.recordings)
+      for (auto const& warning : recording.warnings)
+        lines.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));
+  };
+  add(parts_->train);
+  if (parts_->validate) add(*parts_->validate);
+  if (!parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
+  return lines;
+}
+
+std::vector<CheckLine> Experiment::check(int threads) const {
+  using Level = CheckLine::Level;
+  std::vector<CheckLine> lines;
+  std::size_t keys = 0;
+  for (auto const& section : parts_->job.sections) keys += section.settings.size();
+  lines.push_back({Level::ok, "job", fmt::format("{}, none unknown", counted(keys, "key"))});
+
+  auto const add_set = [&](DataSet const& set, std::string const& purpose) {
+    for (auto const& recording : set.recordings) {
+      lines.push_back({Level::ok, purpose,
+                       fmt::format("{}: {} samples at {:.6g} Hz", recording.name, recording.time_s.size(),
+                                   recording.rate_hz)});
+      for (auto const& warning : recording.warnings) lines.push_back({Level::warn, warning.topic, warning.text});
+    }
+  };
+  add_set(parts_->train, "recording");
+  if (parts_->validate) add_set(*parts_->validate, "unseen");
+
+  for (auto const& facts : parts_->train.excitation)
+    lines.push_back({Level::ok, "excitation", excitation_words(facts, parts_->regressor->joint())});
+  if (parts_->health.words.empty())
+    lines.push_back({Level::ok, "separable", fmt::format("condition number {:.3g}", parts_->health.condition_number)});
+  else
+    lines.push_back({Level::warn, "separable", parts_->health.words});
+
+  double evaluations = 0.0, bytes = 0.0;
+  auto const parameters = static_cast<double>(parts_->regressor->size());
+  for (auto const& plan : parts_->estimators) {
+    if (plan.is_closed_form()) continue;
+    auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->batch_size());
+    double const generations = static_cast<double>(plan.stop_rules.generations) + 1.0;
+    evaluations += static_cast<double>(parts_->experiment.runs) * generations * members;
+    bytes += static_cast<double>(parts_->experiment.runs) * generations * (members * (parameters + 1.0) + 7.0) * 8.0;
+  }
+  lines.push_back({Level::ok, "plan",
+                   fmt::format("{}, {:.0f} evaluations at most, {:.3g} MB of history, {}",
+                               counted(parts_->estimators.size(), "estimator"), evaluations, bytes / 1e6,
+                               counted(static_cast<std::size_t>(threads), "thread"))});
+  return lines;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,48 @@
+#pragma once
+// A job turned into objects: what Experiment::load makes and the workflows use. Nothing here changes after load().
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/data/excitation.hpp"
+#include "engine/data/motion.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/data/recording_reader.hpp"
+#include "engine/effects/model_options.hpp"
+#include "engine/effects/regressor.hpp"
+#include "engine/job/job.hpp"
+#include "engine/job/job_options.hpp"
+#include "engine/optim/objective.hpp"
+#include "engine/problem/regression_data.hpp"
+#include "engine/problem/regressor_health.hpp"
+#include "engine/run/estimator_plan.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+// recordings of one purpose, as read and as the estimators see them
+struct DataSet {
+  std::vector<Recording> recordings;
+  RegressionData regression;
+  std::vector<Excitation> excitation;  // per recording
+  bool simulated = false;
+};
+
+struct Experiment::Parts {
+  Job job;
+  ExperimentOptions experiment;
+  OutputOptions output;
+  FilterOptions filter;
+  std::optional<Regressor> regressor;  // always there once loaded
+  DataSet train;
+  std::optional<DataSet> validate;
+  RegressorHealth health;
+  Bounds box;
+  Eigen::VectorXd truth;  // NaN where unknown
+  std::vector<EstimatorPlan> estimators;
+};
+
+}  // namespace torquescope

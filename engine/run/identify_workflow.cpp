@@ -1,0 +1,199 @@
+// `torquescope run`: every estimator of a job over the recordings, every generation into the result file.
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <mutex>
+
+#include "engine/base/version.hpp"
+#include "engine/effects/joint_form.hpp"
+#include "engine/problem/residual_objective.hpp"
+#include "engine/run/estimator_writer.hpp"
+#include "engine/run/experiment_parts.hpp"
+#include "engine/run/optimise.hpp"
+#include "engine/run/run_scheduler.hpp"
+#include "engine/run/study_writer.hpp"
+
+namespace torquescope {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string utc_now() {
+  std::time_t const now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
+}
+
+// tells the sink at most once per finished run and some times a second between
+class StageProgress {
+ public:
+  StageProgress(ProgressSink const& sink, std::string stage, std::int64_t runs, std::int64_t evaluations)
+      : sink_(sink), start_(Clock::now()) {
+    update_.stage = std::move(stage);
+    update_.runs_total = runs;
+    update_.evaluations_total = evaluations;
+    tell();
+  }
+
+  void count_evaluations(std::int64_t evaluations) {
+    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
+    // a thread that finds the sink busy leaves the news to the next one
+    std::unique_lock const lock(guard_, std::try_to_lock);
+    if (lock.owns_lock() && seconds_since(last_) > 0.05) tell();
+  }
+
+  void count_run() {
+    std::lock_guard const lock(guard_);
+    ++update_.runs_done;
+    tell();
+  }
+
+ private:
+  void tell() {
+    last_ = Clock::now();
+    update_.evaluations_done = evaluations_.load(std::memory_order_relaxed);
+    update_.seconds = seconds_since(start_);
+    if (sink_) sink_(update_);
+  }
+
+  ProgressSink const& sink_;
+  Clock::time_point start_;
+  Clock::time_point last_{};
+  std::mutex guard_;
+  std::atomic<std::int64_t> evaluations_{0};
+  ProgressUpdate update_;
+};
+
+// what every estimator of one job shares
+struct Study {
+  Experiment::Parts const& parts;
+  IdentifyOptions const& options;
+  ProgressSink const& progress;
+  ResultWriter& writer;
+  ResidualObjective const& squares;  // of the training rows: what every gap is measured with
+};
+
+void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
+              std::int64_t nonfinite, RunResults& results) {
+  results.gap.push_back(study.squares.gap({parameters.data(), static_cast<std::size_t>(parameters.size())}));
+  results.train.push_back(prediction_metrics(study.parts.train.regression, parameters));
+  if (study.parts.validate)
+    results.validate.push_back(prediction_metrics(study.parts.validate->regression, parameters));
+  results.parameters.push_back(parameters);
+  results.stop_reason.push_back(std::move(stop_reason));
+  results.evaluations.push_back(evaluations);
+  results.nonfinite.push_back(nonfinite);
+}
+
+RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
+  StageProgress progress(study.progress, plan.label, 1, 1);
+  LeastSquaresFit const fit = plan.fit(study.parts.train.regression);
+  RunResults results;
+  keep_run(study, fit.parameters, "closed form", 1, 0, results);
+  auto const form = joint_form(*study.parts.regressor);
+  write_least_squares(study.writer, plan.label, fit, form ? &*form : nullptr);
+  progress.count_evaluations(1);
+  progress.count_run();
+  return results;
+}
+
+RunResults run_population_method(Study const& study, EstimatorPlan const& plan) {
+  auto const& parts = study.parts;
+  ResidualObjective const objective(parts.train.regression, parts.box,
+                                    make_loss(plan.objective, parts.train.regression), fitness_scale(plan.objective));
+  HistoryShape const shape{static_cast<std::size_t>(parts.experiment.runs),
+                           static_cast<std::size_t>(plan.stop_rules.generations),
+                           plan.make_optimiser(parts.box, {})->batch_size(), parts.regressor->size()};
+  declare_histories(study.writer, plan.label, shape);
+  StageProgress progress(study.progress, plan.label, parts.experiment.runs,
+                         static_cast<std::int64_t>(shape.runs * (shape.generations + 1) * shape.members));
+
+  SearchSetting const setting{
+      objective,
+      plan.stop_rules,
+      objective.as_mean(1.0),
+      [&](std::span<double const> candidate) { return study.squares.gap(candidate); },
+      [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
+      study.options.stop_requested,
+  };
+  auto const run = [&](std::size_t index, int team) {
+    RandomKey const key{static_cast<std::uint64_t>(parts.experiment.seed), static_cast<std::uint32_t>(index)};
+    auto const optimiser = plan.make_optimiser(parts.box, key);
+    std::vector<Workspace> workspaces;
+    return optimise(*optimiser, setting, team, workspaces);
+  };
+  RunResults results;
+  std::vector<double> PC, FC;
+  auto const commit = [&](std::size_t index, RunHistory&& history) {
+    write_history(study.writer, plan.label, index, history);
+    Eigen::VectorXd const parameters =
+        Eigen::Map<Eigen::VectorXd const>(history.parameters.data(), static_cast<Eigen::Index>(shape.parameters));
+    keep_run(study, parameters, history.stop_reason, history.evaluations.back(), history.nonfinite, results);
+    PC.insert(PC.end(), history.PC.begin(), history.PC.end());
+    FC.insert(FC.end(), history.FC.begin(), history.FC.end());
+    progress.count_run();
+  };
+  schedule_runs(shape.runs, study.options.threads.count, run, commit);
+  if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
+  return results;
+}
+
+void write_provenance(ResultWriter& writer, IdentifyOptions const& options, std::string const& started,
+                      double seconds) {
+  std::string const group = "/provenance";
+  writer.attribute(group, "started", started);
+  writer.attribute(group, "finished", utc_now());
+  writer.attribute(group, "seconds", seconds);
+  writer.attribute(group, "host", host_name());
+  writer.attribute(group, "threads", std::int64_t{options.threads.count});
+  writer.attribute(group, "threads_reason", options.threads.reason);
+  writer.attribute(group, "vector_target", vector_target());
+  writer.attribute(group, "version", std::string(version));
+  writer.attribute(group, "compiler", std::string(compiler));
+  writer.attribute(group, "build_type", std::string(build_type));
+}
+
+}  // namespace
+
+IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress) {
+  auto const start = Clock::now();
+  std::string const started = utc_now();
+  auto const& parts = experiment.parts();
+  ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
+  write_study(writer, experiment);
+
+  ResidualObjective const squares(parts.train.regression, parts.box);
+  Study const study{parts, options, progress, writer, squares};
+  IdentifyReport report;
+  std::vector<std::string> order;
+  for (auto const& plan : parts.estimators) {
+    RunResults const results =
+        plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
+    write_results(writer, plan, results);
+    order.push_back(plan.label);
+    report.runs += static_cast<std::int64_t>(results.runs());
+    for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;
+  }
+  writer.attribute("/runs", "order", order);
+  report.seconds = seconds_since(start);
+  write_provenance(writer, options, started, report.seconds);
+  report.content_sha256 = writer.finish();
+  report.bytes = std::filesystem::file_size(options.output);
+  return report;
+}
+
+}  // namespace torquescope

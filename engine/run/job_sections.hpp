@@ -1,0 +1,27 @@
+#pragma once
+// Which sections a job may have, and reading one by its option table.
+//
+// Errors     problems are appended (78)
+
+#include <string>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/job/job.hpp"
+
+namespace torquescope {
+
+std::vector<std::string> const& known_sections();
+void check_section_names(Job const& job, std::vector<Problem>& problems);
+
+// an absent section is an empty one: all defaults
+Section section_or_empty(Job const& job, std::string const& name);
+
+template <class Options>
+Options read_options(Job const& job, std::vector<Problem>& problems) {
+  Options options;
+  Options::table().apply(section_or_empty(job, Options::table().section()), options, problems);
+  return options;
+}
+
+}  // namespace torquescope

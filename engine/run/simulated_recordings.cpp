@@ -1,0 +1,45 @@
+#include "engine/run/simulated_recordings.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// what a reader would have made of the file that `torquescope simulate` writes
+Recording as_recording(SimulatedRecording const& simulated) {
+  Recording recording;
+  recording.name = simulated.name;
+  recording.sha256 = simulated.sha256;
+  recording.rate_hz = simulated.rate_hz;
+  recording.time_s = simulated.time_s;
+  recording.position = simulated.position;
+  recording.torque = simulated.torque;
+  recording.reference = simulated.reference;
+  if (simulated.has_exact_motion) {
+    recording.velocity = simulated.true_velocity;
+    recording.acceleration = simulated.true_acceleration;
+  }
+  if (simulated.saturated_samples > 0)
+    recording.warnings.push_back(
+        {"saturation", std::to_string(simulated.saturated_samples) + " samples at the simulated motor's limit"});
+  return recording;
+}
+
+}  // namespace
+
+SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Problem>& problems) {
+  SimulationSections const sections{job.find("simulate"),           job.find("simulate.plant"),
+                                    job.find("simulate.reference"), job.find("simulate.controller"),
+                                    job.find("simulate.encoder"),   job.find("simulate.noise")};
+  return read_simulation(sections, joint, problems);
+}
+
+SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed) {
+  SimulatedRecordings recordings;
+  SimulatedRecording const train = simulate_joint(plan, seed, 0);
+  recordings.train = as_recording(train);
+  for (auto const& value : train.truth) recordings.truth.emplace_back(value.name, value.value);
+  if (plan.simulation.validate) recordings.validate.push_back(as_recording(simulate_joint(plan, seed, 1)));
+  return recordings;
+}
+
+}  // namespace torquescope

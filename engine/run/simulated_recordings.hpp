@@ -1,0 +1,27 @@
+#pragma once
+// The recordings a job's [simulate] describes, as if they had been read from files.
+//
+// Errors     Error 78 with every problem of the [simulate] sections, or when the closed loop runs away
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/job/job.hpp"
+#include "engine/simulate/joint_simulation.hpp"
+
+namespace torquescope {
+
+struct SimulatedRecordings {
+  Recording train;
+  std::vector<Recording> validate;                    // one, or none
+  std::vector<std::pair<std::string, double>> truth;  // parameter name, value
+};
+
+// problems are appended; the plan is usable only when there are none
+SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Problem>& problems);
+SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed);
+
+}  // namespace torquescope

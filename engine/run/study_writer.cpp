@@ -1,0 +1,110 @@
+#include "engine/run/study_writer.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/effects/joint_form.hpp"
+
+namespace torquescope {
+
+namespace {
+
+std::span<double const> numbers_of(Eigen::VectorXd const& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+void write_job(ResultWriter& writer, Experiment::Parts const& parts) {
+  writer.texts("/job/text", std::vector<std::string>{parts.job.text}, {"1", "job file, verbatim"});
+  writer.attribute("/job", "name", parts.experiment.name);
+  writer.attribute("/job", "study", parts.experiment.study);
+  writer.attribute("/job", "seed", parts.experiment.seed);
+  writer.attribute("/job", "runs", parts.experiment.runs);
+  writer.attribute("/job", "sha256", parts.job.sha256);
+}
+
+void write_model(ResultWriter& writer, Experiment::Parts const& parts) {
+  Regressor const& regressor = *parts.regressor;
+  std::size_t const n = regressor.size();
+  writer.texts("/model/names", regressor.names(), {"1", "parameter names"});
+  writer.texts("/model/units", regressor.units(), {"1", "parameter units"});
+  writer.numbers("/model/truth", {n}, numbers_of(parts.truth), {"SI", "true parameters of the simulated joint"});
+  writer.numbers("/model/lower", {n}, parts.box.lower, {"SI", "lower end of the box"});
+  writer.numbers("/model/upper", {n}, parts.box.upper, {"SI", "upper end of the box"});
+  bool const revolute = regressor.joint() == JointKind::revolute;
+  writer.attribute("/model", "joint", std::string(revolute ? "revolute" : "prismatic"));
+  writer.attribute("/model", "equation", regressor.equation());
+  if (auto const form = joint_form(regressor)) {
+    writer.texts("/model/joint_form_names", form->names, {"1", "names of the equivalent form"});
+    writer.texts("/model/joint_form_units", form->units, {"1", "units of the equivalent form"});
+  }
+}
+
+void write_data_attributes(ResultWriter& writer, std::string const& group, DataSet const& set,
+                           FilterOptions const& filter) {
+  std::vector<std::string> names, digests;
+  double duration_s = 0.0;
+  for (auto const& recording : set.recordings) {
+    names.push_back(recording.name);
+    digests.push_back(recording.sha256);
+    duration_s += static_cast<double>(recording.time_s.size()) / recording.rate_hz;
+  }
+  writer.attribute(group, "recordings", names);
+  writer.attribute(group, "sha256", digests);
+  writer.attribute(group, "rate_hz", set.recordings.front().rate_hz);
+  writer.attribute(group, "kept_rate_hz", set.regression.kept_rate_hz);
+  writer.attribute(group, "duration_s", duration_s);
+  writer.attribute(group, "simulated", std::int64_t{set.simulated ? 1 : 0});
+  for (auto const& [key, value] : FilterOptions::table().values(filter)) writer.attribute(group, key, value);
+  std::int64_t reversals = 0;
+  for (auto const& facts : set.excitation) reversals += static_cast<std::int64_t>(facts.reversals);
+  writer.attribute(group, "reversals", reversals);
+}
+
+void write_data_set(ResultWriter& writer, std::string const& group, DataSet const& set, FilterOptions const& filter,
+                    JointKind joint) {
+  RegressionData const& data = set.regression;
+  auto const n = static_cast<std::size_t>(data.rows());
+  bool const revolute = joint == JointKind::revolute;
+  std::string const length = revolute ? "rad" : "m";
+  std::string const torque_unit = revolute ? "N m" : "N";
+  writer.numbers(group + "/time", {n}, numbers_of(data.time_s), {"s", "time"});
+  writer.whole_numbers(group + "/recording", {n}, data.recording, {"1", "index of the recording"});
+  writer.numbers(group + "/position", {n}, numbers_of(data.q), {length, "position"});
+  writer.numbers(group + "/velocity", {n}, numbers_of(data.dq), {length + "/s", "velocity"});
+  writer.numbers(group + "/acceleration", {n}, numbers_of(data.ddq), {length + "/s2", "acceleration"});
+  writer.numbers(group + "/torque", {n}, numbers_of(data.tau), {torque_unit, revolute ? "torque" : "force"});
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const rows = data.phi;
+  auto const columns = static_cast<std::size_t>(data.parameters());
+  writer.numbers(group + "/regressor", {n, columns}, {rows.data(), n * columns}, {"SI", "regressor"});
+
+  std::vector<std::string> warnings;
+  for (auto const& recording : set.recordings)
+    for (auto const& warning : recording.warnings)
+      warnings.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));
+  if (!warnings.empty()) writer.texts(group + "/warnings", warnings, {"1", "what `check` would say"});
+  write_data_attributes(writer, group, set, filter);
+  writer.plottable(group, "torque", {"time"});
+}
+
+void write_health(ResultWriter& writer, RegressorHealth const& health) {
+  Eigen::MatrixXd const& correlation = health.correlation;  // symmetric: row-major is column-major
+  auto const n = static_cast<std::size_t>(correlation.rows());
+  writer.numbers("/data/regressor_health/correlation", {n, n}, {correlation.data(), n * n},
+                 {"1", "correlation of the regressor's columns (uncentred)"});
+  writer.attribute("/data/regressor_health", "condition_number", health.condition_number);
+  writer.attribute("/data/regressor_health", "words", health.words);
+}
+
+}  // namespace
+
+void write_study(ResultWriter& writer, Experiment const& experiment) {
+  Experiment::Parts const& parts = experiment.parts();
+  write_job(writer, parts);
+  writer.attribute("/job", "inputs_sha256", experiment.inputs_sha256());
+  write_model(writer, parts);
+  write_data_set(writer, "/data/train", parts.train, parts.filter, parts.regressor->joint());
+  if (parts.validate)
+    write_data_set(writer, "/data/validate", *parts.validate, parts.filter, parts.regressor->joint());
+  write_health(writer, parts.health);
+}
+
+}  // namespace torquescope

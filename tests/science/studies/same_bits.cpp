@@ -1,0 +1,56 @@
+// The promise of DESIGN.md section 6: the same job gives the same content whatever the threads and the instruction set.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "engine/run/workflows.hpp"
+#include "kernels/dispatch.hpp"
+
+namespace torquescope {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string digest_of(std::string const& job, int threads, std::string const& tag) {
+  fs::path const output = fs::temp_directory_path() / ("torquescope_same_bits_" + tag + ".h5");
+  fs::remove(output);
+  IdentifyOptions options;
+  options.threads = {threads, "test"};
+  options.output = output;
+  auto const report =
+      identify(Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job), options, ProgressSink{});
+  fs::remove(output);
+  return report.content_sha256;
+}
+
+TEST(SameBits, ForOneTwoAndThreeThreads) {
+  for (std::string const job : {"smoke.toml", "crs_a465_joint.toml"}) {
+    std::set<std::string> digests;
+    for (int threads : {1, 2, 3}) digests.insert(digest_of(job, threads, std::to_string(threads)));
+    EXPECT_EQ(digests.size(), 1u) << job;
+    EXPECT_EQ(digests.begin()->size(), 64u);
+  }
+}
+
+TEST(SameBits, ForMoreThreadsThanRuns) {
+  // smoke has 4 runs: nine threads make teams of two that split each population
+  EXPECT_EQ(digest_of("smoke.toml", 1, "alone"), digest_of("smoke.toml", 9, "teams"));
+}
+
+TEST(SameBits, ForEveryInstructionSetWithFma) {
+  std::set<std::string> digests;
+  int tried = 0;
+  for (auto const target : kernels::supported_instruction_sets()) {
+    ASSERT_TRUE(kernels::force_instruction_set(target));
+    if (!kernels::instruction_set_has_fma()) continue;
+    digests.insert(digest_of("smoke.toml", 2, std::string(target)));
+    ++tried;
+  }
+  kernels::release_instruction_set();
+  if (tried < 2) GTEST_SKIP() << "this machine has " << tried << " instruction set with FMA: nothing to compare";
+  EXPECT_EQ(digests.size(), 1u);
+}
+
+}  // namespace
+}  // namespace torquescope

@@ -1,0 +1,70 @@
+"""Includes only point downwards: engine/layers.txt is the law, this test reads it and every #include of ours.
+
+A folder under engine/ (and kernels/) is a layer; a file may include its own layer and those after its layer's colon.
+"""
+import pathlib
+import re
+import sys
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+"((?:engine|kernels)/[^"]+)"', re.MULTILINE)
+
+
+def read_layers(text):
+    """layers.txt -> {layer: set of layers it may use}; "all of the above" means what it says."""
+    allowed = {}
+    for line in text.splitlines():
+        if not line.strip():
+            continue
+        name, _, uses = line.partition(":")
+        uses = uses.strip()
+        allowed[name] = set(allowed) if uses == "all of the above" else set(uses.split())
+    return allowed
+
+
+def layer_of(path):
+    parts = pathlib.PurePosixPath(path).parts
+    return "kernels" if parts[0] == "kernels" else parts[1]
+
+
+def violations(sources, allowed):
+    """sources: {path relative to the root: text} -> list of "file includes header: why not" """
+    found = []
+    for path, text in sorted(sources.items()):
+        layer = layer_of(path)
+        if layer not in allowed:
+            found.append(f"{path}: folder is not a layer of engine/layers.txt")
+            continue
+        for header in INCLUDE.findall(text):
+            target = layer_of(header)
+            if target != layer and target not in allowed[layer]:
+                found.append(f"{path} includes {header}: {layer} may not use {target}")
+    return found
+
+
+def teeth(allowed):
+    """The checker itself: an upward include, a foreign folder and an allowed include."""
+    sample = {
+        "engine/optim/a.cpp": '#include "engine/store/result_writer.hpp"',
+        "engine/base/b.cpp": '#  include "kernels/dispatch.hpp"',
+        "engine/attic/c.cpp": "",
+        "engine/data/d.cpp": '#include "engine/base/error.hpp"\n#include "engine/data/motion.hpp"',
+    }
+    assert len(violations(sample, allowed)) == 3, "the layer test has lost its teeth"
+
+
+def main(root):
+    root = pathlib.Path(root)
+    allowed = read_layers((root / "engine" / "layers.txt").read_text())
+    for layer, uses in allowed.items():
+        assert uses <= set(allowed), f"{layer} uses unknown layers {uses - set(allowed)}"
+    teeth(allowed)
+    files = [p for folder in ("engine", "kernels") for p in (root / folder).rglob("*") if p.suffix in (".hpp", ".cpp")]
+    assert len(files) > 50, "too few sources found: is this the source tree?"
+    sources = {p.relative_to(root).as_posix(): p.read_text() for p in files}
+    found = violations(sources, allowed)
+    print("\n".join(found) or f"{len(sources)} files, {len(allowed)} layers: every include points downwards")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
