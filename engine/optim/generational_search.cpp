@@ -16,8 +16,6 @@ namespace {
 constexpr double state_version = 1.0;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-void forget_controls(Progress& progress) { progress.F = progress.CR = progress.PC = progress.FC = none; }
-
 }  // namespace
 
 GenerationalSearch::GenerationalSearch(std::string kind, Bounds bounds, RandomKey key, std::size_t n_members)
@@ -26,7 +24,7 @@ GenerationalSearch::GenerationalSearch(std::string kind, Bounds bounds, RandomKe
   TORQUESCOPE_EXPECT(bounds_.lower.size() == bounds_.upper.size());
   progress_.best_fitness = std::numeric_limits<double>::infinity();
   progress_.best.assign(bounds_.dimension(), none);
-  forget_controls(progress_);
+  progress_.F = progress_.CR = progress_.PC = progress_.FC = none;
 }
 
 void GenerationalSearch::ask(MatrixView<double> candidates) const {
@@ -66,7 +64,6 @@ void GenerationalSearch::select_and_learn(MatrixView<double const> asked, std::s
   before_ = population_;
   select(asked, fitness, population_);
   ++progress_.generation;
-  forget_controls(progress_);
   learn(before_, population_, progress_);
 }
 

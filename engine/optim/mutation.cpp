@@ -1,6 +1,5 @@
 #include "engine/optim/mutation.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace torquescope {
@@ -14,8 +13,10 @@ std::array<std::size_t, 3> pick_three_others(RandomStream& random, std::size_t n
     std::size_t index = random.below(static_cast<std::uint32_t>(n_members - 1 - k));
     for (std::size_t t = 0; t <= k; ++t) index += index >= taken[t] ? 1 : 0;
     picked[k] = index;
-    taken[k + 1] = index;
-    std::sort(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+    // keep `taken` ascending (gcc 12 warns of std::sort on so short an array)
+    std::size_t place = k + 1;
+    for (; place > 0 && taken[place - 1] > index; --place) taken[place] = taken[place - 1];
+    taken[place] = index;
   }
   return picked;
 }

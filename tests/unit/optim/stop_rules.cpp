@@ -103,6 +103,15 @@ TEST(StopRules, StagnationCountsGenerationsWithoutImprovement) {
   EXPECT_EQ(search->progress().last_improvement, 0);
 }
 
+TEST(StopRules, StagnationStartsAnewWithEveryImprovement) {
+  auto const search = de();
+  StopRules rules = without_limit();
+  rules.stagnation = 8;
+  EXPECT_EQ(run(*search, rules, sphere), StopReason::stagnation);
+  EXPECT_GT(search->progress().last_improvement, 8);
+  EXPECT_EQ(search->progress().generation, search->progress().last_improvement + 8);
+}
+
 TEST(StopRules, NonfiniteFitnessIsNeitherTargetNorSmallRange) {
   auto const search = de();
   StopRules rules;
