@@ -71,6 +71,16 @@ struct Option {
   Option(std::string key_, Member member_, std::vector<std::string> words_, std::string meaning_)
       : key(std::move(key_)), member(member_), words(std::move(words_)), meaning(std::move(meaning_)) {}
 
+  // the only readers and writers of members. Not inlined: GCC 12 follows every alternative of the variant into the
+  // object, and takes a text read from a struct of two numbers for one out of bounds
+  [[gnu::noinline]] OptionValue get(Options const& options) const {
+    return std::visit([&](auto one) { return OptionValue(options.*one); }, member);
+  }
+  // Requires   a value of the member's type
+  [[gnu::noinline]] void set(Options& options, OptionValue const& value) const {
+    std::visit([&](auto one) { options.*one = std::get<std::decay_t<decltype(options.*one)>>(value); }, member);
+  }
+
   std::string key;
   Member member;
   std::string unit{};
@@ -120,24 +130,20 @@ void OptionTable<Options>::apply(Section const& section, Options& options, std::
     for (auto const& option : options_) {
       if (option.key != setting.key) continue;
       is_known = true;
-      std::visit(
-          [&](auto member) {
-            OptionValue const wanted = options.*member;
-            auto value = converted(setting.value, wanted);
-            if (!value) {
-              problems.push_back(wrong_type(section, setting, wanted));
-              return;
-            }
-            auto problem = check_option(*value, setting.key, option.unit, option.least, option.most, option.words);
-            if (problem) {
-              problem->place = setting.value_place;
-              problem->key = section.name + "." + setting.key;
-              problems.push_back(std::move(*problem));
-              return;
-            }
-            options.*member = std::get<std::decay_t<decltype(options.*member)>>(*value);
-          },
-          option.member);
+      auto const wanted = option.get(options);
+      auto const value = converted(setting.value, wanted);
+      if (!value) {
+        problems.push_back(wrong_type(section, setting, wanted));
+        continue;
+      }
+      auto problem = check_option(*value, setting.key, option.unit, option.least, option.most, option.words);
+      if (problem) {
+        problem->place = setting.value_place;
+        problem->key = section.name + "." + setting.key;
+        problems.push_back(std::move(*problem));
+        continue;
+      }
+      option.set(options, *value);
     }
     if (!is_known) problems.push_back(unknown_key(section, setting, known));
   }
@@ -145,11 +151,10 @@ void OptionTable<Options>::apply(Section const& section, Options& options, std::
 
 template <class Options>
 std::vector<OptionDescription> OptionTable<Options>::describe() const {
-  // static: GCC 12 takes a small Options on the stack for an uninitialised one
-  static Options const defaults{};
+  Options const defaults{};
   std::vector<OptionDescription> descriptions;
   for (auto const& option : options_) {
-    OptionValue const value = std::visit([&](auto member) { return OptionValue(defaults.*member); }, option.member);
+    auto const value = option.get(defaults);
     descriptions.push_back({option.key, type_name(value), option.unit, range_text(option.least, option.most, option.words),
                             to_text(value), option.meaning});
   }
@@ -160,8 +165,7 @@ template <class Options>
 std::vector<std::pair<std::string, OptionValue>> OptionTable<Options>::values(Options const& options) const {
   std::vector<std::pair<std::string, OptionValue>> result;
   for (auto const& option : options_)
-    result.emplace_back(option.key,
-                        std::visit([&](auto member) { return OptionValue(options.*member); }, option.member));
+    result.emplace_back(option.key, option.get(options));
   return result;
 }
 
