@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/base/contract.hpp"
+#include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
@@ -26,6 +27,15 @@ double percentile(std::vector<double>& values, double share) {
 
 std::span<double const> numbers(Eigen::VectorXd const& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+// near the ends the filter answers to what it was continued with
+Motion between_edges(Motion const& motion, Eigen::Index edge) {
+  Eigen::Index const kept = motion.q.size() - 2 * edge;
+  TORQUESCOPE_EXPECT(kept > 0 && motion.dq.size() == motion.torque.size());
+  auto const inner = [&](Eigen::VectorXd const& signal) -> Eigen::VectorXd { return signal.segment(edge, kept); };
+  return {motion.rate_hz,   inner(motion.time_s), inner(motion.q),
+          inner(motion.dq), inner(motion.ddq),    inner(motion.torque)};
 }
 
 // direction, reversals, quadrants, speeds: everything that looks only at moving samples
@@ -58,10 +68,10 @@ void measure_movement(Motion const& motion, Excitation& facts) {
 
 }  // namespace
 
-Excitation measure_excitation(Recording const& recording, Motion const& motion) {
-  TORQUESCOPE_EXPECT(motion.dq.size() == motion.torque.size() && motion.dq.size() > 0);
+Excitation measure_excitation(Recording const& recording, Motion const& whole, FilterOptions const& options) {
+  Motion const motion = between_edges(whole, edge_samples(options, whole.rate_hz));
   Excitation facts;
-  facts.duration_s = static_cast<double>(motion.q.size()) / motion.rate_hz;
+  facts.duration_s = static_cast<double>(whole.q.size()) / whole.rate_hz;
   facts.position_least = motion.q.minCoeff();
   facts.position_most = motion.q.maxCoeff();
   facts.speed_least = motion.dq.minCoeff();

@@ -18,9 +18,9 @@ ParallelFilter::ParallelFilter(FilterOptions const& options, double rate_hz, Eig
                                Section const& section)
     : state_(std::make_unique<State>()) {
   double const cutoff_hz = parallel_cutoff_of(options);
+  state_->factor = decimation_factor(options, rate_hz, section);
   check_cutoff("parallel_cutoff_hz", cutoff_hz, rate_hz, section);
   check_length(options, n_samples, rate_hz);
-  state_->factor = decimation_factor(options, rate_hz, section);
   if (cutoff_hz > 0) state_->sections = butterworth_lowpass(static_cast<int>(options.order), cutoff_hz, rate_hz);
   state_->n_samples = n_samples;
   state_->edge = edge_samples(options, rate_hz);

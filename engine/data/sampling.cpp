@@ -121,11 +121,30 @@ void count_missing(Sampling& sampling, std::vector<double> const& steps, double 
   sampling.facts.jitter = counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) / typical : 0.0;
 }
 
-// even stamps: the grid replaces them, and the rate is what they allow to be rounded to
-void put_on_grid(Sampling& sampling, EvenGrid const& grid, double uncertainty_s) {
-  auto const n = static_cast<double>(sampling.times.size());
-  sampling.rate_hz = roundest(1.0 / grid.step, std::max(uncertainty_s / (grid.step * n), 1e-9));
-  for (std::size_t i = 0; i < sampling.times.size(); ++i) sampling.times[i] = static_cast<double>(i) / sampling.rate_hz;
+// all rows, or only the first of each repeated time stamp
+std::vector<std::size_t> first_rows(std::vector<double> const& stamps, bool without_repeats) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    if (i == 0 || !without_repeats || stamps[i] != stamps[i - 1]) rows.push_back(i);
+  return rows;
+}
+
+// s since the first row: stamps may be seconds since 1970
+std::vector<double> times_of(std::vector<double> const& stamps, std::vector<std::size_t> const& rows) {
+  std::vector<double> times;
+  times.reserve(rows.size());
+  for (std::size_t row : rows) times.push_back(stamps[row] - stamps.front());
+  return times;
+}
+
+// even rows stand on the grid; its rate is as round as the stamps leave open
+Sampling even_sampling(std::vector<std::size_t> rows, EvenGrid const& grid, std::size_t n_repeated) {
+  constexpr double surely = 1e-9;
+  double const open = grid.largest_deviation / (grid.step * static_cast<double>(rows.size()));
+  auto sampling = sampling_at(roundest(1.0 / grid.step, std::max(open, surely)), rows.size());
+  sampling.rows = std::move(rows);
+  sampling.facts.repeated = static_cast<Eigen::Index>(n_repeated);
+  return sampling;
 }
 
 }  // namespace
@@ -149,43 +168,33 @@ Sampling sampling_at(double rate_hz, std::size_t n_rows) {
 
 Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table) {
   check_forwards(stamps_s, table);
-  Sampling sampling;
-  std::vector<double> since_first(stamps_s.size());
-  std::transform(stamps_s.begin(), stamps_s.end(), since_first.begin(), [&](double t) { return t - stamps_s.front(); });
-
-  // coarse stamps may repeat although the clock behind them is even: judge before dropping anything
-  auto const all = nearest_grid(since_first);
+  auto const every_row = first_rows(stamps_s, false), first_of_repeats = first_rows(stamps_s, true);
+  auto const all = nearest_grid(times_of(stamps_s, every_row));
   check_step(all.step, table);
-  double const unit = printed_unit(stamps_s);
-  constexpr double rounding = 0.6;  // of the last digit: half, and some for the fitted line
-  double const allowed = std::max(even_within_steps * all.step, rounding * unit);
-  if (all.largest_deviation <= allowed) {
-    sampling.rows.resize(stamps_s.size());
-    std::iota(sampling.rows.begin(), sampling.rows.end(), std::size_t{0});
-    sampling.times = std::move(since_first);
-    put_on_grid(sampling, all, std::max(unit, all.largest_deviation));
-    return sampling;
-  }
+  auto const once = nearest_grid(times_of(stamps_s, first_of_repeats));
 
-  for (std::size_t i = 0; i < stamps_s.size(); ++i) {
-    if (i > 0 && stamps_s[i] == stamps_s[i - 1]) continue;
-    sampling.rows.push_back(i);
-    sampling.times.push_back(since_first[i]);
-  }
+  // a few rows written twice on an even clock; with many, the stamps are coarse and the rows differ
+  std::size_t const n_repeated = every_row.size() - first_of_repeats.size();
+  bool const few_repeats = n_repeated > 0 && 100 * n_repeated < every_row.size();
+  if (few_repeats && once.largest_deviation <= even_within_steps * once.step)
+    return even_sampling(first_of_repeats, once, n_repeated);
+
+  // even, or even before the stamps were printed: half of the last digit, and some for the fitted line
+  constexpr double rounding = 0.6;
+  if (all.largest_deviation <= std::max(even_within_steps * all.step, rounding * printed_unit(stamps_s)))
+    return even_sampling(every_row, all, 0);
+
+  Sampling sampling;
   sampling.even = false;
-  sampling.facts.repeated = static_cast<Eigen::Index>(stamps_s.size() - sampling.rows.size());
+  sampling.rows = first_of_repeats;
+  sampling.times = times_of(stamps_s, first_of_repeats);
+  sampling.facts.repeated = static_cast<Eigen::Index>(n_repeated);
   auto const steps = steps_of(sampling.times);
   double const typical = median(steps);
   check_step(typical, table);
   check_gaps(stamps_s, sampling, typical, table);
   count_missing(sampling, steps, typical);
   sampling.rate_hz = roundest(1.0 / typical, even_within_steps);
-  // rows left out, or their stamps doubled, on an otherwise even clock
-  auto const kept = nearest_grid(sampling.times);
-  if (kept.largest_deviation <= allowed) {
-    sampling.even = true;
-    put_on_grid(sampling, kept, std::max(unit, kept.largest_deviation));
-  }
   return sampling;
 }
 

@@ -1,1 +1,133 @@
-#include <gtest/gtest.h>
+// What a recording shows of itself, and what it cannot tell.
+
+#include "engine/data/excitation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/random_stream.hpp"
+#include "engine/data/signal_facts.hpp"
+#include "unit/data/data_test_support.hpp"
+
+namespace torquescope {
+namespace {
+
+using testing::HasSubstr;
+constexpr double pi = std::numbers::pi;
+
+std::span<double const> numbers(Eigen::VectorXd const& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+Eigen::VectorXd sampled(Eigen::Index n, double (*function)(double)) {
+  Eigen::VectorXd values(n);
+  for (Eigen::Index i = 0; i < n; ++i) values[i] = function(static_cast<double>(i) / 1000);
+  return values;
+}
+
+Eigen::VectorXd rounded(Eigen::VectorXd const& values, double step) { return (values.array() / step).round() * step; }
+
+struct Joint {
+  Recording recording;
+  Excitation excitation;
+};
+
+Joint joint_with(Eigen::VectorXd const& position, Eigen::VectorXd const& torque) {
+  Joint joint;
+  joint.recording.rate_hz = 1000;
+  joint.recording.time_s =
+      Eigen::VectorXd::LinSpaced(position.size(), 0, static_cast<double>(position.size() - 1) / 1000);
+  joint.recording.position = position;
+  joint.recording.torque = torque;
+  FilterOptions options;
+  options.cutoff_hz = 50;
+  joint.excitation = measure_excitation(joint.recording, differentiate(joint.recording, options, {}), options);
+  return joint;
+}
+
+TEST(QuantisationStep, FindsTheEncodersStepWithinADigitOfPrinting) {
+  auto const motion = sampled(20000, [](double t) { return std::sin(2 * t) + 0.3 * std::sin(7 * t); });
+  for (double step : {2 * pi / 4096, 2 * pi / (1 << 17), 1e-3}) {
+    EXPECT_NEAR(quantisation_step(numbers(rounded(motion, step))) / step, 1.0, 1e-6);
+    EXPECT_NEAR(quantisation_step(numbers(rounded(rounded(motion, step), step / 100))) / step, 1.0, 0.02);
+  }
+}
+
+TEST(QuantisationStep, IsZeroForSmoothAndNoisySignals) {
+  auto motion = sampled(20000, [](double t) { return std::sin(2 * t) + 0.3 * std::sin(7 * t); });
+  EXPECT_EQ(quantisation_step(numbers(motion)), 0.0);
+  RandomStream stream({26, 0, RandomDomain::test}, 0, 0);
+  for (double& value : motion) value += 1e-4 * stream.normal();
+  EXPECT_EQ(quantisation_step(numbers(motion)), 0.0);
+  EXPECT_EQ(quantisation_step(numbers(Eigen::VectorXd::Constant(100, 2.0))), 0.0);
+}
+
+TEST(LimitShare, CountsFlatTopsAndNotTurningPoints) {
+  auto const torque = sampled(20000, [](double t) { return std::sin(3 * t); });
+  Eigen::VectorXd const clipped = torque.cwiseMin(0.9).cwiseMax(-0.95);
+  double const expected = static_cast<double>((clipped.array() == 0.9 || clipped.array() == -0.95).count()) / 20000;
+  EXPECT_NEAR(limit_share(numbers(clipped)), expected, 1e-12);
+  EXPECT_EQ(limit_share(numbers(torque)), 0.0);
+  EXPECT_EQ(limit_share(numbers(rounded(torque, 0.01))), 0.0);  // coarse, but free
+  EXPECT_GT(limit_share(numbers(rounded(clipped, 0.01))), 0.9 * expected);
+}
+
+TEST(WhiteNoise, MeasuresTheStandardDeviationUnderASmoothSignal) {
+  RandomStream stream({27, 0, RandomDomain::test}, 0, 0);
+  auto torque = sampled(50000, [](double t) { return 5 * std::sin(3 * t); });
+  for (double& value : torque) value += 0.02 * stream.normal();
+  EXPECT_NEAR(white_noise(torque), 0.02, 0.0006);  // 1.2/sqrt(2 n) of a median, neighbours correlated: three of them
+}
+
+TEST(Excitation, CountsReversalsQuadrantsAndDirections) {
+  auto const position = sampled(10000, [](double t) { return std::sin(2 * pi * t); });
+  auto const torque =
+      sampled(10000, [](double t) { return std::sin(2 * pi * t); });  // a quarter turn from the velocity
+  auto const facts = joint_with(position, torque).excitation;
+  EXPECT_EQ(facts.reversals, 20);
+  EXPECT_EQ(facts.quadrants, 4);
+  EXPECT_NEAR(facts.forward_share, 0.5, 0.01);
+  for (double share : facts.quadrant_share) EXPECT_NEAR(share, 0.25, 0.01);
+  EXPECT_NEAR(facts.speed_most, 2 * pi, 0.02);
+  EXPECT_NEAR(facts.position_most - facts.position_least, 2.0, 0.01);
+  EXPECT_NEAR(facts.duration_s, 10.0, 1e-12);
+  EXPECT_TRUE(excitation_warnings(facts, "rad").empty());
+}
+
+TEST(Excitation, OneDirectionAtOneSpeedIsWarnedOf) {
+  auto const torque = sampled(5000, [](double t) { return 1 + 0.1 * std::sin(40 * t); });
+  auto const one_way = joint_with(sampled(5000, [](double t) { return 0.4 * t; }), torque).excitation;
+  auto const warnings = excitation_warnings(one_way, "rad");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0].topic, "excitation");
+  EXPECT_THAT(warnings[0].text, HasSubstr("only one direction of motion (100 % of the moving time)"));
+  EXPECT_THAT(warnings[1].text, HasSubstr("only one speed (0.4 rad/s)"));
+}
+
+TEST(Excitation, MotionOfAFewEncoderStepsIsWarnedOf) {
+  auto const motion =
+      rounded(sampled(10000, [](double t) { return 0.01 * std::sin(2 * t) + 0.004 * std::sin(9 * t); }), 2 * pi / 4096);
+  auto const joint = joint_with(motion, sampled(10000, [](double t) { return std::sin(9 * t); }));
+  EXPECT_NEAR(joint.excitation.encoder_step, 2 * pi / 4096, 1e-12);
+  auto const warnings = excitation_warnings(joint.excitation, "rad");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0].text, HasSubstr("encoder steps"));
+}
+
+TEST(Excitation, FactsOfTheRowsComeBeforeThoseOfTheResampledSignals) {
+  auto joint = joint_with(sampled(4000, [](double t) { return std::sin(2 * t); }),
+                          sampled(4000, [](double t) { return std::sin(9 * t); }));
+  EXPECT_EQ(joint.excitation.encoder_step, 0.0);
+  joint.recording.rows.encoder_step = 1e-3;
+  joint.recording.rows.torque_limit_share = 0.02;
+  joint.recording.rows.jitter = 0.1;
+  auto const facts = measure_excitation(joint.recording, differentiate(joint.recording, {}, {}), {});
+  EXPECT_EQ(facts.encoder_step, 1e-3);
+  EXPECT_EQ(facts.torque_limit_share, 0.02);
+  EXPECT_EQ(facts.jitter, 0.1);
+}
+
+}  // namespace
+}  // namespace torquescope
