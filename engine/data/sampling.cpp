@@ -38,9 +38,8 @@ double median(std::vector<double> values) {
 }
 
 std::vector<double> steps_of(std::vector<double> const& times) {
-  std::vector<double> steps(times.size());
-  std::adjacent_difference(times.begin(), times.end(), steps.begin());
-  steps.erase(steps.begin());
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
   return steps;
 }
 
