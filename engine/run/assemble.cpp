@@ -91,7 +91,7 @@ void prepare(DataSet& set, Experiment::Parts const& parts) {
   set.regression = make_regression_data(set.recordings, parts.filter, *parts.regressor, filter);
   char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
   for (auto& recording : set.recordings) {
-    set.excitation.push_back(measure_excitation(recording, differentiate(recording, parts.filter, filter)));
+    set.excitation.push_back(measure_excitation(recording, differentiate(recording, parts.filter, filter), parts.filter));
     for (auto const& warning : excitation_warnings(set.excitation.back(), unit)) recording.warnings.push_back(warning);
   }
 }

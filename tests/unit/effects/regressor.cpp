@@ -115,7 +115,7 @@ TEST(VelocityDeadband, OfZeroIsTheSignFunction) {
   EXPECT_EQ(regressor.columns(motion).col(0), Eigen::Vector3d(1.0, 0.0, -1.0));
 }
 
-TEST(ModelOptions, HaveNoTermsUnlessWritten) { EXPECT_THROW(make_regressor({}, {"model"}), Error); }
+TEST(ModelOptions, HaveNoTermsUnlessWritten) { EXPECT_THROW(make_regressor({}, {}), Error); }
 
 TEST(ModelOptions, AreReadFromTheModelSection) {
   Section const section{"model", {}, {{"joint", std::string("prismatic")}, {"terms", std::vector<std::string>{"viscous"}}, {"velocity_deadband", 0.01}}};
