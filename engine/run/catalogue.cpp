@@ -22,8 +22,8 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
     CatalogueEntry entry{effect->name(), "effect", effect->title(), {}, {}};
     entry.text.push_back("equation   tau = " + effect->equation());
     for (auto const& parameter : effect->parameters()) {
-      std::string const slide = parameter.unit_prismatic.empty() ? "revolute joints only"
-                                                                 : parameter.unit_prismatic + " (prismatic)";
+      std::string const slide =
+          parameter.unit_prismatic.empty() ? "revolute joints only" : parameter.unit_prismatic + " (prismatic)";
       entry.text.push_back(fmt::format("parameter  {} in {}, {}", parameter.name, parameter.unit_revolute, slide));
     }
     entry.text.push_back("source     " + effect->source());
@@ -63,12 +63,12 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<RecordingOptions>(entries);
   add_section<FilterOptions>(entries);
   add_section<ModelOptions>(entries);
-  entries.push_back({"model.bounds",
-                     "section",
-                     "box of the population methods, by parameter",
-                     {"every = [-1.0, 1.0]     for all parameters (this is the default)",
-                      "inertia = [0.0, 2.0]    for one of them"},
-                     {}});
+  entries.push_back(
+      {"model.bounds",
+       "section",
+       "box of the population methods, by parameter",
+       {"every = [-1.0, 1.0]     for all parameters (this is the default)", "inertia = [0.0, 2.0]    for one of them"},
+       {}});
   add_section<EstimatorOptions>(entries);
   add_section<SimulationOptions>(entries);
   entries.push_back({"simulate.plant",

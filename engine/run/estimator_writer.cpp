@@ -109,8 +109,7 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   metric("residual_std", &PredictionMetrics::residual_std, {torque_unit, "standard deviation of the residual"});
   metric("residual_mean", &PredictionMetrics::residual_mean, {torque_unit, "mean residual"});
   if (!results.validate.empty())
-    write_numbers(writer, group + "/validation_relerr",
-                  RunResults::each(results.validate, &PredictionMetrics::relerr),
+    write_numbers(writer, group + "/validation_relerr", RunResults::each(results.validate, &PredictionMetrics::relerr),
                   {"1", "relative error on unseen data"});
   write_numbers(writer, group + "/gap", results.gap, {squared(torque_unit), "MSE above the least-squares floor"});
   writer.texts(group + "/stop_reason", results.stop_reason, {"1", "why each run ended"});

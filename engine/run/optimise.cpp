@@ -65,7 +65,12 @@ RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team
   std::optional<StopReason> reason;
   while (!reason) {
     if (setting.stop_requested && setting.stop_requested())
-      throw Error(Problem{ExitCode::stopped, "stopped by a signal: nothing was published", {}, {}, {}, {},
+      throw Error(Problem{ExitCode::stopped,
+                          "stopped by a signal: nothing was published",
+                          {},
+                          {},
+                          {},
+                          {},
                           "run the same command again"});
     std::size_t const batch = optimiser.batch_size();
     candidates.resize(batch * dimension);
