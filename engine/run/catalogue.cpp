@@ -43,7 +43,8 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
   for (Effect const* effect : effect_choices()) {
     CatalogueEntry entry{effect->name(), "effect", effect->title(), {}, {}};
     entry.text.push_back("family     " + joined(effect->families()));
-    entry.text.push_back("equation   " + (effect->acts_on() == ActsOn::joint ? "tau = " : "") + effect->equation());
+    entry.text.push_back(
+        fmt::format("equation   {}{}", effect->acts_on() == ActsOn::joint ? "tau = " : "", effect->equation()));
     for (auto const& parameter : effect->parameters()) entry.text.push_back(parameter_line(parameter));
     entry.text.push_back(
         fmt::format("signature  {}; {} in the velocity", joined(effect->signature()),
