@@ -30,6 +30,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/data/motion.hpp"
@@ -54,6 +55,11 @@ struct EffectParameter {
   }
   Sign sign() const { return lower.factor == 0.0 ? Sign::non_negative : Sign::any; }
 };
+
+inline EffectParameter shape_parameter(std::string name, std::string unit_revolute, std::string unit_prismatic,
+                                       Bound lower, Bound upper, Spacing spacing) {
+  return {std::move(name), std::move(unit_revolute), std::move(unit_prismatic), lower, upper, true, spacing};
+}
 
 // a parameter's bounds on one recording
 struct ParameterRange {

@@ -38,10 +38,10 @@ double inertia_or_torque(JointScales const& scales) {
 
 double JointScales::resolution() const { return encoder_step > 0.0 ? encoder_step : 1e-6 * position_range; }
 
-double JointScales::direction_weight(double velocity) const {
+double JointScales::friction_sign(double velocity) const {
   if (velocity == 0.0) return 0.0;
-  if (!(coulomb() > 0.0)) return 1.0;
-  return (velocity > 0.0 ? coulomb_positive : coulomb_negative) / coulomb();
+  if (!(coulomb() > 0.0)) return velocity > 0.0 ? 1.0 : -1.0;
+  return (velocity > 0.0 ? coulomb_positive : -coulomb_negative) / coulomb();
 }
 
 double bound_value(Bound const& bound, JointScales const& scales) {
@@ -148,7 +148,7 @@ std::string bound_text(Bound const& bound) {
       scale = " wave per position range";
       break;
     case RelativeTo::highest_order:
-      scale = " order at the cutoff at 0.1 peak speed (400 per radian at most)";
+      scale = " order at the cutoff at 0.1 peak speed (400 per turn at most)";
       break;
     case RelativeTo::torque:
       scale = " torque rms";

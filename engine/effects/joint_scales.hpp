@@ -35,9 +35,9 @@ struct JointScales {
   double resolution() const;
   // mean Coulomb level; 0 when the baseline has none
   double coulomb() const { return 0.5 * (coulomb_positive + coulomb_negative); }
-  // Coulomb level of this direction over the mean one (1 without Coulomb friction, 0 at rest): friction that is modulated
-  // keeps the asymmetry the baseline has, else its even part would pass for gravity (LESSONS.md item 14)
-  double direction_weight(double velocity) const;
+  // sign(dq) times the Coulomb level of that direction over the mean one (1 without Coulomb friction): friction that is
+  // modulated keeps the asymmetry the baseline has, else its even part would pass for gravity (LESSONS.md item 14)
+  double friction_sign(double velocity) const;
 };
 
 enum class RelativeTo {
