@@ -1,53 +1,153 @@
 #pragma once
-// One physical effect of a joint: the torque it needs, as columns for identification and as a number for simulation.
+// One physical effect of a joint: the torque it needs, as columns for identification and step by step for simulation.
 //
-// Equation   tau_effect = columns(motion, shape) * linear parameters
-// Shapes     columns: n_samples x n_linear, column-major
+// Equation   tau_effect = columns(input, shape) * linear parameters
+// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8
 // Units      SI of a revolute joint (N m, rad); unit_for() gives the prismatic ones (N, m)
-// Threads    const objects, any number of threads
+// Threads    const objects, any number of threads; a runner belongs to one
 // Source     PHYSICS.md section 1 (names, equations); each file names its own
+//
+// Parameters linear ones first, then shapes. Linear ones are solved for, shapes are searched in shape_bounds(scales)
+//            (variable projection). The bounds of linear ones are plausible sizes, except 0, which is physics (sign()).
+//            A parameter without a unit for the joint's kind is not one of that joint's: its column is zero there.
+//
+// To identify
+//            EffectInput const input{motion, scales, load_torque, model_torque};    (fitted_baseline.hpp makes it)
+//            effect.columns(input, shape, phi);                                     full rate, before the parallel filter
+//            Effects with memory run their state over the samples in order, so the motion must be whole: mask and crop
+//            the columns, never the motion.
+// To simulate
+//            auto const runner = effect.runner(parameters, scales);
+//            per step: runner->advance(state, step_s);  then runner->torque(state) as often as needed: it is const, so a
+//            trial state (other ddq, other sign of dq) may be asked for. torque(state, step_s) does both.
+//            The first advance() only tells where the memory starts. state.load_torque and state.motor_torque must be set
+//            when needs_baseline(). acts_on() says where it goes: into the joint's equation of motion, into the torque
+//            channel, or (then it is a position) into the position channel.
+//            Columns use the fitted baseline where simulation has the motor torque: they agree to first order of the effect.
 
 #include <Eigen/Core>
+#include <limits>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/data/motion.hpp"
+#include "engine/effects/effect_traits.hpp"
+#include "engine/effects/joint_scales.hpp"
 
 namespace torquescope {
 
-enum class JointKind { revolute, prismatic };
+enum class Sign { any, non_negative };
 
 struct EffectParameter {
-  std::string name;                 // "viscous"
-  std::string unit_revolute;        // "N m s/rad"
-  std::string unit_prismatic;       // "N s/m"
-  bool is_shape = false;            // nonlinear: held fixed while the linear ones are solved
-  double lower = 0.0, upper = 0.0;  // of shape parameters, in SI
+  std::string name;            // "viscous"
+  std::string unit_revolute;   // "N m s/rad"
+  std::string unit_prismatic;  // "N s/m"; empty: the parameter needs an angle, no slide has it
+  Bound lower{-std::numeric_limits<double>::infinity()};
+  Bound upper{std::numeric_limits<double>::infinity()};
+  bool is_shape = false;  // nonlinear: held fixed while the linear ones are solved
+  Spacing spacing = Spacing::linear;
+
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
   }
+  Sign sign() const { return lower.factor == 0.0 ? Sign::non_negative : Sign::any; }
+};
+
+inline EffectParameter shape_parameter(std::string name, std::string unit_revolute, std::string unit_prismatic,
+                                       Bound lower, Bound upper, Spacing spacing) {
+  return {std::move(name), std::move(unit_revolute), std::move(unit_prismatic), lower, upper, true, spacing};
+}
+
+// a parameter's bounds on one recording
+struct ParameterRange {
+  double lower = 0.0, upper = 0.0;
+  Spacing spacing = Spacing::linear;
 };
 
 // one instant of a joint
 struct JointState {
   double time_s = 0.0, q = 0.0, dq = 0.0, ddq = 0.0;
+  double load_torque = 0.0;   // of the baseline: gravity, springs and inertia
+  double motor_torque = 0.0;  // what the motor gives; for columns, what the whole baseline says it gives
+};
+
+struct EffectInput {
+  Motion const& motion;
+  JointScales scales{};
+  std::span<double const> load_torque{};   // n_samples; may be empty unless needs_baseline()
+  std::span<double const> model_torque{};  // n_samples: the baseline on this motion, without the torque channel's noise
+
+  Eigen::Index size() const { return motion.q.size(); }
+  JointState state(Eigen::Index sample) const;
+};
+
+class EffectRunner {
+ public:
+  virtual ~EffectRunner() = default;
+  // the joint has come to `state`, step_s after the last one told (0: it starts there)
+  virtual void advance(JointState const& state, double step_s) = 0;
+  // with the memory as it stands; affine in ddq unless the effect follows the load
+  virtual double torque(JointState const& state) const = 0;
+  double torque(JointState const& state, double step_s) {
+    advance(state, step_s);
+    return torque(state);
+  }
+};
+
+struct EffectDescription {
+  std::string name{};
+  std::string title{};
+  std::string equation{};
+  std::string source{};
+  std::vector<EffectParameter> parameters{};
+  std::vector<EffectFamily> families{EffectFamily::baseline};  // own one first, then those it is also confused with
+  std::vector<SignatureAxis> signature{};                      // principal axis first
+  Parity parity = Parity::neither;
+  ActsOn acts_on = ActsOn::joint;
+  bool needs_baseline = false;   // input beyond the motion: load or motor torque, or baseline parameters in the scales
+  bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
 };
 
 class Effect {
  public:
+  explicit Effect(EffectDescription description);
   virtual ~Effect() = default;
-  virtual std::string const& name() const = 0;      // as in the job file
-  virtual std::string const& title() const = 0;     // one line for people
-  virtual std::string const& equation() const = 0;  // "J ddq"
-  virtual std::string const& source() const = 0;
-  virtual std::vector<EffectParameter> const& parameters() const = 0;  // linear ones first, then shapes
-  // motion at the full rate, before the parallel filter
-  virtual void columns(Motion const& motion, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const = 0;
-  // torque at one instant; all parameters in the order of parameters(); sign(0) = 0
-  virtual double torque(JointState const& state, std::span<double const> parameters) const = 0;
-  // torque jumps with the sign of the velocity: a simulator must treat it as set-valued at rest
-  virtual bool is_dry_friction() const { return false; }
+
+  std::string const& name() const { return description_.name; }          // as in the job file
+  std::string const& title() const { return description_.title; }        // one line for people
+  std::string const& equation() const { return description_.equation; }  // "J ddq"
+  std::string const& source() const { return description_.source; }
+  std::vector<EffectParameter> const& parameters() const { return description_.parameters; }
+  EffectFamily family() const { return description_.families.front(); }
+  std::vector<EffectFamily> const& families() const { return description_.families; }
+  std::vector<SignatureAxis> const& signature() const { return description_.signature; }
+  Parity parity() const { return description_.parity; }
+  ActsOn acts_on() const { return description_.acts_on; }
+  bool needs_baseline() const { return description_.needs_baseline; }
+  bool is_dry_friction() const { return description_.is_dry_friction; }
+  virtual bool has_memory() const = 0;
+
+  std::size_t n_linear() const { return n_linear_; }
+  std::size_t n_shape() const { return parameters().size() - n_linear_; }
+  bool exists_on(JointKind joint) const;                                // false: it needs an angle
+  std::vector<ParameterRange> shape_bounds(JointScales const&) const;   // n_shape()
+  std::vector<ParameterRange> linear_bounds(JointScales const&) const;  // n_linear()
+  // least squares can fit it and a plant can hold it as it is: no shape, no memory, nothing but the motion
+  bool is_plain_term() const;
+
+  virtual void columns(EffectInput const& input, std::span<double const> shape,
+                       Eigen::Ref<Eigen::MatrixXd> out) const = 0;
+  // all parameters, linear ones first
+  virtual std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const = 0;
+  // torque at one instant; of an effect with memory, as if it began here; sign(0) = 0
+  virtual double torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const;
+
+ private:
+  EffectDescription description_;
+  std::size_t n_linear_ = 0;
 };
 
 std::vector<Effect const*> const& effect_choices();

@@ -39,7 +39,7 @@ std::vector<Column> columns_of(std::vector<Effect const*> const& terms) {
   for (auto const* effect : terms) {
     auto const& parameters = effect->parameters();
     Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(parameters.size()));
-    effect->columns(motion, {}, phi);
+    effect->columns({motion}, {}, phi);
     for (std::size_t k = 0; k < parameters.size(); ++k)
       columns.push_back({parameters[k].name, effect->name(), phi.col(static_cast<Eigen::Index>(k))});
   }

@@ -4,7 +4,7 @@
 // Found, not listed: the columns are evaluated on a motion that excites everything, and each one is regressed on those
 // before it. So a new effect file is covered without a word here.
 //
-// Requires   effects without shape parameters
+// Requires   plain terms (Effect::is_plain_term)
 
 #include <string>
 #include <vector>

@@ -35,6 +35,26 @@ Problem unknown_term(Section const& model, std::string const& term) {
   return problem;
 }
 
+// why least squares on the motion alone cannot fit this effect
+std::string reason_not_plain(Effect const& effect) {
+  if (effect.n_shape() > 0) {
+    std::string shapes;
+    for (auto const& parameter : effect.parameters())
+      if (parameter.is_shape) shapes += (shapes.empty() ? "" : ", ") + parameter.name;
+    return "its torque is not linear in " + shapes;
+  }
+  if (effect.acts_on() != ActsOn::joint) return "it acts on a recorded channel, not in the joint";
+  if (effect.has_memory()) return "its torque depends on what happened before";
+  return "it is built on the torque of a fitted model";
+}
+
+Problem not_a_term(Section const& model, Effect const& effect) {
+  auto problem =
+      problem_at_terms(model, "\"" + effect.name() + "\" cannot be a term of the model: " + reason_not_plain(effect));
+  problem.help = "remove it and let `torquescope diagnose` look for it: effects = [\"" + effect.name() + "\"]";
+  return problem;
+}
+
 Problem needs_an_angle(Section const& model, Effect const& effect) {
   auto problem = problem_at_terms(
       model, "term \"" + effect.name() + "\" needs an angle, but model.joint = \"prismatic\" moves along a line");
@@ -46,7 +66,7 @@ Problem needs_an_angle(Section const& model, Effect const& effect) {
 void find_needs(RegressorColumn& column, Effect const& effect, std::size_t index) {
   std::vector<double> unit(effect.parameters().size(), 0.0);
   unit[index] = 1.0;
-  auto const torque = [&](JointState const& state) { return effect.torque(state, unit); };
+  auto const torque = [&](JointState const& state) { return effect.torque(state, unit, {}); };
   JointState const base{0.0, 0.4, -0.7, 0.9};
   auto moved = base;
   moved.q = 1.1;
@@ -79,8 +99,10 @@ Regressor::Regressor(std::vector<std::string> const& terms, JointKind joint, dou
     } else if (std::find(terms_.begin(), terms_.end(), effect) != terms_.end()) {
       problems.push_back(problem_at_terms(model, "term \"" + term + "\" is listed twice"));
       problems.back().help = "remove one";
-    } else if (joint == JointKind::prismatic && effect->parameters().front().unit_prismatic.empty()) {
+    } else if (!effect->exists_on(joint)) {
       problems.push_back(needs_an_angle(model, *effect));
+    } else if (!effect->is_plain_term()) {
+      problems.push_back(not_a_term(model, *effect));
     } else {
       terms_.push_back(effect);
     }
@@ -91,7 +113,6 @@ Regressor::Regressor(std::vector<std::string> const& terms, JointKind joint, dou
   for (std::size_t term = 0; term < terms_.size(); ++term) {
     auto const& parameters = terms_[term]->parameters();
     for (std::size_t k = 0; k < parameters.size(); ++k) {
-      TORQUESCOPE_EXPECT(!parameters[k].is_shape);  // least squares cannot fit a shape
       RegressorColumn column{parameters[k].name, parameters[k].unit_for(joint), term};
       find_needs(column, *terms_[term], k);
       columns_.push_back(std::move(column));
@@ -139,9 +160,9 @@ Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
     auto const count = static_cast<Eigen::Index>(effect->parameters().size());
     if (effect->is_dry_friction() && velocity_deadband_ > 0.0) {
       for (Eigen::Index i = 0; i < motion.dq.size(); ++i) deadened.dq[i] = seen_velocity(*effect, motion.dq[i]);
-      effect->columns(deadened, {}, phi.middleCols(first, count));
+      effect->columns({deadened}, {}, phi.middleCols(first, count));
     } else {
-      effect->columns(motion, {}, phi.middleCols(first, count));
+      effect->columns({motion}, {}, phi.middleCols(first, count));
     }
     first += count;
   }
@@ -156,7 +177,7 @@ double Regressor::torque(JointState const& state, std::span<double const> parame
     auto const count = effect->parameters().size();
     auto seen = state;
     seen.dq = seen_velocity(*effect, state.dq);
-    torque += effect->torque(seen, parameters.subspan(first, count));
+    torque += effect->torque(seen, parameters.subspan(first, count), {});
     first += count;
   }
   return torque;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/effects/effect.hpp"
@@ -17,15 +19,38 @@ namespace torquescope {
 
 namespace {
 
+template <class Word>
+std::string joined(std::vector<Word> const& words) {
+  std::string text;
+  for (auto const& each : words) text += (text.empty() ? "" : ", ") + word(each);
+  return text;
+}
+
+// "parameter  stribeck in N m, N (prismatic): 0 to 2 Coulomb level"
+// "shape      stribeck_speed in rad/s, m/s (prismatic): 0.002 peak speed to 0.2 peak speed, logarithmic"
+std::string parameter_line(EffectParameter const& parameter) {
+  std::string const slide =
+      parameter.unit_prismatic.empty() ? "revolute joints only" : parameter.unit_prismatic + " (prismatic)";
+  auto line = fmt::format("{}  {} in {}, {}", parameter.is_shape ? "shape    " : "parameter", parameter.name,
+                          parameter.unit_revolute, slide);
+  if (!std::isinf(parameter.lower.factor) || !std::isinf(parameter.upper.factor))
+    line += fmt::format(": {} to {}", bound_text(parameter.lower), bound_text(parameter.upper));
+  if (parameter.spacing == Spacing::logarithmic) line += ", logarithmic";
+  return line;
+}
+
 void add_effects(std::vector<CatalogueEntry>& entries) {
   for (Effect const* effect : effect_choices()) {
     CatalogueEntry entry{effect->name(), "effect", effect->title(), {}, {}};
-    entry.text.push_back("equation   tau = " + effect->equation());
-    for (auto const& parameter : effect->parameters()) {
-      std::string const slide =
-          parameter.unit_prismatic.empty() ? "revolute joints only" : parameter.unit_prismatic + " (prismatic)";
-      entry.text.push_back(fmt::format("parameter  {} in {}, {}", parameter.name, parameter.unit_revolute, slide));
-    }
+    entry.text.push_back("family     " + joined(effect->families()));
+    entry.text.push_back(
+        fmt::format("equation   {}{}", effect->acts_on() == ActsOn::joint ? "tau = " : "", effect->equation()));
+    for (auto const& parameter : effect->parameters()) entry.text.push_back(parameter_line(parameter));
+    entry.text.push_back(
+        fmt::format("signature  {}; {} in the velocity", joined(effect->signature()),
+                    effect->parity() == Parity::neither ? "neither odd nor even" : word(effect->parity())));
+    entry.text.push_back(fmt::format("acts on    {}{}", word(effect->acts_on()),
+                                     effect->is_plain_term() ? "; may be a term of [model]" : ""));
     entry.text.push_back("source     " + effect->source());
     entries.push_back(std::move(entry));
   }

@@ -15,18 +15,15 @@ struct LinearModel {
 
 LinearModel linear_model(std::vector<PlantTerm> const& terms, Motion const& motion) {
   Eigen::Index size = 0;
-  for (auto const& term : terms)
-    for (auto const& parameter : term.effect->parameters()) size += parameter.is_shape ? 0 : 1;
+  for (auto const& term : terms) size += static_cast<Eigen::Index>(term.effect->n_linear());
 
   LinearModel model{Eigen::MatrixXd(motion.q.size(), size), Eigen::VectorXd(size)};
   Eigen::Index first = 0;
   for (auto const& term : terms) {
-    // linear parameters stand first, shapes behind them
-    Eigen::Index linear = 0;
-    for (auto const& parameter : term.effect->parameters()) linear += parameter.is_shape ? 0 : 1;
+    auto const linear = static_cast<Eigen::Index>(term.effect->n_linear());
     std::span<double const> const values(term.parameters);
-    auto const shape = values.subspan(static_cast<std::size_t>(linear));
-    term.effect->columns(motion, shape, model.phi.middleCols(first, linear));
+    auto const shape = values.subspan(term.effect->n_linear());
+    term.effect->columns({motion}, shape, model.phi.middleCols(first, linear));
     for (Eigen::Index i = 0; i < linear; ++i) model.parameters[first + i] = values[static_cast<std::size_t>(i)];
     first += linear;
   }

@@ -10,7 +10,15 @@ namespace torquescope {
 JointPlant::JointPlant(std::vector<PlantTerm> const& terms) {
   for (auto const& term : terms) {
     TORQUESCOPE_EXPECT(term.effect && term.parameters.size() == term.effect->parameters().size());
+    TORQUESCOPE_EXPECT(!term.effect->has_memory() && term.effect->acts_on() == ActsOn::joint);
     (term.effect->is_dry_friction() ? dry_terms_ : smooth_terms_).push_back(term);
+  }
+
+  // the levels that friction with a law of its own is shared out by
+  for (auto const& term : dry_terms_) {
+    if (term.effect->family() != EffectFamily::baseline) continue;
+    scales_.coulomb_positive += term.effect->torque({.dq = 1.0}, term.parameters, {});
+    scales_.coulomb_negative -= term.effect->torque({.dq = -1.0}, term.parameters, {});
   }
 }
 
@@ -21,9 +29,9 @@ JointPlant::SmoothPart JointPlant::smooth_part(JointState const& state) const {
   accelerating.ddq = 1.0;
   SmoothPart sum;
   for (auto const& term : smooth_terms_) {
-    double const torque = term.effect->torque(coasting, term.parameters);
+    double const torque = term.effect->torque(coasting, term.parameters, scales_);
     sum.coasting += torque;
-    sum.inertia += term.effect->torque(accelerating, term.parameters) - torque;
+    sum.inertia += term.effect->torque(accelerating, term.parameters, scales_) - torque;
   }
   return sum;
 }
@@ -36,7 +44,7 @@ double JointPlant::dry_torque(JointState const& state, double direction) const {
   sliding.dq = direction * std::max(direction * state.dq, std::numeric_limits<double>::min());
   sliding.ddq = 0.0;
   double sum = 0.0;
-  for (auto const& term : dry_terms_) sum += term.effect->torque(sliding, term.parameters);
+  for (auto const& term : dry_terms_) sum += term.effect->torque(sliding, term.parameters, scales_);
   return sum;
 }
 
@@ -68,8 +76,8 @@ double JointPlant::acceleration(JointState const& state, double u) const {
 
 double JointPlant::inverse_dynamics(JointState const& state) const {
   double sum = 0.0;
-  for (auto const& term : smooth_terms_) sum += term.effect->torque(state, term.parameters);
-  for (auto const& term : dry_terms_) sum += term.effect->torque(state, term.parameters);
+  for (auto const& term : smooth_terms_) sum += term.effect->torque(state, term.parameters, scales_);
+  for (auto const& term : dry_terms_) sum += term.effect->torque(state, term.parameters, scales_);
   return sum;
 }
 

@@ -53,6 +53,7 @@ class JointPlant {
   JointState slide(JointState const& state, double u, double direction, double step_s) const;
 
   std::vector<PlantTerm> smooth_terms_, dry_terms_;
+  JointScales scales_;  // Coulomb levels of the plant itself
 };
 
 }  // namespace torquescope

@@ -28,13 +28,18 @@ std::optional<double> finite_number(Section const& section, Setting const& setti
 void check_shape(Section const& section, Effect const& effect, EffectParameter const& shape, double value,
                  std::vector<Problem>& problems) {
   if (!section.find(shape.name)) {
-    problems.push_back(problem_at(section, shape.name,
-                                  fmt::format("effect \"{}\" needs its parameter {}", effect.name(), shape.name),
-                                  fmt::format("write {} between {} and {}", shape.name, shape.lower, shape.upper)));
-  } else if (shape.lower < shape.upper && (value < shape.lower || value > shape.upper)) {
-    problems.push_back(problem_at(section, shape.name, fmt::format("{} = {} is out of range", shape.name, value),
-                                  fmt::format("{} takes {} to {}", shape.name, shape.lower, shape.upper)));
+    problems.push_back(problem_at(
+        section, shape.name, fmt::format("effect \"{}\" needs its parameter {}", effect.name(), shape.name),
+        fmt::format("a recording is searched from {} to {}", bound_text(shape.lower), bound_text(shape.upper))));
+  } else if (shape.spacing == Spacing::logarithmic && !(value > 0.0)) {
+    problems.push_back(problem_at(section, shape.name, fmt::format("{} = {} is not above 0", shape.name, value),
+                                  fmt::format("write it in {}", shape.unit_revolute)));
   }
+}
+
+// JointPlant keeps no memory and knows no torque but its own
+bool can_be_in_a_plant(Effect const& effect) {
+  return !effect.has_memory() && !effect.needs_baseline() && effect.acts_on() == ActsOn::joint;
 }
 
 }  // namespace
@@ -57,6 +62,13 @@ std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::
                                       "remove it, or write joint = \"revolute\" in [model]"));
     }
     if (!is_written) continue;
+    if (!can_be_in_a_plant(*effect)) {
+      problems.push_back(problem_at(section, effect->parameters().front().name,
+                                    fmt::format("effect \"{}\" cannot be part of the plant", effect->name()),
+                                    "a plant is made of effects that follow from position, velocity, acceleration and "
+                                    "time alone; remove its parameters"));
+      continue;
+    }
     for (std::size_t i = 0; i < effect->parameters().size(); ++i)
       if (effect->parameters()[i].is_shape)
         check_shape(section, *effect, effect->parameters()[i], term.parameters[i], problems);

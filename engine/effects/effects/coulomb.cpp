@@ -3,23 +3,27 @@
 // Equation   tau = Fc sign(dq)
 // Source     Armstrong-Helouvry 1991, Control of Machines with Friction
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class Coulomb final : public SingleColumnEffect {
+class Coulomb final : public InstantEffect {
  public:
   Coulomb()
-      : SingleColumnEffect({"coulomb",
-                            "Coulomb friction, equal in both directions",
-                            "Fc sign(dq)",
-                            "Armstrong-Helouvry 1991, Control of Machines with Friction",
-                            {{"coulomb", "N m", "N"}}}) {}
-  bool is_dry_friction() const override { return true; }
+      : InstantEffect({.name = "coulomb",
+                       .title = "Coulomb friction, equal in both directions",
+                       .equation = "Fc sign(dq)",
+                       .source = "Armstrong-Helouvry 1991, Control of Machines with Friction",
+                       .parameters = {{"coulomb", "N m", "N"}},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::odd,
+                       .is_dry_friction = true}) {}
 
  private:
-  double column(JointState const& state) const override { return sign(state.dq); }
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = sign(state.dq);
+  }
 };
 
 }  // namespace

@@ -4,23 +4,27 @@
 // Equation   tau = Fc- [dq < 0]
 // Source     seed eq. 3, x4
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class CoulombNegative final : public SingleColumnEffect {
+class CoulombNegative final : public InstantEffect {
  public:
   CoulombNegative()
-      : SingleColumnEffect({"coulomb_negative",
-                            "Coulomb friction of the negative direction (a negative parameter)",
-                            "Fc- [dq < 0]",
-                            "seed eq. 3, x4",
-                            {{"coulomb_negative", "N m", "N"}}}) {}
-  bool is_dry_friction() const override { return true; }
+      : InstantEffect({.name = "coulomb_negative",
+                       .title = "Coulomb friction of the negative direction (a negative parameter)",
+                       .equation = "Fc- [dq < 0]",
+                       .source = "seed eq. 3, x4",
+                       .parameters = {{"coulomb_negative", "N m", "N"}},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::neither,
+                       .is_dry_friction = true}) {}
 
  private:
-  double column(JointState const& state) const override { return state.dq < 0.0 ? 1.0 : 0.0; }
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = state.dq < 0.0 ? 1.0 : 0.0;
+  }
 };
 
 }  // namespace

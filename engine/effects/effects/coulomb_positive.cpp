@@ -3,23 +3,27 @@
 // Equation   tau = Fc+ [dq > 0]
 // Source     seed eq. 3, x3
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class CoulombPositive final : public SingleColumnEffect {
+class CoulombPositive final : public InstantEffect {
  public:
   CoulombPositive()
-      : SingleColumnEffect({"coulomb_positive",
-                            "Coulomb friction of the positive direction",
-                            "Fc+ [dq > 0]",
-                            "seed eq. 3, x3",
-                            {{"coulomb_positive", "N m", "N"}}}) {}
-  bool is_dry_friction() const override { return true; }
+      : InstantEffect({.name = "coulomb_positive",
+                       .title = "Coulomb friction of the positive direction",
+                       .equation = "Fc+ [dq > 0]",
+                       .source = "seed eq. 3, x3",
+                       .parameters = {{"coulomb_positive", "N m", "N"}},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::neither,
+                       .is_dry_friction = true}) {}
 
  private:
-  double column(JointState const& state) const override { return state.dq > 0.0 ? 1.0 : 0.0; }
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = state.dq > 0.0 ? 1.0 : 0.0;
+  }
 };
 
 }  // namespace

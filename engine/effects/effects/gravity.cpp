@@ -4,35 +4,29 @@
 // Errors     none here; the regressor refuses it for a prismatic joint, whose weight is a constant (offset)
 // Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots; PHYSICS.md G1
 
-#include <cmath>
+#include "engine/effects/instant_effect.hpp"
 
-#include "engine/base/contract.hpp"
-#include "engine/effects/described_effect.hpp"
+#include <cmath>
 
 namespace torquescope::effects {
 namespace {
 
-class Gravity final : public DescribedEffect {
+class Gravity final : public InstantEffect {
  public:
   Gravity()
-      : DescribedEffect({"gravity",
-                         "weight of an eccentric link",
-                         "g_sin sin(q) + g_cos cos(q)",
-                         "Khalil, Dombre 2002, Modeling, Identification and Control of Robots",
-                         {{"gravity_sin", "N m", ""}, {"gravity_cos", "N m", ""}}}) {}
+      : InstantEffect({.name = "gravity",
+                       .title = "weight of an eccentric link",
+                       .equation = "g_sin sin(q) + g_cos cos(q)",
+                       .source = "Khalil, Dombre 2002, Modeling, Identification and Control of Robots",
+                       .parameters = {{"gravity_sin", "N m", ""}, {"gravity_cos", "N m", ""}},
+                       .families = {EffectFamily::static_position},
+                       .signature = {SignatureAxis::position},
+                       .parity = Parity::even}) {}
 
-  void columns(Motion const& motion, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override {
-    TORQUESCOPE_EXPECT(shape.empty());
-    TORQUESCOPE_EXPECT(out.rows() == motion.q.size() && out.cols() == 2);
-    for (Eigen::Index i = 0; i < motion.q.size(); ++i) {
-      out(i, 0) = std::sin(motion.q[i]);
-      out(i, 1) = std::cos(motion.q[i]);
-    }
-  }
-
-  double torque(JointState const& state, std::span<double const> parameters) const override {
-    TORQUESCOPE_EXPECT(parameters.size() == 2);
-    return parameters[0] * std::sin(state.q) + parameters[1] * std::cos(state.q);
+ private:
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = std::sin(state.q);
+    out[1] = std::cos(state.q);
   }
 };
 

@@ -3,19 +3,26 @@
 // Equation   tau = J ddq
 // Source     seed eq. 3, x1
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class Inertia final : public SingleColumnEffect {
+class Inertia final : public InstantEffect {
  public:
   Inertia()
-      : SingleColumnEffect(
-            {"inertia", "inertia of joint and drive", "J ddq", "seed eq. 3, x1", {{"inertia", "kg m2", "kg"}}}) {}
+      : InstantEffect({.name = "inertia",
+                       .title = "inertia of joint and drive",
+                       .equation = "J ddq",
+                       .source = "seed eq. 3, x1",
+                       .parameters = {{"inertia", "kg m2", "kg"}},
+                       .signature = {SignatureAxis::acceleration},
+                       .parity = Parity::even}) {}
 
  private:
-  double column(JointState const& state) const override { return state.ddq; }
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = state.ddq;
+  }
 };
 
 }  // namespace

@@ -3,22 +3,26 @@
 // Equation   tau = b
 // Source     Gautier 1997, Dynamic identification of robots with power model
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class Offset final : public SingleColumnEffect {
+class Offset final : public InstantEffect {
  public:
   Offset()
-      : SingleColumnEffect({"offset",
-                            "constant offset",
-                            "b",
-                            "Gautier 1997, Dynamic identification of robots with power model",
-                            {{"offset", "N m", "N"}}}) {}
+      : InstantEffect({.name = "offset",
+                       .title = "constant offset",
+                       .equation = "b",
+                       .source = "Gautier 1997, Dynamic identification of robots with power model",
+                       .parameters = {{"offset", "N m", "N"}},
+                       .signature = {SignatureAxis::position},
+                       .parity = Parity::even}) {}
 
  private:
-  double column(JointState const&) const override { return 1.0; }
+  void row(JointState const&, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = 1.0;
+  }
 };
 
 }  // namespace

@@ -3,19 +3,26 @@
 // Equation   tau = Fv dq
 // Source     seed eq. 3, x2
 
-#include "engine/effects/described_effect.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class Viscous final : public SingleColumnEffect {
+class Viscous final : public InstantEffect {
  public:
   Viscous()
-      : SingleColumnEffect(
-            {"viscous", "viscous friction", "Fv dq", "seed eq. 3, x2", {{"viscous", "N m s/rad", "N s/m"}}}) {}
+      : InstantEffect({.name = "viscous",
+                       .title = "viscous friction",
+                       .equation = "Fv dq",
+                       .source = "seed eq. 3, x2",
+                       .parameters = {{"viscous", "N m s/rad", "N s/m"}},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::odd}) {}
 
  private:
-  double column(JointState const& state) const override { return state.dq; }
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = state.dq;
+  }
 };
 
 }  // namespace

@@ -19,10 +19,10 @@ TEST_P(EveryEffect, TorqueIsColumnsTimesParameters) {
   auto const motion = test::rich_motion(50);
   auto const count = static_cast<Eigen::Index>(effect.parameters().size());
   Eigen::MatrixXd phi(50, count);
-  effect.columns(motion, {}, phi);
+  effect.columns({motion}, {}, phi);
   Eigen::VectorXd const parameters = Eigen::VectorXd::LinSpaced(count, 0.3, 1.7);
   for (Eigen::Index i = 0; i < 50; ++i) {
-    double const torque = effect.torque(test::state_at(motion, i), {parameters.data(), parameters.data() + count});
+    double const torque = effect.torque(test::state_at(motion, i), {parameters.data(), parameters.data() + count}, {});
     EXPECT_NEAR(torque, phi.row(i).dot(parameters), 1e-14) << effect.name() << " at sample " << i;
   }
 }
@@ -39,8 +39,8 @@ TEST_P(EveryEffect, IsFoundByItsNameAndExplainsItself) {
 TEST_P(EveryEffect, IsDryFrictionExactlyWhenItsTorqueJumpsAtRest) {
   auto const& effect = *GetParam();
   std::vector<double> const ones(effect.parameters().size(), 1.0);
-  double const forwards = effect.torque({0.0, 0.3, 1e-300, 0.1}, ones);
-  double const backwards = effect.torque({0.0, 0.3, -1e-300, 0.1}, ones);
+  double const forwards = effect.torque({0.0, 0.3, 1e-300, 0.1}, ones, {});
+  double const backwards = effect.torque({0.0, 0.3, -1e-300, 0.1}, ones, {});
   EXPECT_EQ(effect.is_dry_friction(), std::abs(forwards - backwards) > 0.5);
 }
 
@@ -58,7 +58,7 @@ TEST(EffectNames, AreDifferentAndSoAreParameterNames) {
 }
 
 double torque(std::string const& name, JointState const& state, std::vector<double> const& parameters) {
-  return find_effect(name)->torque(state, parameters);
+  return find_effect(name)->torque(state, parameters, {});
 }
 
 TEST(SeedEffects, FollowEquation3) {

@@ -1,0 +1,62 @@
+#include "engine/effects/effect.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+std::vector<ParameterRange> ranges(std::span<EffectParameter const> parameters, JointScales const& scales) {
+  std::vector<ParameterRange> found;
+  for (auto const& parameter : parameters)
+    found.push_back({bound_value(parameter.lower, scales), bound_value(parameter.upper, scales), parameter.spacing});
+  return found;
+}
+
+}  // namespace
+
+JointState EffectInput::state(Eigen::Index sample) const {
+  auto const i = static_cast<std::size_t>(sample);
+  return {motion.time_s[sample],
+          motion.q[sample],
+          motion.dq[sample],
+          motion.ddq[sample],
+          load_torque.empty() ? 0.0 : load_torque[i],
+          model_torque.empty() ? 0.0 : model_torque[i]};
+}
+
+Effect::Effect(EffectDescription description) : description_(std::move(description)) {
+  auto const is_shape = [](EffectParameter const& parameter) { return parameter.is_shape; };
+  auto const& all = description_.parameters;
+  auto const first_shape = std::find_if(all.begin(), all.end(), is_shape);
+  n_linear_ = static_cast<std::size_t>(first_shape - all.begin());
+  TORQUESCOPE_EXPECT(n_linear_ >= 1 && n_linear_ <= 8);
+  TORQUESCOPE_EXPECT(std::all_of(first_shape, all.end(), is_shape));
+  TORQUESCOPE_EXPECT(!description_.families.empty());
+}
+
+bool Effect::exists_on(JointKind joint) const {
+  return std::any_of(parameters().begin(), parameters().end(), [joint](EffectParameter const& parameter) {
+    return !parameter.is_shape && !parameter.unit_for(joint).empty();
+  });
+}
+
+std::vector<ParameterRange> Effect::shape_bounds(JointScales const& scales) const {
+  return ranges(std::span(parameters()).subspan(n_linear_), scales);
+}
+
+std::vector<ParameterRange> Effect::linear_bounds(JointScales const& scales) const {
+  return ranges(std::span(parameters()).first(n_linear_), scales);
+}
+
+bool Effect::is_plain_term() const {
+  return n_shape() == 0 && !has_memory() && !needs_baseline() && acts_on() == ActsOn::joint;
+}
+
+double Effect::torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const {
+  return runner(parameters, scales)->torque(state, 0.0);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,54 @@
+#pragma once
+// What kind of thing an effect is: words that search, report and catalogue share.
+//
+// Source     PHYSICS.md section 1 (equivalence families, signature axes)
+
+#include <string>
+
+namespace torquescope {
+
+// effects that imitate one another; when the member cannot be told, the family is named
+enum class EffectFamily {
+  baseline,         // part of the model one starts from
+  reversal,         // shows where the joint turns round
+  velocity_law,     // a curve of torque over velocity
+  static_position,  // a curve of torque over position
+  order_locked,     // waves per turn
+  acceleration,     // acceleration, jerk, ringing
+  time,             // changes while the recording runs
+  load,             // follows the torque that is transmitted
+  measurement,      // the channel, not the joint
+  outside,          // torque from elsewhere
+};
+
+// axis of the mismatch map on which an effect stands out
+enum class SignatureAxis {
+  velocity,
+  position,
+  acceleration,
+  load,
+  since_velocity_reversal,
+  since_torque_reversal,
+  time,
+  frequency,
+  order
+};
+
+// columns under dq -> -dq, everything else equal and both directions alike
+enum class Parity { odd, even, neither };
+
+// what an effect adds to
+enum class ActsOn {
+  joint,              // torque the motor must give besides the baseline
+  recorded_torque,    // torque that is written down but not there
+  recorded_position,  // position that is read but not there
+};
+
+enum class Spacing { linear, logarithmic };  // of a search over a shape parameter
+
+std::string word(EffectFamily family);  // "velocity_law"
+std::string word(SignatureAxis axis);   // "since_velocity_reversal"
+std::string word(Parity parity);        // "odd"
+std::string word(ActsOn place);         // "recorded_torque"
+
+}  // namespace torquescope

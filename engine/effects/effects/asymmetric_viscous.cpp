@@ -1,0 +1,45 @@
+// Viscous friction that differs between the directions, as of a screw or an oil seal.
+//
+// Equation   tau = Fa |dq|; with the baseline's Fv dq: slopes Fv + Fa forwards and Fv - Fa backwards
+// Parameters asymmetric_viscous Fa [N m s/rad; N s/m], either sign, up to half the viscous friction
+// Signature  velocity: a V, even
+// Confused   offset and gravity while the joint moves one way only
+// Source     Elhami, Brookfield 1996
+
+#include <cmath>
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class AsymmetricViscous final : public InstantEffect {
+ public:
+  AsymmetricViscous()
+      : InstantEffect({.name = "asymmetric_viscous",
+                       .title = "viscous friction that differs between the directions",
+                       .equation = "Fa |dq|",
+                       .source = "Elhami, Brookfield 1996",
+                       .parameters = {{"asymmetric_viscous",
+                                       "N m s/rad",
+                                       "N s/m",
+                                       {-0.5, RelativeTo::viscous},
+                                       {0.5, RelativeTo::viscous}}},
+                       .families = {EffectFamily::velocity_law},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::even}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
+    out[0] = std::abs(state.dq);
+  }
+};
+
+}  // namespace
+
+Effect const& asymmetric_viscous() {
+  static AsymmetricViscous const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

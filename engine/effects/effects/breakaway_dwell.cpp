@@ -1,0 +1,75 @@
+// Break-away friction that grows while the joint rests: the contact ages, and sliding renews it.
+//
+// Equation   tau = s Fd (1 - exp(-age / tau_d)), d age/dt = 1 - |dq| age / D;
+//            s = sign(dq) weighted by the Coulomb levels of the baseline
+// Memory     the age of the contact [s], exact for a constant speed over a step
+// Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; dwell_time tau_d [s]; renewal_distance D [rad; m]
+// Signature  distance since the reversal of the velocity: a spike whose height follows the rest before it
+// Confused   stribeck; rests of different length tell them apart
+// Source     Rabinowicz 1958; Ruina 1983 (law of ageing)
+
+#include <cmath>
+
+#include "engine/effects/memory_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class AgeingContact final : public EffectMemory {
+ public:
+  AgeingContact(double dwell_s, double distance, JointScales const& scales)
+      : dwell_s_(dwell_s), distance_(distance), scales_(scales) {}
+
+  void start(JointState const& state) override {
+    q_ = state.q;
+    age_s_ = 0.0;
+  }
+
+  void advance(JointState const& state, double step_s) override {
+    double const renewed = std::abs(state.q - q_) / distance_;
+    q_ = state.q;
+    double const grown_s = renewed > 0.0 ? -std::expm1(-renewed) / renewed * step_s : step_s;
+    age_s_ = age_s_ * std::exp(-renewed) + grown_s;
+  }
+
+  void row(JointState const& state, std::span<double> out) const override {
+    out[0] = -scales_.friction_sign(state.dq) * std::expm1(-age_s_ / dwell_s_);
+  }
+
+ private:
+  double dwell_s_, distance_;
+  JointScales scales_;
+  double q_ = 0.0, age_s_ = 0.0;
+};
+
+class BreakawayDwell final : public MemoryEffect {
+ public:
+  BreakawayDwell()
+      : MemoryEffect({.name = "breakaway_dwell",
+                      .title = "break-away friction that grows while the joint rests",
+                      .equation = "s Fd (1 - exp(-age / tau_d)), d age/dt = 1 - |dq| age / D",
+                      .source = "Rabinowicz 1958; Ruina 1983",
+                      .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
+                                     shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
+                                                     {0.5, RelativeTo::duration}, Spacing::logarithmic),
+                                     shape_parameter("renewal_distance", "rad", "m", {1.0, RelativeTo::resolution},
+                                                     {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
+                      .families = {EffectFamily::reversal},
+                      .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::time},
+                      .parity = Parity::odd,
+                      .is_dry_friction = true}) {}
+
+ private:
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
+    return std::make_unique<AgeingContact>(shape[0], shape[1], scales);
+  }
+};
+
+}  // namespace
+
+Effect const& breakaway_dwell() {
+  static BreakawayDwell const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

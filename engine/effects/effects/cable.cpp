@@ -1,0 +1,82 @@
+// Cables and hoses that bend with the joint: a hardening spring with a loop.
+//
+// Equation   tau = k1 q + k3 q^3 + C z, dz/dx = (1 - z / sign(dx)) / D
+// Memory     z, carried over the distance by the exact exponential
+// Parameters cable_stiffness k1 [N m/rad; N/m], cable_cubic k3 [N m/rad3; N/m3], cable_loop C >= 0 [N m; N];
+//            cable_distance D [rad; m]
+// Signature  position, with a loop much wider than pre-sliding
+// Confused   spring, gravity, presliding
+// Source     PHYSICS.md G3; Dahl 1968 (loop)
+
+#include <cmath>
+
+#include "engine/effects/memory_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class CableLoop final : public EffectMemory {
+ public:
+  explicit CableLoop(double distance) : distance_(distance) {}
+
+  void start(JointState const& state) override {
+    q_ = state.q;
+    z_ = 0.0;
+  }
+
+  void advance(JointState const& state, double) override {
+    double const step = state.q - q_;
+    q_ = state.q;
+    double const full = std::copysign(1.0, step);
+    z_ = full + (z_ - full) * std::exp(-std::abs(step) / distance_);
+  }
+
+  void row(JointState const& state, std::span<double> out) const override {
+    out[0] = state.q;
+    out[1] = state.q * state.q * state.q;
+    out[2] = z_;
+  }
+
+ private:
+  double distance_;
+  double q_ = 0.0, z_ = 0.0;
+};
+
+class Cable final : public MemoryEffect {
+ public:
+  Cable()
+      : MemoryEffect({.name = "cable",
+                      .title = "cables and hoses: hardening spring with a loop",
+                      .equation = "k1 q + k3 q^3 + C z, dz/dx = (1 - z / sign(dx)) / D",
+                      .source = "Dahl 1968 (loop); FloBaRoID (cable torque)",
+                      .parameters = {{"cable_stiffness",
+                                      "N m/rad",
+                                      "N/m",
+                                      {-5.0, RelativeTo::torque_per_range},
+                                      {5.0, RelativeTo::torque_per_range}},
+                                     {"cable_cubic",
+                                      "N m/rad3",
+                                      "N/m3",
+                                      {-20.0, RelativeTo::torque_per_range3},
+                                      {20.0, RelativeTo::torque_per_range3}},
+                                     {"cable_loop", "N m", "N", {0.0}, {1.0, RelativeTo::torque}},
+                                     shape_parameter("cable_distance", "rad", "m", {0.02, RelativeTo::position_range},
+                                                     {0.5, RelativeTo::position_range}, Spacing::logarithmic)},
+                      .families = {EffectFamily::static_position, EffectFamily::reversal},
+                      .signature = {SignatureAxis::position, SignatureAxis::since_velocity_reversal},
+                      .parity = Parity::neither}) {}
+
+ private:
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&) const override {
+    return std::make_unique<CableLoop>(shape[0]);
+  }
+};
+
+}  // namespace
+
+Effect const& cable() {
+  static Cable const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

@@ -1,0 +1,49 @@
+// Someone or something pushes for a while.
+//
+// Equation   tau = a sin^2(pi (t - t_0) / w) for t_0 < t < t_0 + w
+// Parameters contact a [N m; N], either sign; contact_start t_0, contact_width w [s]
+// Signature  time: one stretch, not repeated, whatever the motion
+// Confused   sensor_drift
+// Source     De Luca, Mattone 2005 (momentum observer; the push itself has no law)
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class Contact final : public InstantEffect {
+ public:
+  Contact()
+      : InstantEffect({.name = "contact",
+                       .title = "a push from outside for a while",
+                       .equation = "a sin^2(pi (t - t_0) / w), t_0 < t < t_0 + w",
+                       .source = "De Luca, Mattone 2005",
+                       .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
+                                      shape_parameter("contact_start", "s", "s", {0.0, RelativeTo::instant},
+                                                      {0.98, RelativeTo::instant}, Spacing::linear),
+                                      shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
+                                                      {0.2, RelativeTo::duration}, Spacing::logarithmic)},
+                       .families = {EffectFamily::outside, EffectFamily::time},
+                       .signature = {SignatureAxis::time},
+                       .parity = Parity::even}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const> shape, JointScales const&,
+           std::span<double> out) const override {
+    double const phase = (state.time_s - shape[0]) / shape[1];
+    double const wave = std::sin(std::numbers::pi * phase);
+    out[0] = phase > 0.0 && phase < 1.0 ? wave * wave : 0.0;
+  }
+};
+
+}  // namespace
+
+Effect const& contact() {
+  static Contact const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

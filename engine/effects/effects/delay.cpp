@@ -1,0 +1,63 @@
+// The torque channel lags behind the position channel.
+//
+// Equation   recorded = true + d (true(t - D) - true(t)) / D; with D = d it is exactly true(t - d), with D -> 0 the
+//            first order -d dtau/dt
+// Why        for delays below the filter's resolution only d can be seen, and it is linear; for long ones D follows it
+// Memory     the torque of the last D
+// Parameters delay d [s], negative when the position lags; delay_span D [s]
+// Signature  acceleration: follows the jerk, with a spike at each reversal; a phase that grows with the frequency
+// Confused   actuator_lag, friction_lag, joint_elasticity, presliding
+// Source     MuJoCo sysid apply_delay; LESSONS.md item 10
+
+#include "engine/effects/lagged_signal.hpp"
+#include "engine/effects/memory_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class LateTorque final : public EffectMemory {
+ public:
+  explicit LateTorque(double span_s) : span_s_(span_s), torque_(span_s) {}
+  void start(JointState const& state) override { torque_.start(state.time_s, state.motor_torque); }
+  void advance(JointState const& state, double) override { torque_.push(state.time_s, state.motor_torque); }
+  void row(JointState const& state, std::span<double> out) const override {
+    out[0] = (torque_.lagged() - state.motor_torque) / span_s_;
+  }
+
+ private:
+  double span_s_;
+  LaggedSignal torque_;
+};
+
+class Delay final : public MemoryEffect {
+ public:
+  Delay()
+      : MemoryEffect(
+            {.name = "delay",
+             .title = "torque channel that lags behind the position",
+             .equation = "recorded torque + d (tau_motor(t - D) - tau_motor(t)) / D",
+             .source = "MuJoCo sysid, apply_delay",
+             .parameters = {{"delay", "s", "s", {-5.0, RelativeTo::sample_period}, {50.0, RelativeTo::sample_period}},
+                            shape_parameter("delay_span", "s", "s", {1.0, RelativeTo::sample_period},
+                                            {50.0, RelativeTo::sample_period}, Spacing::logarithmic)},
+             .families = {EffectFamily::acceleration, EffectFamily::reversal, EffectFamily::measurement},
+             .signature = {SignatureAxis::acceleration, SignatureAxis::since_velocity_reversal,
+                           SignatureAxis::frequency},
+             .parity = Parity::neither,
+             .acts_on = ActsOn::recorded_torque,
+             .needs_baseline = true}) {}
+
+ private:
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&) const override {
+    return std::make_unique<LateTorque>(shape[0]);
+  }
+};
+
+}  // namespace
+
+Effect const& delay() {
+  static Delay const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

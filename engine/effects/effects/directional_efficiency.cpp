@@ -1,0 +1,46 @@
+// Losses of a transmission that differ between driving the load and being driven by it.
+//
+// Equation   tau = s K |tau_motor - rho tau_load|; s = sign(dq) weighted by the Coulomb levels of the baseline
+// Parameters directional_efficiency K >= 0 [1], up to 0.5; backdrive_ratio rho [1]: 0, losses follow the motor's side
+// Signature  load: jumps where the sign of tau_load dq flips
+// Confused   load_dependent_friction, and nothing tells them apart by the load alone: for moving joints
+//            s |tau_load| [driving] - s |tau_load| [driven] = tau_load is a column of the baseline already
+// Source     BAM models M5, M6; Giberti, Cinquemani, Legnani 2010
+
+#include <cmath>
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class DirectionalEfficiency final : public InstantEffect {
+ public:
+  DirectionalEfficiency()
+      : InstantEffect({.name = "directional_efficiency",
+                       .title = "losses that differ between driving and being driven",
+                       .equation = "s K |tau_motor - rho tau_load|",
+                       .source = "BAM models M5, M6; Giberti, Cinquemani, Legnani 2010",
+                       .parameters = {{"directional_efficiency", "1", "1", {0.0}, {0.5}},
+                                      shape_parameter("backdrive_ratio", "1", "1", {0.0}, {2.0}, Spacing::linear)},
+                       .families = {EffectFamily::load},
+                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
+                       .parity = Parity::neither,
+                       .needs_baseline = true,
+                       .is_dry_friction = true}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
+           std::span<double> out) const override {
+    out[0] = scales.friction_sign(state.dq) * std::abs(state.motor_torque - shape[0] * state.load_torque);
+  }
+};
+
+}  // namespace
+
+Effect const& directional_efficiency() {
+  static DirectionalEfficiency const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

@@ -1,0 +1,59 @@
+// Friction that wanders or steps: wear, a loosening preload, grease that moves.
+//
+// Equation   tau = (t - start) (s d_c + d_v dq) + s d_s [t >= t_c]; s = sign(dq) weighted by the Coulomb levels
+// Parameters friction_drift_coulomb d_c [N m/s; N/s], friction_drift_viscous d_v [N m/rad; N/m],
+//            friction_step d_s [N m; N], either sign; friction_step_time t_c [s]
+// Signature  time, odd in the velocity: a ramp or a step
+// Confused   thermal_friction
+// Source     Bittencourt, Axelsson 2014 (wear)
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class FrictionDrift final : public InstantEffect {
+ public:
+  FrictionDrift()
+      : InstantEffect(
+            {.name = "friction_drift",
+             .title = "friction that wanders or steps in time",
+             .equation = "(t - start) (s d_c + d_v dq) + s d_s [t >= t_c]",
+             .source = "Bittencourt, Axelsson 2014",
+             .parameters = {{"friction_drift_coulomb",
+                             "N m/s",
+                             "N/s",
+                             {-1.0, RelativeTo::coulomb_per_duration},
+                             {1.0, RelativeTo::coulomb_per_duration}},
+                            {"friction_drift_viscous",
+                             "N m/rad",
+                             "N/m",
+                             {-1.0, RelativeTo::viscous_per_duration},
+                             {1.0, RelativeTo::viscous_per_duration}},
+                            {"friction_step", "N m", "N", {-1.0, RelativeTo::coulomb}, {1.0, RelativeTo::coulomb}},
+                            shape_parameter("friction_step_time", "s", "s", {0.05, RelativeTo::instant},
+                                            {0.95, RelativeTo::instant}, Spacing::linear)},
+             .families = {EffectFamily::time},
+             .signature = {SignatureAxis::time, SignatureAxis::velocity},
+             .parity = Parity::odd,
+             .is_dry_friction = true}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
+           std::span<double> out) const override {
+    double const s = scales.friction_sign(state.dq);
+    double const elapsed_s = state.time_s - scales.start_s;
+    out[0] = elapsed_s * s;
+    out[1] = elapsed_s * state.dq;
+    out[2] = state.time_s >= shape[0] ? s : 0.0;
+  }
+};
+
+}  // namespace
+
+Effect const& friction_drift() {
+  static FrictionDrift const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

@@ -1,0 +1,45 @@
+// Dry friction in proportion to the load that gears and bearings carry.
+//
+// Equation   tau = s mu |tau_load|; tau_load: gravity and inertia of the baseline;
+//            s = sign(dq) weighted by the Coulomb levels of the baseline
+// Parameters load_dependent_friction mu >= 0 [1], up to 0.3
+// Signature  load, odd in the velocity
+// Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
+// Source     Hamon, Gautier, Garrec, Janot 2010; BAM model M3
+
+#include <cmath>
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class LoadDependentFriction final : public InstantEffect {
+ public:
+  LoadDependentFriction()
+      : InstantEffect({.name = "load_dependent_friction",
+                       .title = "dry friction in proportion to the load",
+                       .equation = "s mu |tau_load|",
+                       .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
+                       .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}}},
+                       .families = {EffectFamily::load},
+                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
+                       .parity = Parity::odd,
+                       .needs_baseline = true,
+                       .is_dry_friction = true}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const>, JointScales const& scales,
+           std::span<double> out) const override {
+    out[0] = scales.friction_sign(state.dq) * std::abs(state.load_torque);
+  }
+};
+
+}  // namespace
+
+Effect const& load_dependent_friction() {
+  static LoadDependentFriction const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

@@ -1,0 +1,44 @@
+// Friction that grows with a power of the speed: grease that thins under shear (alpha < 1) or thickens.
+//
+// Equation   tau = k sign(dq) |dq|^alpha
+// Parameters power_law_viscous k >= 0 [N m (s/rad)^alpha; N (s/m)^alpha]: the torque at 1 rad/s
+//            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb friction
+// Signature  velocity: odd, curved at middle speeds
+// Confused   stribeck with a wide speed, speed_drag
+// Source     Waiboer, Aarts, Jonker 2005
+
+#include <cmath>
+
+#include "engine/effects/instant_effect.hpp"
+
+namespace torquescope::effects {
+namespace {
+
+class PowerLawViscous final : public InstantEffect {
+ public:
+  PowerLawViscous()
+      : InstantEffect({.name = "power_law_viscous",
+                       .title = "friction that grows with a power of the speed",
+                       .equation = "k sign(dq) |dq|^alpha",
+                       .source = "Waiboer, Aarts, Jonker 2005",
+                       .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
+                                      shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0}, Spacing::linear)},
+                       .families = {EffectFamily::velocity_law, EffectFamily::reversal},
+                       .signature = {SignatureAxis::velocity},
+                       .parity = Parity::odd}) {}
+
+ private:
+  void row(JointState const& state, std::span<double const> shape, JointScales const&,
+           std::span<double> out) const override {
+    out[0] = sign(state.dq) * std::pow(std::abs(state.dq), shape[0]);
+  }
+};
+
+}  // namespace
+
+Effect const& power_law_viscous() {
+  static PowerLawViscous const effect;
+  return effect;
+}
+
+}  // namespace torquescope::effects

@@ -1,0 +1,202 @@
+#include "engine/effects/joint_scales.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace torquescope {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+double cube(double x) { return x * x * x; }
+
+// a wave of the angle must stand above the encoder's step and below the cutoff while the joint is slow; a turn has no
+// more than 400 of them (PHYSICS.md T1)
+double highest_order(JointScales const& scales) {
+  double const by_filter = two_pi * scales.cutoff_hz / (0.1 * scales.peak_speed);
+  double const by_encoder = two_pi / (4.0 * scales.resolution());
+  double const order = std::min(by_filter, by_encoder);
+  return scales.joint == JointKind::revolute ? std::min(order, 400.0) : order;
+}
+
+double coulomb_or_torque(JointScales const& scales) {
+  return scales.coulomb() > 0.0 ? scales.coulomb() : scales.torque_rms;
+}
+
+double viscous_or_torque(JointScales const& scales) {
+  return scales.viscous > 0.0 ? scales.viscous : scales.torque_rms / scales.peak_speed;
+}
+
+double inertia_or_torque(JointScales const& scales) {
+  return scales.inertia > 0.0 ? scales.inertia : scales.torque_rms / (scales.peak_speed * two_pi * scales.cutoff_hz);
+}
+
+}  // namespace
+
+double JointScales::resolution() const { return encoder_step > 0.0 ? encoder_step : 1e-6 * position_range; }
+
+double JointScales::friction_sign(double velocity) const {
+  if (velocity == 0.0) return 0.0;
+  if (!(coulomb() > 0.0)) return velocity > 0.0 ? 1.0 : -1.0;
+  return (velocity > 0.0 ? coulomb_positive : -coulomb_negative) / coulomb();
+}
+
+double bound_value(Bound const& bound, JointScales const& scales) {
+  double const f = bound.factor;
+  switch (bound.to) {
+    case RelativeTo::absolute:
+      return f;
+    case RelativeTo::peak_speed:
+      return f * scales.peak_speed;
+    case RelativeTo::position_range:
+      return f * scales.position_range;
+    case RelativeTo::position:
+      return scales.position_centre + f * scales.position_range;
+    case RelativeTo::resolution:
+      return f * scales.resolution();
+    case RelativeTo::duration:
+      return f * scales.duration_s;
+    case RelativeTo::instant:
+      return scales.start_s + f * scales.duration_s;
+    case RelativeTo::sample_period:
+      return f / scales.rate_hz;
+    case RelativeTo::filter_time:
+      return f / (two_pi * scales.cutoff_hz);
+    case RelativeTo::slowest_frequency:
+      return f / scales.duration_s;
+    case RelativeTo::cutoff_frequency:
+      return f * scales.cutoff_hz;
+    case RelativeTo::lowest_order:
+      return f * two_pi / scales.position_range;
+    case RelativeTo::highest_order:
+      return f * highest_order(scales);
+    case RelativeTo::torque:
+      return f * scales.torque_rms;
+    case RelativeTo::torque_peak:
+      return f * scales.torque_peak;
+    case RelativeTo::torque_inverse2:
+      return f / (scales.torque_rms * scales.torque_rms);
+    case RelativeTo::coulomb:
+      return f * coulomb_or_torque(scales);
+    case RelativeTo::coulomb_per_range:
+      return f * coulomb_or_torque(scales) / scales.position_range;
+    case RelativeTo::coulomb_per_duration:
+      return f * coulomb_or_torque(scales) / scales.duration_s;
+    case RelativeTo::viscous:
+      return f * viscous_or_torque(scales);
+    case RelativeTo::viscous_per_duration:
+      return f * viscous_or_torque(scales) / scales.duration_s;
+    case RelativeTo::inertia:
+      return f * inertia_or_torque(scales);
+    case RelativeTo::torque_per_duration:
+      return f * scales.torque_rms / scales.duration_s;
+    case RelativeTo::torque_per_speed:
+      return f * scales.torque_rms / scales.peak_speed;
+    case RelativeTo::torque_per_speed2:
+      return f * scales.torque_rms / (scales.peak_speed * scales.peak_speed);
+    case RelativeTo::torque_per_speed3:
+      return f * scales.torque_rms / cube(scales.peak_speed);
+    case RelativeTo::torque_per_range:
+      return f * scales.torque_rms / scales.position_range;
+    case RelativeTo::torque_per_range3:
+      return f * scales.torque_rms / cube(scales.position_range);
+  }
+  return f;
+}
+
+std::string bound_text(Bound const& bound) {
+  if (std::isinf(bound.factor)) return "no bound";
+  if (bound.factor == 0.0 && bound.to != RelativeTo::position && bound.to != RelativeTo::instant) return "0";
+  char const* scale = "";
+  switch (bound.to) {
+    case RelativeTo::absolute:
+      break;
+    case RelativeTo::peak_speed:
+      scale = " peak speed";
+      break;
+    case RelativeTo::position_range:
+      scale = " position range";
+      break;
+    case RelativeTo::position:
+      scale = " position range from its centre";
+      break;
+    case RelativeTo::resolution:
+      scale = " encoder step";
+      break;
+    case RelativeTo::duration:
+      scale = " duration";
+      break;
+    case RelativeTo::instant:
+      scale = " duration from the start";
+      break;
+    case RelativeTo::sample_period:
+      scale = " sample period";
+      break;
+    case RelativeTo::filter_time:
+      scale = " / (2 pi cutoff)";
+      break;
+    case RelativeTo::slowest_frequency:
+      scale = " / duration";
+      break;
+    case RelativeTo::cutoff_frequency:
+      scale = " cutoff";
+      break;
+    case RelativeTo::lowest_order:
+      scale = " wave per position range";
+      break;
+    case RelativeTo::highest_order:
+      scale = " order at the cutoff at 0.1 peak speed (400 per turn at most)";
+      break;
+    case RelativeTo::torque:
+      scale = " torque rms";
+      break;
+    case RelativeTo::torque_peak:
+      scale = " torque peak";
+      break;
+    case RelativeTo::torque_inverse2:
+      scale = " / torque rms^2";
+      break;
+    case RelativeTo::coulomb:
+      scale = " Coulomb level";
+      break;
+    case RelativeTo::coulomb_per_range:
+      scale = " Coulomb level / position range";
+      break;
+    case RelativeTo::coulomb_per_duration:
+      scale = " Coulomb level / duration";
+      break;
+    case RelativeTo::viscous:
+      scale = " viscous";
+      break;
+    case RelativeTo::viscous_per_duration:
+      scale = " viscous / duration";
+      break;
+    case RelativeTo::inertia:
+      scale = " inertia";
+      break;
+    case RelativeTo::torque_per_duration:
+      scale = " torque rms / duration";
+      break;
+    case RelativeTo::torque_per_speed:
+      scale = " torque rms / peak speed";
+      break;
+    case RelativeTo::torque_per_speed2:
+      scale = " torque rms / peak speed^2";
+      break;
+    case RelativeTo::torque_per_speed3:
+      scale = " torque rms / peak speed^3";
+      break;
+    case RelativeTo::torque_per_range:
+      scale = " torque rms / position range";
+      break;
+    case RelativeTo::torque_per_range3:
+      scale = " torque rms / position range^3";
+      break;
+  }
+  return fmt::format("{:g}{}", bound.factor, scale);
+}
+
+}  // namespace torquescope
