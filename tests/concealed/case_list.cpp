@@ -28,7 +28,7 @@ std::vector<Row> const& rows() {
       {"cedar", "elbow", "pd", "quiet", 19, mixed, multisine, 60, {cogging_of(0.02, 22.0)}, 103},
       {"elm", "shoulder", "cascade", "bench", 19, mixed, multisine, 60, {load_friction_of(0.04, 0.3)}, 104},
       {"fir", "wrist", "pd", "workshop", 15, staircase, multisine, 60, {}, 105},
-      {"hazel", "stage", "stiff_cascade", "bench", 16, mixed, multisine, 60, {presliding_of(0.00025)}, 106},
+      {"hazel", "stage", "stiff_cascade", "bench", 16, mixed, multisine, 60, {presliding_of(0.00015)}, 106},
       {"juniper", "shoulder", "pd", "quiet", 20, multisine, staircase, 60, {}, 107},
       {"larch", "elbow", "pid", "bench", 18, mixed, staircase, 120, {warm_up_of(0.08, 40.0, 160.0)}, 108},
       {"maple", "wrist", "soft_pd", "bench", 17, mixed, staircase, 60, {memory_drag_of(0.5, 1.5, 6.0, 0.05)}, 109},

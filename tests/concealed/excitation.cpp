@@ -42,8 +42,10 @@ Excitation::Excitation(Recipe recipe, MotionLimits const& limits, double duratio
   std::vector<double> const steps = {1.0, 0.7, 0.45, 0.28, 0.16, 0.09, 0.05};
   std::vector<double> const slow = {0.07, 0.045, 0.028, 0.018, 0.012, 0.008};
   dwell(0.3);
-  for (std::uint64_t turn = 0; end_time() < duration_s - 2.0 * fade_s; ++turn) {
-    double const left = duration_s - end_time() - 0.3;
+  // until the time is up or no kind of piece fits any more
+  int without_piece = 0;
+  for (std::uint64_t turn = 0; without_piece < 3 && end_time() < duration_s - 2.0 * fade_s; ++turn) {
+    double const before = end_time(), left = duration_s - before;
     std::uint64_t const piece_seed = seed + 1000003 * turn;
     switch (recipe) {
       case Recipe::multisine:
@@ -71,6 +73,7 @@ Excitation::Excitation(Recipe recipe, MotionLimits const& limits, double duratio
             break;
         }
     }
+    without_piece = end_time() > before ? 0 : without_piece + 1;
   }
 }
 
@@ -123,22 +126,28 @@ void Excitation::stroke_to(double target, double speed) {
 void Excitation::add_strokes(double length, double range, std::vector<double> speeds, std::uint64_t seed) {
   Random random(seed, "strokes");
   double const stop = end_time() + length;
-  for (std::size_t n = 0;; ++n) {
+  double const longest_dwell_s = 0.2;
+  std::size_t too_long = 0;  // speeds in a row that did not fit any more
+  for (std::size_t n = 0; too_long < speeds.size(); ++n) {
     // every speed once in a new order, then all again: speeds are interleaved in time
     std::size_t const round = n % speeds.size();
     std::swap(speeds[round], speeds[round + random.index(speeds.size() - round)]);
     double const speed = speeds[round] * limits_.speed;
-    // a slow stroke is a short one, so that no speed takes more than about a fifth of the time
-    double const far = std::min(range, 0.5 * speed * length / 5.0);
-    double const home_s = 2.0 * (far / speed) + 4.0 * speed_up_s + 0.4;
-    if (end_time() + home_s + 2.0 * (far / speed) + 2.0 * speed_up_s > stop) break;
+    // a slow stroke is a short one: no speed takes more than a fifth of the time at once
+    double const far = std::min(range, speed * length / 20.0);
+    double const there_and_back_s = 4.0 * far / speed + 3.0 * speed_up_s + 2.0 * longest_dwell_s + 0.05;
+    if (end_time() + there_and_back_s > stop) {
+      ++too_long;
+      continue;
+    }
+    too_long = 0;
     stroke_to(far, speed);
-    dwell(random.between(0.05, 0.3));
+    dwell(random.between(0.05, longest_dwell_s));
     stroke_to(-far, speed);
-    dwell(random.between(0.05, 0.3));
+    dwell(random.between(0.05, longest_dwell_s));
     stroke_to(0.0, speed);
+    dwell(0.05);
   }
-  dwell(std::max(0.05, stop - end_time()));
 }
 
 double Excitation::position(double t) const {
