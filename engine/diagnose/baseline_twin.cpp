@@ -30,6 +30,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   result.disturbance = disturbance_level(record, twin, pipeline, options.step_s, level_set, options.twins, threads);
   if (result.disturbance.ran_away || result.disturbance.std == 0.0) return result;
   result.loop.loop.disturbance_std = result.disturbance.std;
+  result.loop.loop.disturbance_variance_error = result.disturbance.variance_error;
   correct();
   return result;
 }

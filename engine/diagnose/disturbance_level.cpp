@@ -19,6 +19,7 @@ Energies twin_energies(CleanTwin const& twin, double disturbance_std, RecordPipe
                        TwinAddress const& address, std::size_t twins, int threads) {
   TwinLoop loop = twin.loop();
   loop.disturbance_std = disturbance_std;
+  loop.disturbance_variance_error = 0.0;
   CleanTwin const disturbed(twin.joint(), loop, twin.track(), step_s);
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(twins));
   std::vector<char> ran_away(twins, 0);
@@ -75,8 +76,10 @@ DisturbanceLevel disturbance_level(ProcessedRecord const& recording, CleanTwin c
     Energies const some = energies(std::sqrt(variance));
     result.ran_away = some.ran_away;
     if (some.ran_away || some.mean <= none.mean) return result;
-    result.std = std::sqrt(variance);
-    variance *= (wanted - none.mean) / (some.mean - none.mean);
+    double const slope = (some.mean - none.mean) / variance;
+    variance = (wanted - none.mean) / slope;
+    // of the recording's own energy and of the twins' mean
+    result.variance_error = some.std * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
   }
   result.std = std::sqrt(variance);
   return result;

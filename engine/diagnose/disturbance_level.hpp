@@ -21,8 +21,9 @@ namespace torquescope {
 
 struct DisturbanceLevel {
   double std = 0.0;
-  double energy_ratio = 0.0;  // recording over twins without disturbance
-  double z = 0.0;             // of the recording's energy among them
+  double variance_error = 0.0;  // standard error of std^2, from the spread of the energy over twins at this level
+  double energy_ratio = 0.0;    // recording over twins without disturbance
+  double z = 0.0;               // of the recording's energy among them
   bool ran_away = false;
 };
 

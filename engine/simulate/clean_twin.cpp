@@ -12,7 +12,7 @@ namespace torquescope {
 namespace {
 
 // numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2 };
+enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3 };
 
 // one noise of one group: an autoregression per lane
 class LaneNoise {
@@ -52,6 +52,17 @@ class LaneNoise {
   std::vector<double> history_;  // [order][lanes], a ring
   std::size_t newest_ = 0;
 };
+
+// how much larger than the loop's each twin's disturbance is
+void draw_levels(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* level) {
+  std::fill_n(level, twin_lanes, 1.0);
+  double const variance = loop.disturbance_std * loop.disturbance_std;
+  if (variance == 0.0 || loop.disturbance_variance_error == 0.0) return;
+  LaneNoise error(address, TwinStream::level, group, white(loop.disturbance_variance_error));
+  error.next(level);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    level[lane] = std::sqrt(std::max(0.0, variance + level[lane]) / variance);
+}
 
 // the law in all lanes: what it remembers, and its answer
 class LaneController {
@@ -130,6 +141,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
   LaneNoise disturbance(address, TwinStream::disturbance, group, white(loop_.disturbance_std));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
+  double disturbance_level[twin_lanes];
+  draw_levels(address, group, loop_, disturbance_level);
   LaneController controller(loop_.law, track_);
   std::vector<std::unique_ptr<LaneEffect>> effects;
   for (auto const& make : joint_.effects) effects.push_back(make());
@@ -161,7 +174,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
 
     // move on to the next tick
     disturbance.next(noise);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) command[lane] += noise[lane] - joint_.offset;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      command[lane] += disturbance_level[lane] * noise[lane] - joint_.offset;
     if (effects.empty()) {
       std::copy_n(command, twin_lanes, torques.held);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "engine/base/contract.hpp"
@@ -18,7 +19,7 @@ constexpr int most_lags = lag_ladder.back();
 // two-sided normal quantiles: 1 % over four autocorrelations; 0.1 % for an integral or a shift to be there
 constexpr double z_white = 3.02;
 constexpr double z_coefficient = 3.29;
-// a torque this many residual deviations short of the law is at its limit, when it happens for three rows
+// deviations by which a limit must explain better than the law, and in how many rows
 constexpr double z_clipped = 6.0;
 constexpr std::size_t fewest_clipped = 3;
 
@@ -147,15 +148,14 @@ int best_shift(LoopSignals const& s, Rows const& rows) {
   return best;
 }
 
+// Akaike: a lag too many costs nothing here, one too few bends the law while the noise still looks white
 Regression best_lags(LoopSignals const& s, int shift, Rows const& rows) {
   double const n = static_cast<double>(rows.size());
   Regression best;
   double least = std::numeric_limits<double>::infinity();
   for (int lags : lag_ladder) {
     Regression tried = regress(s, {lags, shift, true}, rows);
-    if (white_enough(residual_acf(tried.residual, rows), white_bound(rows))) return tried;
-    double const criterion =
-        n * std::log(std::max(tried.sse / n, std::numeric_limits<double>::min())) + lags * std::log(n);
+    double const criterion = n * std::log(std::max(tried.sse, std::numeric_limits<double>::min())) + 2.0 * lags;
     if (criterion < least) {
       least = criterion;
       best = std::move(tried);
@@ -200,30 +200,38 @@ Rows inner_rows(LoopSignals const& s, Rows const& rows) {
   Rows inner;
   for (auto k : rows)
     if (s.torque[k] < 0.9 * top + 0.1 * bottom && s.torque[k] > 0.9 * bottom + 0.1 * top) inner.push_back(k);
-  return inner.size() >= rows.size() / 2 ? inner : rows;
+  return inner.size() >= rows.size() / 10 ? inner : rows;
 }
 
-double median(std::vector<double>& values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// the level the torque stays at where the law, fitted to the inner rows, asks for more
-Limits find_limits(LoopSignals const& s, Regression const& fit, Rows const& rows) {
-  double const top = s.torque.maxCoeff(), bottom = s.torque.minCoeff();
-  double const deviation = std::sqrt(fit.sse / static_cast<double>(fit.residual.size()));
-  Eigen::VectorXd const asked = asked_torque(s, fit, rows);
-  std::vector<double> above, below;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    double const want = asked[static_cast<Eigen::Index>(i)];
-    if (want > top + z_clipped * deviation) above.push_back(s.torque[rows[i]]);
-    if (want < bottom - z_clipped * deviation) below.push_back(s.torque[rows[i]]);
+// The level at which the torque stops following the law upwards: the rows where the law asks for most, as many as are
+// explained better by one common level than by the law; infinite when six deviations do not tell the two apart.
+// asked, torque: negated for the lower limit
+double upper_limit(Eigen::VectorXd const& asked, Eigen::VectorXd const& torque, double deviation) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(asked.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return asked[a] > asked[b]; });
+  double limit = std::numeric_limits<double>::infinity();
+  double best = z_clipped * z_clipped * deviation * deviation;
+  double sum = 0.0, by_law = 0.0, squares = 0.0;
+  double const origin = torque[order.front()];  // the torque's own size must not swallow its spread
+  for (std::size_t i = 0; i < order.size() / 2; ++i) {
+    double const u = torque[order[i]] - origin, excess = torque[order[i]] - asked[order[i]];
+    sum += u;
+    squares += u * u;
+    by_law += excess * excess;
+    double const count = static_cast<double>(i + 1);
+    double const gain = by_law - (squares - sum * sum / count);
+    if (i + 1 < fewest_clipped || gain <= best) continue;
+    best = gain;
+    limit = origin + sum / count;
   }
-  Limits limits;
-  if (above.size() >= fewest_clipped) limits.most = median(above);
-  if (below.size() >= fewest_clipped) limits.least = median(below);
-  return limits;
+  return limit;
+}
+
+Limits find_limits(LoopSignals const& s, Regression const& fit, Rows const& rows) {
+  double const deviation = std::sqrt(fit.sse / static_cast<double>(fit.residual.size()));
+  Eigen::VectorXd const asked = asked_torque(s, fit, rows), torque = picked(s.torque, rows);
+  return {-upper_limit(-asked, -torque, deviation), upper_limit(asked, torque, deviation)};
 }
 
 // rows where the law asks for less than the limits: told by what it sees, not by the torque
@@ -256,13 +264,12 @@ ControllerFit fit_controller(LoopSignals const& signals) {
   // which rows obey the law at all
   Rows const all = usable_rows(signals.position.size());
   Rows const inner = inner_rows(signals, all);
-  int const shift = best_shift(signals, inner);
-  Regression const first = regress(signals, {most_lags, shift, true}, inner);
+  Regression const first = regress(signals, {most_lags, best_shift(signals, inner), true}, inner);
   Limits const limits = find_limits(signals, first, all);
   Rows const rows = limits.any() ? unclipped_rows(signals, first, limits, all) : all;
 
   // the law
-  Regression fit = best_lags(signals, shift, rows);
+  Regression fit = best_lags(signals, best_shift(signals, rows), rows);
   ControllerFit result;
   result.integral_z = fit.coefficients[fit.columns.integral()] / fit.errors[fit.columns.integral()];
   if (!(std::abs(result.integral_z) > z_coefficient)) {

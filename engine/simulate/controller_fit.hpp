@@ -3,8 +3,8 @@
 //
 // Equation   u_k = kp e_k + ki sum_(i<=k) e_i + sum_i d_i (q_(k-i) - q_(k-i-1)) + f_- (r_k - r_(k-1)) + f_+ (r_(k+1) -
 //            r_k) + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, r read at k + shift
-// Choice     shift in -2 .. 2 by the least residual, 0 unless another is better at 0.1 %; lags 3, then 6, then 12 until the residual is white, else the count
-//            with the least Schwarz criterion (a velocity filter needs more of the past than a difference)
+// Choice     shift in -2 .. 2 by the least residual, 0 unless another is better at 0.1 %; 3, 6 or 12 lags by Akaike's
+//            criterion (a velocity filter needs more of the past than a difference)
 // Integral   kept only when significant at 0.1 %: beside a reference with a mean error its column is nearly a ramp
 // Drift      of the torque sensor, for it is none of the loop's: part of the regression, not of the law
 // Limits     rows where the law asks for more than the torque reaches are left out of the fit, and the torque's level
