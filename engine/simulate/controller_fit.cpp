@@ -22,6 +22,7 @@ constexpr double z_coefficient = 3.29;
 // deviations by which a limit must explain better than the law, and in how many rows
 constexpr double z_clipped = 6.0;
 constexpr std::size_t fewest_clipped = 3;
+constexpr int limit_passes = 3;
 
 using Rows = std::vector<Eigen::Index>;
 
@@ -136,8 +137,7 @@ int best_shift(LoopSignals const& s, Rows const& rows) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int shift : {0, -1, 1, -2, 2}) {
-    double const sse =
-        std::max(regress(s, {lag_ladder.front(), shift, true}, rows).sse, std::numeric_limits<double>::min());
+    double const sse = std::max(regress(s, {most_lags, shift, true}, rows).sse, std::numeric_limits<double>::min());
     // the neighbouring samples of the reference imitate a small shift: none, unless the likelihood says otherwise
     double const criterion = n * std::log(sse) + (shift == 0 ? 0.0 : z_coefficient * z_coefficient);
     if (criterion < least) {
@@ -261,15 +261,21 @@ std::string in_words(ControllerFit const& fit) {
 ControllerFit fit_controller(LoopSignals const& signals) {
   TORQUESCOPE_EXPECT(signals.position.size() >= 100 && signals.reference.size() == signals.position.size() &&
                      signals.torque.size() == signals.position.size());
-  // which rows obey the law at all
+  // which rows obey the law at all; the first fit chose its rows by the torque, the next ones by the law
   Rows const all = usable_rows(signals.position.size());
-  Rows const inner = inner_rows(signals, all);
-  Regression const first = regress(signals, {most_lags, best_shift(signals, inner), true}, inner);
-  Limits const limits = find_limits(signals, first, all);
-  Rows const rows = limits.any() ? unclipped_rows(signals, first, limits, all) : all;
+  Rows rows = inner_rows(signals, all);
+  int shift = best_shift(signals, rows);
+  Limits limits;
+  for (int pass = 0; pass < limit_passes; ++pass) {
+    Regression const sofar = regress(signals, {most_lags, shift, true}, rows);
+    limits = find_limits(signals, sofar, all);
+    rows = limits.any() ? unclipped_rows(signals, sofar, limits, all) : all;
+    if (pass == 0) shift = best_shift(signals, rows);
+    if (!limits.any()) break;
+  }
 
   // the law
-  Regression fit = best_lags(signals, best_shift(signals, rows), rows);
+  Regression fit = best_lags(signals, shift, rows);
   ControllerFit result;
   result.integral_z = fit.coefficients[fit.columns.integral()] / fit.errors[fit.columns.integral()];
   if (!(std::abs(result.integral_z) > z_coefficient)) {
