@@ -30,7 +30,9 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLo
 
     Eigen::RowVectorXd const mean = fits.colwise().mean();
     result.std = ((fits.rowwise() - mean).colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt();
-    Eigen::VectorXd const step = recording_fit - mean.transpose();
+    // the first two rounds go all the way; later ones average out what the twins' rounding makes of every new start
+    double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
+    Eigen::VectorXd const step = gain * (recording_fit - mean.transpose());
     result.parameters += step;
     ++result.rounds;
     // without noise all twins are one: then rounding is the yardstick

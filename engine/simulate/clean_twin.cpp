@@ -12,7 +12,12 @@ namespace torquescope {
 namespace {
 
 // numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3 };
+enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3, start = 4 };
+
+std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
+  constexpr std::uint32_t most_streams = 8;
+  return address.set * most_streams + static_cast<std::uint32_t>(stream);
+}
 
 // one noise of one group: an autoregression per lane
 class LaneNoise {
@@ -21,8 +26,7 @@ class LaneNoise {
       : model_(std::move(model)), history_(model_.past.size() * twin_lanes, 0.0) {
     for (std::uint32_t lane = 0; lane < twin_lanes; ++lane)
       streams_.emplace_back(RandomKey{address.seed, address.recording, RandomDomain::twin},
-                            address.set * 4 + static_cast<std::uint32_t>(stream),
-                            group * static_cast<std::uint32_t>(twin_lanes) + lane);
+                            stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes) + lane);
     // from nothing to stationary
     constexpr std::size_t settling = 20;
     alignas(64) double dropped[twin_lanes];
@@ -62,6 +66,18 @@ void draw_levels(TwinAddress const& address, std::uint32_t group, TwinLoop const
   error.next(level);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane)
     level[lane] = std::sqrt(std::max(0.0, variance + level[lane]) / variance);
+}
+
+// Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
+// only logged, and one pattern of rounding would pass for all there is.
+void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, TwinTrack const& track,
+                 double* position) {
+  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::twin},
+                        stream_number(address, TwinStream::start),
+                        group * static_cast<std::uint32_t>(twin_lanes) + lane);
+    position[lane] = track.start_position + loop.encoder_step * (random.uniform() - 0.5);
+  }
 }
 
 // the law in all lanes: what it remembers, and its answer
@@ -159,7 +175,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   }
 
   LaneState state;
-  std::fill_n(state.q, twin_lanes, track_.start_position);
+  draw_starts(address, group, loop_, track_, state.q);
   std::fill_n(state.dq, twin_lanes, track_.start_velocity);
   LaneTorques torques;
   std::fill_n(torques.forward, twin_lanes, joint_.coulomb_forward);

@@ -4,7 +4,7 @@
 //
 // At a tick  (one sample) the encoder reads position + position noise; the law answers and holds its torque until the next
 //            tick; torque noise is added to what is logged, disturbance to what acts
-// Start      at the recording's first position, at its first velocity
+// Start      at the recording's first velocity, anywhere within the encoder step of its first position
 // Groups     twin_lanes twins are simulated side by side; twin i is lane i % twin_lanes of group i / twin_lanes
 // Random     addressed by (seed, recording, set, stream, twin, draw): the same twin has the same bits whatever was
 //            simulated before, on any number of threads and any instruction set; sets are independent of each other
@@ -46,7 +46,7 @@ struct TwinTrack {
 struct TwinAddress {
   std::uint64_t seed = 0;
   std::uint32_t recording = 0;  // < 2^24
-  std::uint32_t set = 0;        // < 2^30
+  std::uint32_t set = 0;        // < 2^29
 };
 
 // workspace and result of one group: measured channels as a recording has them

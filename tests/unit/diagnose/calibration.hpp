@@ -13,7 +13,7 @@
 
 namespace torquescope::test {
 
-inline constexpr std::array<char const*, 6> statistic_names{"energy",    "fast energy", "jerk (delay)",
+inline constexpr std::array<char const*, 6> statistic_names{"energy",   "fast energy", "jerk (delay)",
                                                             "Stribeck", "position",    "largest residual"};
 using Statistics = std::array<double, statistic_names.size()>;
 
@@ -80,8 +80,8 @@ inline double kolmogorov_smirnov(std::vector<double> p) {
   double const n = static_cast<double>(p.size());
   double distance = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i)
-    distance = std::max({distance, std::abs(p[i] - static_cast<double>(i) / n),
-                         std::abs(static_cast<double>(i + 1) / n - p[i])});
+    distance = std::max(
+        {distance, std::abs(p[i] - static_cast<double>(i) / n), std::abs(static_cast<double>(i + 1) / n - p[i])});
   return distance;
 }
 

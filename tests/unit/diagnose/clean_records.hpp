@@ -31,8 +31,8 @@ inline CleanJoint clean_joint(double inertia = 0.036, double viscous = 0.164, do
   joint.truth = Eigen::Vector4d(inertia, viscous, coulomb, offset);
   auto& plan = joint.plan;
   plan.simulation.rate_hz = 1000.0;
-  plan.simulation.duration_s = 15.0;
-  plan.simulation.step_s = 5e-5;
+  plan.simulation.duration_s = 8.0;
+  plan.simulation.step_s = 1e-4;
   plan.plant = plant({{"inertia", inertia}, {"viscous", viscous}, {"coulomb", coulomb}, {"offset", offset}});
   plan.reference.amplitude = 1.5;
   plan.controller.kind = "pd";
@@ -48,8 +48,8 @@ inline CleanJoint clean_joint_number(std::uint32_t index) {
   static std::array<char const*, 3> const kinds{"pd", "pid", "p_velocity"};
   RandomStream random({77, index, RandomDomain::test}, 0, 0);
   double const coulomb = random.uniform(0.3, 1.5);
-  CleanJoint joint = clean_joint(random.uniform(0.02, 0.08), random.uniform(0.05, 0.3), coulomb,
-                                 random.uniform(-0.2, 0.2) * coulomb);
+  CleanJoint joint =
+      clean_joint(random.uniform(0.02, 0.08), random.uniform(0.05, 0.3), coulomb, random.uniform(-0.2, 0.2) * coulomb);
   joint.plan.controller.kind = kinds[index % 3];
   joint.plan.controller.bandwidth_hz = random.uniform(5.0, 12.0);
   joint.plan.controller.velocity_cutoff_hz = index % 2 == 0 ? 0.0 : 100.0;
