@@ -42,7 +42,11 @@ RecordedLoop common_parts(Recording const& recording) {
 }  // namespace
 
 RecordedLoop recorded_loop(Recording const& recording, double inertia, FilterOptions const& filter) {
-  if (recording.reference.size() != recording.position.size()) return tracking_loop(recording, inertia, filter);
+  if (recording.reference.size() != recording.position.size()) {
+    RecordedLoop own = tracking_loop(recording, inertia, filter);
+    own.remark = "there is no reference: " + own.remark;
+    return own;
+  }
   RecordedLoop result = common_parts(recording);
   result.track.reference = recording.reference;
   result.controller = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
@@ -60,7 +64,7 @@ RecordedLoop tracking_loop(Recording const& recording, double inertia, FilterOpt
   result.track.reference = differentiate(recording, filter, {}).q;
   result.loop.law = tracking_law(inertia, bandwidth_share * recording.rate_hz, recording.rate_hz);
   result.loop.torque_noise = white(white_noise(recording.torque));
-  result.remark = "there is no reference: twins follow the measured motion in a stiff loop of our own";
+  result.remark = "twins follow the measured motion in a stiff loop of our own";
   return result;
 }
 

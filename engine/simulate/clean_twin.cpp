@@ -114,22 +114,30 @@ class LaneController {
   double summed_error_[twin_lanes] = {};
 };
 
-void read_encoder(double step, double const* q, double const* noise, double* measured) {
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = q[lane] + noise[lane];
+void read_encoder(double step, double* position) {
   if (step == 0.0) return;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = step * std::floor(measured[lane] / step + 0.5);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] = step * std::floor(position[lane] / step + 0.5);
 }
 
-// the state half a step on, straight ahead; a velocity does not turn in it
-void foresee(LaneState const& state, double time_s, double step_s, LaneInstant& at) {
-  double const half = 0.5 * step_s;
-  at.time_s = time_s + half;
+LaneInstant instant_of(LaneState const& state, double time_s, double step_s, double const* motor_torque) {
+  LaneInstant at;
+  at.time_s = time_s;
   at.step_s = step_s;
+  std::copy_n(state.q, twin_lanes, at.q);
+  std::copy_n(state.dq, twin_lanes, at.dq);
+  std::copy_n(state.ddq, twin_lanes, at.ddq);
+  std::copy_n(motor_torque, twin_lanes, at.motor_torque);
+  return at;
+}
+
+// half a step on, straight ahead; a velocity does not turn in it
+void foresee(LaneInstant& at) {
+  double const half = 0.5 * at.step_s;
+  at.time_s += half;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    double const dq = state.dq[lane] + half * state.ddq[lane];
-    at.q[lane] = state.q[lane] + half * state.dq[lane];
-    at.dq[lane] = dq * state.dq[lane] > 0.0 ? dq : 0.0;
-    at.ddq[lane] = state.ddq[lane];
+    double const dq = at.dq[lane] + half * at.ddq[lane];
+    at.q[lane] += half * at.dq[lane];
+    at.dq[lane] = dq * at.dq[lane] > 0.0 ? dq : 0.0;
   }
 }
 
@@ -180,16 +188,25 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneTorques torques;
   std::fill_n(torques.forward, twin_lanes, joint_.coulomb_forward);
   std::fill_n(torques.backward, twin_lanes, joint_.coulomb_backward);
-  alignas(64) double noise[twin_lanes], measured[twin_lanes], command[twin_lanes];
+  alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
+  double const tick_s = 1.0 / track_.rate_hz;
   for (Eigen::Index k = 0; k < samples(); ++k) {
+    double const time_s = static_cast<double>(k) * tick_s;
+
     // measure and answer
     position_noise.next(noise);
-    read_encoder(loop_.encoder_step, state.q, noise, measured);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
+    for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
+    read_encoder(loop_.encoder_step, measured);
     controller.command(measured, open_[k], wanted_[k], command);
-    torque_noise.next(noise);
+
+    // log
+    torque_noise.next(logged);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
+    for (auto const& effect : effects) effect->shift_torque(instant_of(state, time_s, tick_s, command), logged);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       out.position[lane][k] = measured[lane];
-      out.torque[lane][k] = command[lane] + noise[lane];
+      out.torque[lane][k] = logged[lane];
       // also true for a command that is no number
       if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;
     }
@@ -197,19 +214,19 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     // move on to the next tick
     disturbance.next(noise);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      command[lane] += disturbance_level[lane] * noise[lane] - joint_.offset;
+      noise[lane] = command[lane] + disturbance_level[lane] * noise[lane] - joint_.offset;
     if (effects.empty()) {
-      std::copy_n(command, twin_lanes, torques.held);
+      std::copy_n(noise, twin_lanes, torques.held);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
     for (std::size_t step = 0; step < steps_per_tick_; ++step) {
-      LaneInstant at;
-      foresee(state, static_cast<double>(k) / track_.rate_hz + static_cast<double>(step) * step_s_, step_s_, at);
+      LaneInstant at = instant_of(state, time_s + static_cast<double>(step) * step_s_, step_s_, command);
+      foresee(at);
       LaneDemand demand;
       for (auto const& effect : effects) effect->add(at, demand);
       for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-        torques.held[lane] = command[lane] - demand.smooth[lane];
+        torques.held[lane] = noise[lane] - demand.smooth[lane];
         torques.forward[lane] = joint_.coulomb_forward + demand.forward[lane];
         torques.backward[lane] = joint_.coulomb_backward + demand.backward[lane];
       }

@@ -1,9 +1,11 @@
 #pragma once
 // A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the twin.
 //
-// Equation   the joint needs smooth + (forward while dq > 0, backward while dq < 0, anything between them at rest)
-// Called     once per integration step, in the order of time: an effect with memory advances its own state by step_s
-// Shapes     twin_lanes numbers each; add() adds to what is there
+// Joint      add(): the joint needs smooth + (forward while dq > 0, backward while dq < 0, anything between them at rest);
+//            called once per integration step, in the order of time, so that a memory can advance by step_s
+// Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
+//            controller sees it) and to the torque that is logged (nobody else does); called once per tick
+// Shapes     twin_lanes numbers each; every function adds to what is there
 // Units      SI
 // Threads    one object per group of twins, used by one thread; a LaneEffectMaker is called from any number of threads
 
@@ -16,12 +18,13 @@
 
 namespace torquescope {
 
-// the middle of the coming step, as far as it can be foreseen
+// add(): the middle of the coming step, as far as it can be foreseen; channels: the tick itself, step_s a whole tick
 struct LaneInstant {
   double time_s = 0.0, step_s = 0.0;
   alignas(64) double q[twin_lanes] = {};
   alignas(64) double dq[twin_lanes] = {};
   alignas(64) double ddq[twin_lanes] = {};
+  alignas(64) double motor_torque[twin_lanes] = {};  // held since the last tick
 };
 
 struct LaneDemand {
@@ -33,7 +36,9 @@ struct LaneDemand {
 class LaneEffect {
  public:
   virtual ~LaneEffect() = default;
-  virtual void add(LaneInstant const& at, LaneDemand& demand) = 0;
+  virtual void add(LaneInstant const&, LaneDemand&) {}
+  virtual void shift_position(LaneInstant const&, double*) {}
+  virtual void shift_torque(LaneInstant const&, double*) {}
 };
 
 // a fresh object, its memory at the start of a recording

@@ -118,6 +118,44 @@ TEST(CleanTwin, IsTheSameWithATermInTheLanesOrAsAnEffect) {
   EXPECT_LT(rms(one.position[0] - two.position[0]), 0.5 * encoder_step);
 }
 
+// a sensor that adds a constant
+class Shifted final : public LaneEffect {
+ public:
+  Shifted(double position, double torque) : position_(position), torque_(torque) {}
+  void shift_position(LaneInstant const&, double* position) override {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] += position_;
+  }
+  void shift_torque(LaneInstant const& at, double* torque) override {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      // called at the tick, with the command of this very tick
+      EXPECT_NEAR(torque[lane], at.motor_torque[lane], 0.2);
+      torque[lane] += torque_;
+    }
+  }
+
+ private:
+  double position_, torque_;
+};
+
+TEST(CleanTwin, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const sound = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  auto const group_with = [&](double position, double torque) {
+    TwinJoint joint = sound;
+    joint.effects = {[=] { return std::make_unique<Shifted>(position, torque); }};
+    TwinGroup group;
+    twin_of(recording, joint).simulate({1, 0, 0}, 0, group);
+    return group;
+  };
+  auto const none = group_with(0.0, 0.0), torque = group_with(0.0, 0.3), position = group_with(0.01, 0.0);
+  EXPECT_EQ(torque.position[0], none.position[0]);
+  EXPECT_LT((torque.torque[0] - none.torque[0]).array().abs().maxCoeff(), 0.3 + 1e-12);
+  EXPECT_GT((torque.torque[0] - none.torque[0]).array().abs().minCoeff(), 0.3 - 1e-12);
+  // the loop moves the joint until the faulty reading is where the reference is: what is measured hardly changes
+  EXPECT_LT(rms(position.position[0] - none.position[0]), 0.001);
+  EXPECT_GT(rms(position.torque[0] - none.torque[0]), 0.001);
+}
+
 TEST(CleanTwin, DoesNotDependOnItsStep) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
