@@ -1,0 +1,46 @@
+#include "engine/diagnose/baseline_correction.hpp"
+
+#include <vector>
+
+#include "engine/base/contract.hpp"
+#include "engine/diagnose/twin_batch.hpp"
+
+namespace torquescope {
+
+BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLoop const& loop, TwinTrack const& track,
+                                    RecordPipeline const& pipeline, double step_s, TwinAddress const& address,
+                                    std::size_t twins, int threads) {
+  TORQUESCOPE_EXPECT(twins >= 8);
+  constexpr int most_rounds = 6;
+  constexpr double small_step = 0.2;  // standard deviations
+  BaselineCorrection result;
+  result.least_squares = recording_fit;
+  result.parameters = recording_fit;
+  auto const n = static_cast<Eigen::Index>(twins);
+  Eigen::MatrixXd fits(n, recording_fit.size());
+  std::vector<char> ran_away(twins);
+  while (result.rounds < most_rounds && !result.converged) {
+    CleanTwin const twin(make_twin_joint(pipeline.regressor(), result.parameters), loop, track, step_s);
+    for_each_twin(twin, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
+      ran_away[visited.index] = visited.ran_away;
+      if (!visited.ran_away) fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+    });
+    for (char one : ran_away) result.ran_away = result.ran_away || one != 0;
+    if (result.ran_away) return result;
+
+    Eigen::RowVectorXd const mean = fits.colwise().mean();
+    result.std = ((fits.rowwise() - mean).colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt();
+    // the first two rounds go all the way; later ones average out what the twins' rounding makes of every new start
+    double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
+    Eigen::VectorXd const step = gain * (recording_fit - mean.transpose());
+    result.parameters += step;
+    ++result.rounds;
+    // without noise all twins are one: then rounding is the yardstick
+    Eigen::ArrayXd const yardstick = result.std.array().max(1e-9 * result.parameters.array().abs());
+    result.largest_step = (step.array().abs() / yardstick).maxCoeff();
+    result.converged = result.largest_step < small_step;
+  }
+  return result;
+}
+
+}  // namespace torquescope

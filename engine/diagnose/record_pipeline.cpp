@@ -1,0 +1,66 @@
+#include "engine/diagnose/record_pipeline.hpp"
+
+#include "engine/base/contract.hpp"
+#include "engine/data/filter_checks.hpp"
+#include "engine/diagnose/reversal_mask.hpp"
+#include "engine/problem/least_squares.hpp"
+
+namespace torquescope {
+namespace {
+
+// the mask at the samples the filter keeps
+std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const& filter, double cutoff_hz) {
+  auto const moving = moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
+  Eigen::VectorXd as_numbers(motion.dq.size());
+  for (Eigen::Index k = 0; k < as_numbers.size(); ++k) as_numbers[k] = moving[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+  Eigen::VectorXd const kept = filter.pick(as_numbers);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < kept.size(); ++i)
+    if (kept[i] == 1.0) rows.push_back(i);
+  return rows;
+}
+
+}  // namespace
+
+RecordPipeline::RecordPipeline(Regressor const& regressor, FilterOptions const& options, double rate_hz,
+                               Eigen::Index n_samples, Section const& filter)
+    : regressor_(&regressor),
+      options_(options),
+      section_(filter),
+      rate_hz_(rate_hz),
+      n_samples_(n_samples),
+      cutoff_hz_(parallel_cutoff_of(options)),
+      filter_(options, rate_hz, n_samples, filter) {}
+
+ProcessedRecord RecordPipeline::process(Recording const& recording) const {
+  TORQUESCOPE_EXPECT(recording.position.size() == n_samples_ && recording.torque.size() == n_samples_);
+  ProcessedRecord record;
+  record.motion = differentiate(recording, options_, section_);
+  record.kept_rows = moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz);
+
+  Eigen::MatrixXd const full_rate = regressor_->columns(record.motion);
+  RegressionData data;
+  data.columns = regressor_->column_owners();
+  data.recording_names = {recording.name};
+  data.phi.resize(static_cast<Eigen::Index>(record.kept_rows.size()), full_rate.cols());
+  for (Eigen::Index r = 0; r < full_rate.cols(); ++r) data.phi.col(r) = filtered(full_rate.col(r), record);
+  data.tau = filtered(record.motion.torque, record);
+
+  record.parameters = solve_weighted(data, {});
+  record.residual = data.tau - data.phi * record.parameters;
+  record.columns = std::move(data.phi);
+  record.torque = std::move(data.tau);
+  return record;
+}
+
+Eigen::VectorXd RecordPipeline::filtered(Eigen::Ref<Eigen::VectorXd const> const& signal,
+                                         ProcessedRecord const& record) const {
+  return filter_.apply(signal)(record.kept_rows);
+}
+
+Eigen::VectorXd RecordPipeline::picked(Eigen::Ref<Eigen::VectorXd const> const& signal,
+                                       ProcessedRecord const& record) const {
+  return filter_.pick(signal)(record.kept_rows);
+}
+
+}  // namespace torquescope

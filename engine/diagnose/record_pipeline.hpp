@@ -1,0 +1,62 @@
+#pragma once
+// What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot differ.
+//
+// Steps      differentiate, columns of the baseline, parallel filter on torque and columns, reversal mask, least squares
+// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every baseline column
+// Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
+//            edges and mask, in time order
+// Memory     about 60 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
+// Errors     constructor: Error 78, 65 as ParallelFilter; process: 65 when the rows cannot tell the parameters apart
+// Threads    const object, any number of threads
+// Source     LESSONS item 3; parallel filtering: Gautier 1997
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/data/motion.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/effects/regressor.hpp"
+
+namespace torquescope {
+
+struct ProcessedRecord {
+  Motion motion;                        // full rate, filtered: what candidate columns are computed from
+  std::vector<Eigen::Index> kept_rows;  // of the rows below: index among the pipeline's kept samples
+  Eigen::MatrixXd columns;              // of the baseline
+  Eigen::VectorXd torque;
+  Eigen::VectorXd parameters;  // least squares on these rows
+  Eigen::VectorXd residual;
+
+  double energy() const { return residual.squaredNorm(); }
+};
+
+class RecordPipeline {
+ public:
+  // `regressor` outlives the pipeline; `filter` is the job's [filter] section, for the places in messages
+  RecordPipeline(Regressor const& regressor, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
+                 Section const& filter = {});
+
+  Regressor const& regressor() const { return *regressor_; }
+  double rate_hz() const { return rate_hz_; }
+  Eigen::Index samples() const { return n_samples_; }
+  Eigen::Index kept_samples() const { return filter_.kept_samples(); }  // before the mask
+  double kept_rate_hz() const { return filter_.kept_rate_hz(); }
+  double cutoff_hz() const { return cutoff_hz_; }  // of the parallel filter; 0: none
+
+  ProcessedRecord process(Recording const& recording) const;
+  // any signal of the full rate, filtered like a column, on the rows of that record
+  Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
+  // the rows' own samples of a signal of the full rate, not filtered: time, velocity
+  Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
+
+ private:
+  Regressor const* regressor_;
+  FilterOptions options_;
+  Section section_;
+  double rate_hz_;
+  Eigen::Index n_samples_;
+  double cutoff_hz_;
+  ParallelFilter filter_;
+};
+
+}  // namespace torquescope

@@ -1,0 +1,40 @@
+#pragma once
+// The loop a recording was made in, as far as the recording tells: the controller, its noise, its encoder, its track.
+//
+// Sources    identified       reference, position and torque obey one linear law with a white remainder
+//            approximated     they obey it with a remainder that is not white: twins carry the remainder's spectrum
+//            tracking         no reference: a stiff loop of our own (bandwidth 3 % of the rate) follows the smoothed
+//                             measured motion; good for most names, not calibrated for elasticity, payload and delay
+// Noise      tracking: white torque noise from second differences, an upper bound while the torque itself bends
+// Units      SI
+// Requires   100 samples
+// Threads    free functions
+// Source     LESSONS items 1 and 2 of our own prototype
+
+#include <optional>
+#include <string>
+
+#include "engine/data/motion.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/controller_fit.hpp"
+
+namespace torquescope {
+
+enum class LoopSource { identified, approximated, tracking };
+
+struct RecordedLoop {
+  LoopSource source = LoopSource::identified;
+  TwinLoop loop{};
+  TwinTrack track{};
+  std::optional<ControllerFit> controller{};  // not for tracking
+  std::string remark{};
+};
+
+// inertia: of the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows
+RecordedLoop recorded_loop(Recording const& recording, double inertia, FilterOptions const& filter);
+
+// as if the recording had no reference: what to fall back to when the identified loop runs away
+RecordedLoop tracking_loop(Recording const& recording, double inertia, FilterOptions const& filter);
+
+}  // namespace torquescope

@@ -1,0 +1,238 @@
+#include "engine/simulate/clean_twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/base/contract.hpp"
+#include "engine/base/random_stream.hpp"
+
+namespace torquescope {
+namespace {
+
+// numbers are part of the address: never renumber
+enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3, start = 4 };
+
+std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
+  constexpr std::uint32_t most_streams = 8;
+  return address.set * most_streams + static_cast<std::uint32_t>(stream);
+}
+
+// one noise of one group: an autoregression per lane
+class LaneNoise {
+ public:
+  LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model)
+      : model_(std::move(model)), history_(model_.past.size() * twin_lanes, 0.0) {
+    for (std::uint32_t lane = 0; lane < twin_lanes; ++lane)
+      streams_.emplace_back(RandomKey{address.seed, address.recording, RandomDomain::twin},
+                            stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes) + lane);
+    // from nothing to stationary
+    constexpr std::size_t settling = 20;
+    alignas(64) double dropped[twin_lanes];
+    for (std::size_t k = 0; k < settling * model_.past.size(); ++k) next(dropped);
+  }
+
+  // the next sample of every lane
+  void next(double* out) {
+    if (model_.innovation == 0.0) {
+      std::fill_n(out, twin_lanes, 0.0);
+      return;
+    }
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * streams_[lane].normal();
+    std::size_t const order = model_.past.size();
+    if (order == 0) return;
+    for (std::size_t i = 0; i < order; ++i) {
+      double const* const before = history_.data() + ((newest_ + i) % order) * twin_lanes;
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] += model_.past[i] * before[lane];
+    }
+    newest_ = (newest_ + order - 1) % order;
+    std::copy_n(out, twin_lanes, history_.data() + newest_ * twin_lanes);
+  }
+
+ private:
+  Autoregression model_;
+  std::vector<RandomStream> streams_;
+  std::vector<double> history_;  // [order][lanes], a ring
+  std::size_t newest_ = 0;
+};
+
+// how much larger than the loop's each twin's disturbance is
+void draw_levels(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* level) {
+  std::fill_n(level, twin_lanes, 1.0);
+  double const variance = loop.disturbance_std * loop.disturbance_std;
+  if (variance == 0.0 || loop.disturbance_variance_error == 0.0) return;
+  LaneNoise error(address, TwinStream::level, group, white(loop.disturbance_variance_error));
+  error.next(level);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    level[lane] = std::sqrt(std::max(0.0, variance + level[lane]) / variance);
+}
+
+// Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
+// only logged, and one pattern of rounding would pass for all there is.
+void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, TwinTrack const& track,
+                 double* position) {
+  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::twin},
+                        stream_number(address, TwinStream::start),
+                        group * static_cast<std::uint32_t>(twin_lanes) + lane);
+    position[lane] = track.start_position + loop.encoder_step * (random.uniform() - 0.5);
+  }
+}
+
+// the law in all lanes: what it remembers, and its answer
+class LaneController {
+ public:
+  LaneController(LoopLaw const& law, TwinTrack const& track) : law_(law), seen_(law.position.size() * twin_lanes) {
+    // before the start the joint came along at its first velocity
+    for (std::size_t lag = 0; lag < law.position.size(); ++lag)
+      std::fill_n(seen_.data() + lag * twin_lanes, twin_lanes,
+                  track.start_position - static_cast<double>(lag + 1) * track.start_velocity / track.rate_hz);
+  }
+
+  void command(double const* measured, double open, double wanted, double* torque) {
+    std::size_t const lags = law_.position.size();
+    newest_ = (newest_ + lags - 1) % lags;
+    std::copy_n(measured, twin_lanes, seen_.data() + newest_ * twin_lanes);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      summed_error_[lane] += wanted - measured[lane];
+      torque[lane] = open + law_.integral * summed_error_[lane];
+    }
+    for (std::size_t lag = 0; lag < lags; ++lag) {
+      double const gain = law_.position[lag];
+      double const* const q = seen_.data() + ((newest_ + lag) % lags) * twin_lanes;
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) torque[lane] += gain * q[lane];
+    }
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      torque[lane] = std::clamp(torque[lane], law_.least, law_.most);
+  }
+
+ private:
+  LoopLaw const& law_;
+  std::vector<double> seen_;  // [lag][lanes], a ring
+  std::size_t newest_ = 0;
+  double summed_error_[twin_lanes] = {};
+};
+
+void read_encoder(double step, double* position) {
+  if (step == 0.0) return;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] = step * std::floor(position[lane] / step + 0.5);
+}
+
+LaneInstant instant_of(LaneState const& state, double time_s, double step_s, double const* motor_torque) {
+  LaneInstant at;
+  at.time_s = time_s;
+  at.step_s = step_s;
+  std::copy_n(state.q, twin_lanes, at.q);
+  std::copy_n(state.dq, twin_lanes, at.dq);
+  std::copy_n(state.ddq, twin_lanes, at.ddq);
+  std::copy_n(motor_torque, twin_lanes, at.motor_torque);
+  return at;
+}
+
+// half a step on, straight ahead; a velocity does not turn in it
+void foresee(LaneInstant& at) {
+  double const half = 0.5 * at.step_s;
+  at.time_s += half;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    double const dq = at.dq[lane] + half * at.ddq[lane];
+    at.q[lane] += half * at.dq[lane];
+    at.dq[lane] = dq * at.dq[lane] > 0.0 ? dq : 0.0;
+  }
+}
+
+}  // namespace
+
+CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
+    : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)) {
+  Eigen::Index const n = track_.reference.size();
+  TORQUESCOPE_EXPECT(n > 0 && track_.rate_hz > 0.0 && step_s > 0.0 && !loop_.law.position.empty());
+  steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * step_s) * (1.0 - 1e-9)));
+  step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
+
+  // beyond its ends the reference goes on as its odd reflection: a ramp stays a ramp, or the law would see it stop dead
+  auto const reference_at = [&](Eigen::Index k) {
+    auto const& r = track_.reference;
+    if (k < 0) return 2.0 * r[0] - r[std::min(-k, n - 1)];
+    if (k >= n) return 2.0 * r[n - 1] - r[std::max(2 * (n - 1) - k, Eigen::Index{0})];
+    return r[k];
+  };
+  LoopLaw const& law = loop_.law;
+  open_.resize(n);
+  wanted_.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    wanted_[k] = reference_at(k + law.shift);
+    open_[k] = law.constant + law.reference[0] * reference_at(k + law.shift - 1) + law.reference[1] * wanted_[k] +
+               law.reference[2] * reference_at(k + law.shift + 1);
+  }
+}
+
+void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
+  LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
+  LaneNoise disturbance(address, TwinStream::disturbance, group, white(loop_.disturbance_std));
+  LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
+  double disturbance_level[twin_lanes];
+  draw_levels(address, group, loop_, disturbance_level);
+  LaneController controller(loop_.law, track_);
+  std::vector<std::unique_ptr<LaneEffect>> effects;
+  for (auto const& make : joint_.effects) effects.push_back(make());
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    out.position[lane].resize(samples());
+    out.torque[lane].resize(samples());
+    out.ran_away[lane] = false;
+  }
+
+  LaneState state;
+  draw_starts(address, group, loop_, track_, state.q);
+  std::fill_n(state.dq, twin_lanes, track_.start_velocity);
+  LaneTorques torques;
+  std::fill_n(torques.forward, twin_lanes, joint_.coulomb_forward);
+  std::fill_n(torques.backward, twin_lanes, joint_.coulomb_backward);
+  alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
+  double const tick_s = 1.0 / track_.rate_hz;
+  for (Eigen::Index k = 0; k < samples(); ++k) {
+    double const time_s = static_cast<double>(k) * tick_s;
+
+    // measure and answer
+    position_noise.next(noise);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
+    for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
+    read_encoder(loop_.encoder_step, measured);
+    controller.command(measured, open_[k], wanted_[k], command);
+
+    // log
+    torque_noise.next(logged);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
+    for (auto const& effect : effects) effect->shift_torque(instant_of(state, time_s, tick_s, command), logged);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      out.position[lane][k] = measured[lane];
+      out.torque[lane][k] = logged[lane];
+      // also true for a command that is no number
+      if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;
+    }
+
+    // move on to the next tick
+    disturbance.next(noise);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      noise[lane] = command[lane] + disturbance_level[lane] * noise[lane] - joint_.offset;
+    if (effects.empty()) {
+      std::copy_n(noise, twin_lanes, torques.held);
+      advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
+      continue;
+    }
+    for (std::size_t step = 0; step < steps_per_tick_; ++step) {
+      LaneInstant at = instant_of(state, time_s + static_cast<double>(step) * step_s_, step_s_, command);
+      foresee(at);
+      LaneDemand demand;
+      for (auto const& effect : effects) effect->add(at, demand);
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+        torques.held[lane] = noise[lane] - demand.smooth[lane];
+        torques.forward[lane] = joint_.coulomb_forward + demand.forward[lane];
+        torques.backward[lane] = joint_.coulomb_backward + demand.backward[lane];
+      }
+      advance_lanes(joint_.lanes, torques, step_s_, 1, state);
+    }
+  }
+}
+
+}  // namespace torquescope

@@ -1,0 +1,78 @@
+#pragma once
+// Clean twins of a recording: the fitted joint in the recording's own loop, following the recording's reference, with its
+// encoder and its noise. What the pipeline finds in them is what it finds when nothing is missing.
+//
+// At a tick  (one sample) the encoder reads position + position noise; the law answers and holds its torque until the next
+//            tick; torque noise is added to what is logged, disturbance to what acts
+// Start      at the recording's first velocity, anywhere within the encoder step of its first position
+// Groups     twin_lanes twins are simulated side by side; twin i is lane i % twin_lanes of group i / twin_lanes
+// Random     addressed by (seed, recording, set, stream, twin, draw): the same twin has the same bits whatever was
+//            simulated before, on any number of threads and any instruction set; sets are independent of each other
+// Accuracy   second order in step_s, stops and reversals included (twin_lanes.hpp)
+// Units      SI
+// Threads    const object, any number of threads, each with its own TwinGroup
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "engine/simulate/autoregression.hpp"
+#include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/twin_joint.hpp"
+
+namespace torquescope {
+
+// the loop round the joint; noise is whatever the recording's is
+struct TwinLoop {
+  LoopLaw law{};
+  double encoder_step = 0.0;      // rad or m; 0: exact
+  Autoregression torque_noise{};  // of the measurement
+  double disturbance_std = 0.0;   // N m or N, white from tick to tick, acting on the joint
+  // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
+  double disturbance_variance_error = 0.0;
+  double position_noise_std = 0.0;  // rad or m, before the encoder
+};
+
+// what the recording prescribes
+struct TwinTrack {
+  double rate_hz = 0.0;
+  Eigen::VectorXd reference{};  // [n]
+  double start_position = 0.0, start_velocity = 0.0;
+  // a twin that asks for more has run away
+  double largest_torque = std::numeric_limits<double>::infinity();
+};
+
+struct TwinAddress {
+  std::uint64_t seed = 0;
+  std::uint32_t recording = 0;  // < 2^24
+  std::uint32_t set = 0;        // < 2^29
+};
+
+// workspace and result of one group: measured channels as a recording has them
+struct TwinGroup {
+  std::array<Eigen::VectorXd, twin_lanes> position{}, torque{};  // [n] each
+  std::array<bool, twin_lanes> ran_away{};
+};
+
+class CleanTwin {
+ public:
+  CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s);
+
+  Eigen::Index samples() const { return track_.reference.size(); }
+  TwinJoint const& joint() const { return joint_; }
+  TwinLoop const& loop() const { return loop_; }
+  TwinTrack const& track() const { return track_; }
+  void simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const;
+
+ private:
+  TwinJoint joint_;
+  TwinLoop loop_;
+  TwinTrack track_;
+  double step_s_ = 0.0;
+  std::size_t steps_per_tick_ = 0;
+  Eigen::VectorXd open_;    // the law's part that no twin changes
+  Eigen::VectorXd wanted_;  // reference seen by the summed error
+};
+
+}  // namespace torquescope

@@ -1,0 +1,50 @@
+#pragma once
+// A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the twin.
+//
+// Joint      add(): the joint needs smooth + (forward while dq > 0, backward while dq < 0, anything between them at rest);
+//            called once per integration step, in the order of time, so that a memory can advance by step_s
+// Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
+//            controller sees it) and to the torque that is logged (nobody else does); called once per tick
+// Shapes     twin_lanes numbers each; every function adds to what is there
+// Units      SI
+// Threads    one object per group of twins, used by one thread; a LaneEffectMaker is called from any number of threads
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/effects/effect.hpp"
+#include "engine/simulate/twin_lanes.hpp"
+
+namespace torquescope {
+
+// add(): the middle of the coming step, as far as it can be foreseen; channels: the tick itself, step_s a whole tick
+struct LaneInstant {
+  double time_s = 0.0, step_s = 0.0;
+  alignas(64) double q[twin_lanes] = {};
+  alignas(64) double dq[twin_lanes] = {};
+  alignas(64) double ddq[twin_lanes] = {};
+  alignas(64) double motor_torque[twin_lanes] = {};  // held since the last tick
+};
+
+struct LaneDemand {
+  alignas(64) double smooth[twin_lanes] = {};
+  alignas(64) double forward[twin_lanes] = {};
+  alignas(64) double backward[twin_lanes] = {};
+};
+
+class LaneEffect {
+ public:
+  virtual ~LaneEffect() = default;
+  virtual void add(LaneInstant const&, LaneDemand&) {}
+  virtual void shift_position(LaneInstant const&, double*) {}
+  virtual void shift_torque(LaneInstant const&, double*) {}
+};
+
+// a fresh object, its memory at the start of a recording
+using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
+
+// an effect without memory, lane by lane; parameters as Effect::torque takes them
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters);
+
+}  // namespace torquescope

@@ -1,0 +1,36 @@
+#pragma once
+// A linear discrete controller as its numbers: what an identified loop is, and what twins are simulated with.
+//
+// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-1+j) + integral sum_(i<=k) e_i,
+//            e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1
+// Shapes     position: lags 0, 1, ...; reference: one sample behind, at, one ahead of k + shift
+// Units      q, r rad or m; u N m or N; gains their quotients
+// Threads    plain record
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace torquescope {
+
+struct LoopLaw {
+  std::vector<double> position{};
+  std::array<double, 3> reference{};
+  int shift = 0;
+  double integral = 0.0;
+  double constant = 0.0;
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+
+  // u per unit of a constant error, without the integral; N m/rad or N/m
+  double proportional_gain() const;
+  // -u per unit of a constant velocity of the joint alone, beside the proportional part; N m s/rad or N s/m
+  double velocity_gain(double rate_hz) const;
+};
+
+// A stiff loop of our own round a given motion, all poles of the frictionless joint at -2 pi bandwidth_hz, with the
+// motion's own acceleration fed forward: for recordings that have no reference.
+// Requires   inertia > 0, bandwidth_hz < 0.05 rate_hz (a faster one rings on the backward difference)
+LoopLaw tracking_law(double inertia, double bandwidth_hz, double rate_hz);
+
+}  // namespace torquescope

@@ -1,0 +1,193 @@
+// Twins of a recording.
+
+#include "engine/simulate/clean_twin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/simulate/controller_fit.hpp"
+#include "engine/simulate/joint_simulation.hpp"
+#include "unit/simulate/plants.hpp"
+
+using namespace torquescope;
+using torquescope::test::plant;
+
+namespace {
+
+constexpr double encoder_step = 2.0 * 3.14159265358979323846 / 400000.0;
+std::vector<std::string> const terms{"inertia", "viscous", "coulomb", "offset", "gravity"};
+Eigen::VectorXd truth() {
+  Eigen::VectorXd values(6);
+  values << 0.036, 0.164, 1.3, -0.125, 0.4, 0.2;
+  return values;
+}
+
+SimulationPlan plan_of(std::string const& kind) {
+  SimulationPlan plan;
+  plan.simulation.rate_hz = 1000.0;
+  plan.simulation.duration_s = 10.0;
+  plan.plant = plant({{"inertia", 0.036},
+                      {"viscous", 0.164},
+                      {"coulomb", 1.3},
+                      {"offset", -0.125},
+                      {"gravity_sin", 0.4},
+                      {"gravity_cos", 0.2}});
+  plan.controller.kind = kind;
+  plan.controller.bandwidth_hz = 8.0;
+  plan.encoder.counts_per_revolution = 400000;
+  plan.noise.torque_std = 0.02;
+  return plan;
+}
+
+TwinTrack track_of(SimulatedRecording const& recording) {
+  return {recording.rate_hz, recording.reference, recording.position[0], 0.0};
+}
+
+CleanTwin twin_of(SimulatedRecording const& recording, TwinJoint const& joint, double step_s = 1e-4) {
+  auto const fit = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
+  return {joint, {fit.law, encoder_step, fit.noise}, track_of(recording), step_s};
+}
+
+CleanTwin twin_of(SimulatedRecording const& recording) {
+  return twin_of(recording, make_twin_joint(Regressor(terms, JointKind::revolute), truth()));
+}
+
+double rms(Eigen::VectorXd const& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+class EveryTwin : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryTwin, FollowsTheRecordedPositionToAboutOneEncoderStep) {
+  auto const recording = simulate_joint(plan_of(GetParam()), 3);
+  TwinGroup group;
+  twin_of(recording).simulate({1, 0, 0}, 0, group);
+  for (std::size_t lane : {std::size_t{0}, twin_lanes - 1}) {
+    EXPECT_FALSE(group.ran_away[lane]);
+    EXPECT_LT(rms(group.position[lane] - recording.position), encoder_step);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryTwin, testing::Values("pd", "pid", "p_velocity"));
+
+TEST(CleanTwin, HasTheSameBitsWhateverWasSimulatedBefore) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  auto const twin = twin_of(recording);
+  TwinGroup used, fresh;
+  twin.simulate({1, 0, 0}, 7, used);
+  twin.simulate({1, 0, 0}, 2, used);
+  twin.simulate({1, 0, 0}, 2, fresh);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    EXPECT_EQ(used.position[lane], fresh.position[lane]);
+    EXPECT_EQ(used.torque[lane], fresh.torque[lane]);
+  }
+}
+
+TEST(CleanTwin, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  auto const twin = twin_of(recording);
+  TwinGroup group, next, other_set;
+  twin.simulate({1, 0, 0}, 0, group);
+  twin.simulate({1, 0, 0}, 1, next);
+  twin.simulate({1, 0, 1}, 0, other_set);
+  Eigen::VectorXd const noise = group.torque[0] - recording.torque;
+  auto const correlation = [&](Eigen::VectorXd const& torque) {
+    Eigen::VectorXd const other = torque - recording.torque;
+    return noise.dot(other) / (noise.norm() * other.norm());
+  };
+  // each difference holds the recording's own noise: 1/2; twins that shared theirs would show 1
+  for (auto const* torque : {&group.torque[1], &next.torque[0], &other_set.torque[0]})
+    EXPECT_NEAR(correlation(*torque), 0.5, 0.1);
+}
+
+TEST(CleanTwin, IsTheSameWithATermInTheLanesOrAsAnEffect) {
+  // viscous friction and weight as effects: evaluated at the foreseen middle of the step instead of inside it
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const whole = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  TwinJoint split = whole;
+  split.lanes.viscous = split.lanes.gravity_sin = split.lanes.gravity_cos = 0.0;
+  split.coulomb_forward -= 0.5;
+  split.coulomb_backward += 0.5;
+  split.effects = {lane_effect(*find_effect("viscous"), {0.164}), lane_effect(*find_effect("gravity"), {0.4, 0.2}),
+                   lane_effect(*find_effect("coulomb"), {0.5})};
+  TwinGroup one, two;
+  twin_of(recording, whole).simulate({1, 0, 0}, 0, one);
+  twin_of(recording, split).simulate({1, 0, 0}, 0, two);
+  EXPECT_LT(rms(one.position[0] - two.position[0]), 0.5 * encoder_step);
+}
+
+// a sensor that adds a constant
+class Shifted final : public LaneEffect {
+ public:
+  Shifted(double position, double torque) : position_(position), torque_(torque) {}
+  void shift_position(LaneInstant const&, double* position) override {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] += position_;
+  }
+  void shift_torque(LaneInstant const& at, double* torque) override {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      // called at the tick, with the command of this very tick
+      EXPECT_NEAR(torque[lane], at.motor_torque[lane], 0.2);
+      torque[lane] += torque_;
+    }
+  }
+
+ private:
+  double position_, torque_;
+};
+
+TEST(CleanTwin, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const sound = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  auto const group_with = [&](double position, double torque) {
+    TwinJoint joint = sound;
+    joint.effects = {[=] { return std::make_unique<Shifted>(position, torque); }};
+    TwinGroup group;
+    twin_of(recording, joint).simulate({1, 0, 0}, 0, group);
+    return group;
+  };
+  auto const none = group_with(0.0, 0.0), torque = group_with(0.0, 0.3), position = group_with(0.01, 0.0);
+  EXPECT_EQ(torque.position[0], none.position[0]);
+  EXPECT_LT((torque.torque[0] - none.torque[0]).array().abs().maxCoeff(), 0.3 + 1e-12);
+  EXPECT_GT((torque.torque[0] - none.torque[0]).array().abs().minCoeff(), 0.3 - 1e-12);
+  // the loop moves the joint until the faulty reading is where the reference is: what is measured hardly changes
+  EXPECT_LT(rms(position.position[0] - none.position[0]), 0.001);
+  EXPECT_GT(rms(position.torque[0] - none.torque[0]), 0.001);
+}
+
+TEST(CleanTwin, DoesNotDependOnItsStep) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  TwinGroup coarse, fine;
+  twin_of(recording, joint, 1e-4).simulate({1, 0, 0}, 0, coarse);
+  twin_of(recording, joint, 2e-5).simulate({1, 0, 0}, 0, fine);
+  // encoder and loop make one step of the least differences: below one step all the same
+  EXPECT_LT(rms(coarse.position[0] - fine.position[0]), 0.5 * encoder_step);
+}
+
+TEST(CleanTwin, SaysThatItRanAway) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  auto const sound = twin_of(recording);
+  TwinLoop loop = sound.loop();
+  for (auto& gain : loop.law.position) gain *= -1.0;
+  TwinTrack track = sound.track();
+  track.largest_torque = 3.0 * recording.torque.cwiseAbs().maxCoeff();
+  TwinGroup group;
+  CleanTwin(joint, loop, track, 1e-4).simulate({1, 0, 0}, 0, group);
+  for (bool one : group.ran_away) EXPECT_TRUE(one);
+}
+
+TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  TwinTrack track = track_of(recording);
+  track.reference = recording.true_position;
+  CleanTwin const twin(joint, {tracking_law(joint.lanes.inertia, 30.0, 1000.0), encoder_step, white(0.02)}, track,
+                       1e-4);
+  TwinGroup group;
+  twin.simulate({1, 0, 0}, 0, group);
+  // friction of 1.3 N m over a stiffness of J omega^2 = 1280 N m/rad
+  EXPECT_LT(rms(group.position[0] - recording.position), 2.0 * 1.3 / 1280.0);
+}

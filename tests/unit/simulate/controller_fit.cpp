@@ -1,0 +1,145 @@
+// The controller of a recording, by regression.
+
+#include "engine/simulate/controller_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/simulate/joint_simulation.hpp"
+#include "unit/simulate/plants.hpp"
+
+using namespace torquescope;
+using torquescope::test::plant;
+
+namespace {
+
+constexpr double torque_noise = 0.02;
+
+SimulationPlan loop_plan(std::string const& kind) {
+  SimulationPlan plan;
+  plan.simulation.rate_hz = 1000.0;
+  plan.simulation.duration_s = 15.0;
+  plan.simulation.step_s = 1e-4;
+  plan.plant = plant({{"inertia", 0.036}, {"viscous", 0.164}, {"coulomb", 1.3}, {"offset", -0.125}});
+  plan.controller.kind = kind;
+  plan.controller.bandwidth_hz = 8.0;
+  plan.controller.velocity_cutoff_hz = 0.0;
+  plan.encoder.counts_per_revolution = 400000;
+  plan.noise.torque_std = torque_noise;
+  return plan;
+}
+
+ControllerFit fit(SimulatedRecording const& recording) {
+  return fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
+}
+
+// what a loop's gains amount to: torque per error and torque per velocity
+double stiffness(ControllerGains const& g) { return g.kv > 0.0 ? g.kp * g.kv : g.kp; }
+double damping(ControllerGains const& g) { return g.kv > 0.0 ? g.kv : g.kd; }
+
+// every second, third ... sample, as a slow logger writes
+SimulatedRecording thinned(SimulatedRecording const& whole, Eigen::Index factor) {
+  SimulatedRecording few = whole;
+  Eigen::Index const n = whole.position.size() / factor;
+  for (auto channel : {&SimulatedRecording::time_s, &SimulatedRecording::reference, &SimulatedRecording::position,
+                       &SimulatedRecording::torque})
+    few.*channel = Eigen::VectorXd((whole.*channel)(Eigen::seqN(0, n, factor)));
+  return few;
+}
+
+}  // namespace
+
+class EveryController : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) {
+  auto const recording = simulate_joint(loop_plan(GetParam()), 3);
+  auto const found = fit(recording);
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_EQ(found.law.shift, 0);
+  EXPECT_EQ(found.clipped_rows, 0);
+  EXPECT_GT(found.r_squared, 0.999);
+  // noise / (gain * sqrt(n) * spread of the regressor): 0.1 % and 0.2 % are more than five standard errors
+  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
+  EXPECT_NEAR(found.law.velocity_gain(1000.0) / damping(recording.gains), 1.0, 4e-3);
+  EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
+  if (GetParam() == "pid")
+    EXPECT_NEAR(found.law.integral * 1000.0 / recording.gains.ki, 1.0, 3e-3);
+  else
+    EXPECT_EQ(found.law.integral, 0.0);
+}
+
+TEST_P(EveryController, IsIdentifiedBehindAVelocityFilter) {
+  auto plan = loop_plan(GetParam());
+  plan.controller.velocity_cutoff_hz = 100.0;
+  plan.noise.torque_std = 0.002;
+  auto const found = fit(simulate_joint(plan, 3));
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_GT(found.lags, 3);
+}
+
+TEST_P(EveryController, GivesWayAtItsTorqueLimit) {
+  auto plan = loop_plan(GetParam());
+  plan.controller.torque_limit = 1.5;
+  // no integral: what stops it at the limit is not in any recording
+  if (GetParam() == "pid") return;
+  auto const recording = simulate_joint(plan, 4);
+  ASSERT_GT(recording.saturated_samples, 100);
+  auto const found = fit(recording);
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_NEAR(found.clipped_rows, recording.saturated_samples, 0.05 * static_cast<double>(recording.saturated_samples));
+  EXPECT_NEAR(found.law.most, 1.5, 0.01);
+  EXPECT_NEAR(found.law.least, -1.5, 0.01);
+  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryController, testing::Values("pd", "pid", "p_velocity"));
+
+TEST(ControllerFit, FindsAReferenceThatIsLoggedLate) {
+  // a reference with corners: a smooth one is as well extrapolated from its neighbouring samples
+  auto plan = loop_plan("pd");
+  plan.reference.kind = "trapezoid";
+  plan.reference.speeds = {1.0, 3.0};
+  plan.noise.torque_std = 0.002;
+  auto recording = simulate_joint(plan, 3);
+  Eigen::VectorXd const reference = recording.reference;
+  for (Eigen::Index k = 0; k < reference.size(); ++k)
+    recording.reference[k] = reference[std::max<Eigen::Index>(k - 2, 0)];
+  auto const found = fit(recording);
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_EQ(found.law.shift, 2);
+}
+
+TEST(ControllerFit, TellsASensorDriftFromTheLoop) {
+  auto recording = simulate_joint(loop_plan("pid"), 3);
+  double const drift = 0.005;
+  recording.torque += drift * recording.time_s;
+  auto const found = fit(recording);
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_NEAR(found.drift_per_s / drift, 1.0, 0.05);
+  EXPECT_GT(found.drift_z, 10.0);
+  EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
+}
+
+TEST(ControllerFit, SaysWhenTheLoggerWasTooSlow) {
+  auto plan = loop_plan("pd");
+  plan.noise.torque_std = 0.002;
+  auto const whole = simulate_joint(plan, 3);
+  // ten times too slow leaves too few samples to tell a correlation of 0.04 from chance
+  for (Eigen::Index factor : {2, 5}) {
+    auto const found = fit(thinned(whole, factor));
+    EXPECT_FALSE(found.is_white) << factor;
+    EXPECT_GT(found.noise.std, 1.2 * plan.noise.torque_std) << factor;
+    EXPECT_FALSE(found.noise.past.empty()) << factor;
+  }
+}
+
+TEST(ControllerFit, RarelyDoubtsATrueLaw) {
+  // 1 % by construction: 4 of 40 would be a chance of 7e-4
+  int doubts = 0;
+  auto plan = loop_plan("pd");
+  plan.simulation.duration_s = 4.0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) doubts += !fit(simulate_joint(plan, seed)).is_white;
+  EXPECT_LT(doubts, 4);
+}
