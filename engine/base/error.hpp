@@ -36,12 +36,12 @@ struct SourcePlace {
 
 struct Problem {
   ExitCode code = ExitCode::bad_job;
-  std::string what;                // one line: the problem and the value
-  SourcePlace place{};             // empty file: nowhere in particular
-  std::string key{};               // job key, "recording.torque_per_unit"
+  std::string what;                  // one line: the problem and the value
+  SourcePlace place{};               // empty file: nowhere in particular
+  std::string key{};                 // job key, "recording.torque_per_unit"
   std::vector<std::string> notes{};  // facts: "the file has: t_s, q_rad, i_A"
-  std::string caret_note{};        // stands behind the caret: "did you mean ..."
-  std::string help{};              // what to write or do instead
+  std::string caret_note{};          // stands behind the caret: "did you mean ..."
+  std::string help{};                // what to write or do instead
 };
 
 class Error : public std::runtime_error {

@@ -18,6 +18,15 @@ SourcePlace Section::where(std::string_view key) const {
   return setting ? setting->value_place : place;
 }
 
+Problem problem_at(Section const& section, std::string const& key, std::string what, std::string help) {
+  Problem problem;
+  problem.what = std::move(what);
+  problem.place = section.where(key);
+  problem.key = key.empty() ? section.name : section.name + "." + key;
+  problem.help = std::move(help);
+  return problem;
+}
+
 namespace {
 
 struct TextOf {
@@ -33,7 +42,8 @@ struct TextOf {
   }
   std::string operator()(std::map<std::string, std::string> const& values) const {
     std::string text = "{";
-    for (auto const& [key, value] : values) text += fmt::format("{}{} = \"{}\"", text.size() > 1 ? ", " : "", key, value);
+    for (auto const& [key, value] : values)
+      text += fmt::format("{}{} = \"{}\"", text.size() > 1 ? ", " : "", key, value);
     return text + "}";
   }
 };
@@ -122,8 +132,8 @@ Problem unknown_key(Section const& section, Setting const& setting, std::vector<
   problem.key = section.name + "." + setting.key;
   std::string const close = closest_name(setting.key, known);
   if (!close.empty()) problem.caret_note = fmt::format("did you mean \"{}\"?", close);
-  problem.help = fmt::format("[{}] takes: {}      (torquescope describe {})", section.name, fmt::join(known, ", "),
-                             section.name);
+  problem.help =
+      fmt::format("[{}] takes: {}      (torquescope describe {})", section.name, fmt::join(known, ", "), section.name);
   return problem;
 }
 
@@ -132,8 +142,8 @@ Problem wrong_type(Section const& section, Setting const& setting, OptionValue c
   problem.what = fmt::format("{} = {} is a {}", setting.key, to_text(setting.value), type_name(setting.value));
   problem.place = setting.value_place;
   problem.key = section.name + "." + setting.key;
-  problem.help = fmt::format("{} takes a {}, for example {} = {}", setting.key, type_name(wanted), setting.key,
-                             to_text(wanted));
+  problem.help =
+      fmt::format("{} takes a {}, for example {} = {}", setting.key, type_name(wanted), setting.key, to_text(wanted));
   return problem;
 }
 

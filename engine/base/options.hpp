@@ -45,13 +45,16 @@ struct Section {
   SourcePlace where(std::string_view key) const;
 };
 
+// a Problem (exit code 78) at a key of a section: where it was written, or where the section begins
+Problem problem_at(Section const& section, std::string const& key, std::string what, std::string help);
+
 // what `torquescope describe` prints
 struct OptionDescription {
   std::string key, type, unit, range, default_value, meaning;
 };
 
-std::string to_text(OptionValue const& value);      // as it would stand in a job file
-std::string type_name(OptionValue const& value);    // "number", "text", "list of texts"
+std::string to_text(OptionValue const& value);    // as it would stand in a job file
+std::string type_name(OptionValue const& value);  // "number", "text", "list of texts"
 // converts what TOML wrote to what the member wants (integer -> double); nothing when it does not fit
 std::optional<OptionValue> converted(OptionValue const& given, OptionValue const& wanted_type);
 
@@ -62,7 +65,11 @@ struct Option {
                               std::map<std::string, std::string> Options::*>;
   // a number (or a list of numbers) with its range, both ends included
   Option(std::string key_, Member member_, std::string unit_, double least_, double most_, std::string meaning_)
-      : key(std::move(key_)), member(member_), unit(std::move(unit_)), least(least_), most(most_),
+      : key(std::move(key_)),
+        member(member_),
+        unit(std::move(unit_)),
+        least(least_),
+        most(most_),
         meaning(std::move(meaning_)) {}
   // anything without a range
   Option(std::string key_, Member member_, std::string meaning_)
@@ -155,8 +162,8 @@ std::vector<OptionDescription> OptionTable<Options>::describe() const {
   std::vector<OptionDescription> descriptions;
   for (auto const& option : options_) {
     auto const value = option.get(defaults);
-    descriptions.push_back({option.key, type_name(value), option.unit, range_text(option.least, option.most, option.words),
-                            to_text(value), option.meaning});
+    descriptions.push_back({option.key, type_name(value), option.unit,
+                            range_text(option.least, option.most, option.words), to_text(value), option.meaning});
   }
   return descriptions;
 }
@@ -164,8 +171,7 @@ std::vector<OptionDescription> OptionTable<Options>::describe() const {
 template <class Options>
 std::vector<std::pair<std::string, OptionValue>> OptionTable<Options>::values(Options const& options) const {
   std::vector<std::pair<std::string, OptionValue>> result;
-  for (auto const& option : options_)
-    result.emplace_back(option.key, option.get(options));
+  for (auto const& option : options_) result.emplace_back(option.key, option.get(options));
   return result;
 }
 

@@ -74,7 +74,8 @@ void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, in
   std::size_t failed_index = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stop{false};
   std::atomic<std::size_t> next{0};
-  int const team = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), std::max<std::size_t>(1, n)));
+  int const team = static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), std::max<std::size_t>(1, n)));
 #pragma omp parallel num_threads(team)
   {
     int const thread = omp_get_thread_num();

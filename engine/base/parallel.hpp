@@ -13,7 +13,7 @@ namespace torquescope {
 
 struct ThreadChoice {
   int count = 1;
-  std::string reason;    // "--threads", "OMP_NUM_THREADS", "SLURM_CPUS_PER_TASK", "affinity mask"
+  std::string reason;     // "--threads", "OMP_NUM_THREADS", "SLURM_CPUS_PER_TASK", "affinity mask"
   std::string warning{};  // not empty when a request was clamped to the affinity mask
 };
 

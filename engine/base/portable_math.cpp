@@ -68,9 +68,9 @@ double polynomial(double x, double const (&coefficients)[8]) {
 
 double normal_quantile(double probability) {
   // AS 241: central region, then two tails
-  static constexpr double a[8] = {3.3871328727963666080e0,  1.3314166789178437745e2, 1.9715909503065514427e3,
-                                  1.3731693765509461125e4,  4.5921953931549871457e4, 6.7265770927008700853e4,
-                                  3.3430575583588128105e4,  2.5090809287301226727e3};
+  static constexpr double a[8] = {3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
+                                  1.3731693765509461125e4, 4.5921953931549871457e4, 6.7265770927008700853e4,
+                                  3.3430575583588128105e4, 2.5090809287301226727e3};
   static constexpr double b[8] = {1.0,
                                   4.2313330701600911252e1,
                                   6.8718700749205790830e2,
@@ -79,8 +79,8 @@ double normal_quantile(double probability) {
                                   3.9307895800092710610e4,
                                   2.8729085735721942674e4,
                                   5.2264952788528545610e3};
-  static constexpr double c[8] = {1.42343711074968357734e0, 4.63033784615654529590e0, 5.76949722146069140550e0,
-                                  3.64784832476320460504e0, 1.27045825245236838258e0, 2.41780725177450611770e-1,
+  static constexpr double c[8] = {1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
+                                  3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
                                   2.27238449892691845833e-2, 7.74545014278341407640e-4};
   static constexpr double d[8] = {1.0,
                                   2.05319162663775882187e0,
@@ -108,8 +108,8 @@ double normal_quantile(double probability) {
   }
   double const tail = q < 0.0 ? probability : 1.0 - probability;
   double const r = std::sqrt(-portable_log(tail));
-  double const value = r <= 5.0 ? polynomial(r - 1.6, c) / polynomial(r - 1.6, d)
-                                : polynomial(r - 5.0, e) / polynomial(r - 5.0, f);
+  double const value =
+      r <= 5.0 ? polynomial(r - 1.6, c) / polynomial(r - 1.6, d) : polynomial(r - 5.0, e) / polynomial(r - 5.0, f);
   return q < 0.0 ? -value : value;
 }
 

@@ -30,11 +30,11 @@ class RandomStream {
  public:
   RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member);
 
-  std::uint64_t bits();                         // 64 random bits
-  double uniform();                             // [0, 1), 53 bits
-  double uniform(double low, double high);      // low + uniform() * (high - low)
-  std::uint32_t below(std::uint32_t n);         // 0 .. n-1, unbiased to 2^-32 (multiply-shift); n >= 1
-  double normal();                              // standard normal, inverse cumulative distribution of one uniform
+  std::uint64_t bits();                     // 64 random bits
+  double uniform();                         // [0, 1), 53 bits
+  double uniform(double low, double high);  // low + uniform() * (high - low)
+  std::uint32_t below(std::uint32_t n);     // 0 .. n-1, unbiased to 2^-32 (multiply-shift); n >= 1
+  double normal();                          // standard normal, inverse cumulative distribution of one uniform
 
  private:
   std::array<std::uint32_t, 2> key_;

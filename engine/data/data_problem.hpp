@@ -1,5 +1,5 @@
 #pragma once
-// Problems with a recording's data (exit code 65) or with what the job says about it (78), and where its rows stand.
+// Problems with a recording's data (exit code 65), and where its rows stand.
 
 #include <cstdint>
 #include <string>
@@ -16,16 +16,6 @@ inline Problem bad_data(std::string what, std::string path, std::int64_t line, s
   problem.what = std::move(what);
   problem.place.file = std::move(path);
   problem.place.line = static_cast<int>(line);
-  problem.help = std::move(help);
-  return problem;
-}
-
-// a value of the job that the data contradicts
-inline Problem bad_job(std::string what, Section const& section, std::string const& key, std::string help) {
-  Problem problem;
-  problem.what = std::move(what);
-  problem.place = section.where(key);
-  problem.key = section.name + "." + key;
   problem.help = std::move(help);
   return problem;
 }

@@ -27,9 +27,10 @@ double parallel_cutoff_of(FilterOptions const& options) {
 void check_cutoff(char const* key, double cutoff_hz, double rate_hz, Section const& section) {
   validate(2 * cutoff_hz < rate_hz, [&] {
     auto const* where = 2 * cutoff_hz > rate_hz ? "above" : "at";
-    return bad_job(
-        fmt::format("{} = {:g} is {} half the sampling rate ({:g} Hz)", key, cutoff_hz, where, rate_hz / 2), section,
-        key, fmt::format("{:.2g} to {:.2g} Hz suits a joint sampled at {:g} Hz", rate_hz / 50, rate_hz / 25, rate_hz));
+    return problem_at(
+        section, key,
+        fmt::format("{} = {:g} is {} half the sampling rate ({:g} Hz)", key, cutoff_hz, where, rate_hz / 2),
+        fmt::format("{:.2g} to {:.2g} Hz suits a joint sampled at {:g} Hz", rate_hz / 50, rate_hz / 25, rate_hz));
   });
 }
 
@@ -50,25 +51,26 @@ Eigen::Index decimation_factor(FilterOptions const& options, double rate_hz, Sec
   if (wanted_hz == 0) return 1;
   constexpr double whole = 1e-4;  // relative: rates are written with some digits only
   validate(wanted_hz <= rate_hz * (1 + whole), [&] {
-    return bad_job(fmt::format("decimate_to_hz = {:g} is above the sampling rate ({:g} Hz)", wanted_hz, rate_hz),
-                   section, "decimate_to_hz", "decimation only drops samples: leave it out to keep them all");
+    return problem_at(section, "decimate_to_hz",
+                      fmt::format("decimate_to_hz = {:g} is above the sampling rate ({:g} Hz)", wanted_hz, rate_hz),
+                      "decimation only drops samples: leave it out to keep them all");
   });
   double const ratio = rate_hz / wanted_hz, factor = std::max(1.0, std::round(ratio));
   validate(std::fabs(ratio - factor) <= whole * ratio, [&] {
-    return bad_job(fmt::format("decimate_to_hz = {:g} does not divide the sampling rate ({:g} Hz) into whole steps",
-                               wanted_hz, rate_hz),
-                   section, "decimate_to_hz",
-                   factor == 1 ? fmt::format("the nearest that does: decimate_to_hz = {:g} (every sample)", rate_hz)
-                               : fmt::format("the nearest that does: decimate_to_hz = {:g} (every {:g}{} sample)",
-                                             rate_hz / factor, factor, ordinal_ending(factor)));
+    return problem_at(section, "decimate_to_hz",
+                      fmt::format("decimate_to_hz = {:g} does not divide the sampling rate ({:g} Hz) into whole steps",
+                                  wanted_hz, rate_hz),
+                      factor == 1 ? fmt::format("the nearest that does: decimate_to_hz = {:g} (every sample)", rate_hz)
+                                  : fmt::format("the nearest that does: decimate_to_hz = {:g} (every {:g}{} sample)",
+                                                rate_hz / factor, factor, ordinal_ending(factor)));
   });
   double const kept_hz = rate_hz / factor, cutoff_hz = parallel_cutoff_of(options);
   validate(2 * cutoff_hz < kept_hz, [&] {
-    return bad_job(
+    return problem_at(
+        section, "parallel_cutoff_hz",
         fmt::format("parallel_cutoff_hz = {:g} is not below half of decimate_to_hz ({:g} Hz): what lies between "
                     "folds back",
                     cutoff_hz, kept_hz / 2),
-        section, "parallel_cutoff_hz",
         fmt::format("parallel_cutoff_hz = {:g}, or a higher decimate_to_hz", 0.4 * kept_hz));
   });
   return static_cast<Eigen::Index>(factor);

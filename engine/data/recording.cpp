@@ -25,8 +25,8 @@ void check_options(RecordingOptions const& options, Section const& section) {
   std::vector<Problem> problems;
   auto const check_unit = [&](char const* key, double value) {
     if (std::isfinite(value) && value != 0.0) return;
-    problems.push_back(bad_job(fmt::format("{} = {:g} would erase the signal", key, value), section, key,
-                               "write the SI value of one unit of the column; 1 when it is in SI units already"));
+    problems.push_back(problem_at(section, key, fmt::format("{} = {:g} would erase the signal", key, value),
+                                  "write the SI value of one unit of the column; 1 when it is in SI units already"));
   };
   check_unit("torque_per_unit", options.torque_per_unit);
   check_unit("position_per_unit", options.position_per_unit);
@@ -136,9 +136,10 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
                                                : analyse_sampling(time->second.values, table);
   auto const grid = grid_times(sampling, options.delay_s);
   validate(grid.size() >= fewest_rows, [&] {
-    return bad_job(
+    return problem_at(
+        section, "delay_s",
         fmt::format("delay_s = {:g} leaves {} of {} samples", options.delay_s, grid.size(), sampling.times.size()),
-        section, "delay_s", "delays of joints are milliseconds: -0.004");
+        "delays of joints are milliseconds: -0.004");
   });
 
   Recording recording;

@@ -11,10 +11,7 @@ namespace torquescope {
 namespace {
 
 Problem problem_at_terms(Section const& model, std::string what) {
-  Problem problem{ExitCode::bad_job, std::move(what)};
-  problem.place = model.where("terms");
-  problem.key = "model.terms";
-  return problem;
+  return problem_at(model, "terms", std::move(what), "");
 }
 
 std::vector<std::string> effect_names() {

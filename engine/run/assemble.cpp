@@ -28,14 +28,9 @@ void check_sources(Job const& job, RecordingOptions const& recording, std::vecto
   if (!reads && !simulates)
     problems.push_back(missing(job, "the job has no data: neither recording.train nor [simulate]",
                                "write [recording] with train = \"FILE.csv\", or [simulate] with a plant"));
-  if (reads && simulates) {
-    Problem problem;
-    problem.what = "the job has both recording.train and [simulate]";
-    problem.place = job.find("simulate")->place;
-    problem.key = "simulate";
-    problem.help = "remove one of them; `torquescope simulate` writes a recording that train can name";
-    problems.push_back(problem);
-  }
+  if (reads && simulates)
+    problems.push_back(problem_at(*job.find("simulate"), "", "the job has both recording.train and [simulate]",
+                                  "remove one of them; `torquescope simulate` writes a recording that train can name"));
   if (job.all("estimator").empty())
     problems.push_back(missing(job, "the job has no [[estimator]]", "write [[estimator]] with name = \"ols\""));
 }
@@ -52,13 +47,12 @@ void check_same_rate(std::vector<Recording> const& recordings, Section const& se
   for (auto const& recording : recordings) {
     double const first = recordings.front().rate_hz;
     validate(std::fabs(recording.rate_hz - first) <= 1e-3 * first, [&] {
-      Problem problem;
+      Problem problem =
+          problem_at(section, "train",
+                     fmt::format("{} is sampled at {:.6g} Hz, {} at {:.6g} Hz", recordings.front().name, first,
+                                 recording.name, recording.rate_hz),
+                     "recordings of one job share one sampling rate: resample one of them, or use two jobs");
       problem.code = ExitCode::bad_data;
-      problem.what = fmt::format("{} is sampled at {:.6g} Hz, {} at {:.6g} Hz", recordings.front().name, first,
-                                 recording.name, recording.rate_hz);
-      problem.place = section.where("train");
-      problem.key = "recording.train";
-      problem.help = "recordings of one job share one sampling rate: resample one of them, or use two jobs";
       return problem;
     });
   }
@@ -91,7 +85,8 @@ void prepare(DataSet& set, Experiment::Parts const& parts) {
   set.regression = make_regression_data(set.recordings, parts.filter, *parts.regressor, filter);
   char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
   for (auto& recording : set.recordings) {
-    set.excitation.push_back(measure_excitation(recording, differentiate(recording, parts.filter, filter), parts.filter));
+    set.excitation.push_back(
+        measure_excitation(recording, differentiate(recording, parts.filter, filter), parts.filter));
     for (auto const& warning : excitation_warnings(set.excitation.back(), unit)) recording.warnings.push_back(warning);
   }
 }

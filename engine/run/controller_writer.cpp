@@ -22,7 +22,8 @@ void write_curves(ResultWriter& writer, std::string const& group, FuzzyControlle
     writer.numbers(group + name + "_universe", {curve_points}, curves.x, {"1", name});
     std::vector<double> rows;
     for (auto const& membership : curves.memberships) rows.insert(rows.end(), membership.begin(), membership.end());
-    writer.numbers(group + name + "_membership", {3, curve_points}, rows, {"1", "membership of " + name, "seed Table 1"});
+    writer.numbers(group + name + "_membership", {3, curve_points}, rows,
+                   {"1", "membership of " + name, "seed Table 1"});
   }
 }
 

@@ -62,13 +62,12 @@ Problem unknown_estimator(Section const& section, std::string const& name) {
   std::vector<std::string> names;
   append_names(estimator_choices(), names);
   append_names(optimiser_choices(), names);
-  Problem problem;
-  problem.what = name.empty() ? "an [[estimator]] has no name" : fmt::format("no estimator is called \"{}\"", name);
-  problem.place = section.where("name");
-  problem.key = "estimator.name";
+  Problem problem =
+      problem_at(section, "name",
+                 name.empty() ? "an [[estimator]] has no name" : fmt::format("no estimator is called \"{}\"", name),
+                 fmt::format("name is one of: {}", fmt::join(names, ", ")));
   std::string const close = closest_name(name, names);
   if (!close.empty()) problem.caret_note = fmt::format("did you mean \"{}\"?", close);
-  problem.help = fmt::format("name is one of: {}", fmt::join(names, ", "));
   return problem;
 }
 
@@ -82,12 +81,9 @@ EstimatorPlan plan_population_method(OptimiserChoice const& choice, Section cons
   plan.make_optimiser = choice.prepare(section, shared, problems);
   if (choice.controller) plan.controller = choice.controller(section);
   if (plan.stop_rules.generations < 1) {
-    Problem problem;
-    problem.what = "generations = 0: a run needs a limit, and its history a size";
-    problem.place = section.where("generations");
-    problem.key = "estimator.generations";
-    problem.help = "write generations = 100, and the other stop rules beside it";
-    problems.push_back(problem);
+    problems.push_back(problem_at(section, "generations",
+                                  "generations = 0: a run needs a limit, and its history a size",
+                                  "write generations = 100, and the other stop rules beside it"));
   }
   append_options(choice.options, section, plan);
   append_options(StopRules::table().describe(), section, plan);
@@ -115,12 +111,9 @@ std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& se
     plan.kind = options.name;
     plan.label = options.label.empty() ? options.name : options.label;
     if (!labels.insert(plan.label).second) {
-      Problem problem;
-      problem.what = fmt::format("two estimators are called \"{}\"", plan.label);
-      problem.place = section->where(options.label.empty() ? "name" : "label");
-      problem.key = "estimator.label";
-      problem.help = fmt::format("give one of them a label of its own: label = \"{}_2\"", plan.label);
-      problems.push_back(problem);
+      problems.push_back(problem_at(*section, options.label.empty() ? "name" : "label",
+                                    fmt::format("two estimators are called \"{}\"", plan.label),
+                                    fmt::format("give one of them a label of its own: label = \"{}_2\"", plan.label)));
     }
     if (auto const* closed_form = find_estimator(options.name)) {
       plan.title = closed_form->title;

@@ -10,22 +10,26 @@ namespace {
 
 std::string group_of(std::string const& label) { return "/runs/" + label; }
 
+// "N m" -> "(N m)2", "N" -> "N2"
+std::string squared(std::string const& unit) {
+  return unit.find(' ') == std::string::npos ? unit + "2" : "(" + unit + ")2";
+}
+
 struct HistoryDataset {
   char const* name;
   std::vector<double> RunHistory::*values;
   Note note;
 };
 
-std::vector<HistoryDataset> const& per_generation() {
-  static std::vector<HistoryDataset> const datasets{
+std::vector<HistoryDataset> per_generation(std::string const& torque_unit = "") {
+  return {
       {"F", &RunHistory::F, {"1", "mutation factor"}},
       {"CR", &RunHistory::CR, {"1", "crossover rate"}},
       {"PC", &RunHistory::PC, {"1", "parameter change", "FADE eq. 8"}},
       {"FC", &RunHistory::FC, {"1", "function value change", "FADE eq. 8"}},
-      {"best", &RunHistory::best, {"(N m)2", "best fitness so far, as MSE"}},
-      {"gap_history", &RunHistory::gap, {"(N m)2", "best MSE above the least-squares floor"}},
+      {"best", &RunHistory::best, {squared(torque_unit), "best fitness so far, as MSE"}},
+      {"gap_history", &RunHistory::gap, {squared(torque_unit), "best MSE above the least-squares floor"}},
   };
-  return datasets;
 }
 
 void write_numbers(ResultWriter& writer, std::string const& path, std::vector<double> const& values, Note const& note) {
@@ -68,13 +72,14 @@ void write_summary(ResultWriter& writer, std::string const& group, RunResults co
 
 }  // namespace
 
-void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape) {
+void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,
+                       std::string const& torque_unit) {
   std::string const group = group_of(label) + "/";
   std::size_t const generations = shape.generations + 1;
   writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
                       {"SI", "population after selection"});
   writer.declare_runs(group + "fitness", shape.runs, {generations, shape.members}, {"1", "fitness of the population"});
-  for (auto const& dataset : per_generation())
+  for (auto const& dataset : per_generation(torque_unit))
     writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note);
   writer.declare_runs(group + "evaluations", shape.runs, {generations}, {"1", "evaluations so far"},
                       RunValues::whole_number);
@@ -88,7 +93,8 @@ void write_history(ResultWriter& writer, std::string const& label, std::size_t r
   writer.write_run(group + "evaluations", run, history.evaluations);
 }
 
-void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results) {
+void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
+                   std::string const& torque_unit) {
   std::string const group = group_of(plan.label);
   writer.attribute(group, "kind", plan.kind);
   writer.attribute(group, "title", plan.title);
@@ -97,16 +103,15 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   auto const metric = [&](char const* name, double PredictionMetrics::*member, Note const& note) {
     write_numbers(writer, group + "/" + name, RunResults::each(results.train, member), note);
   };
-  metric("mse", &PredictionMetrics::mse, {"(N m)2", "mean squared error"});
-  metric("sse", &PredictionMetrics::sse, {"(N m)2", "sum of squared errors", "seed eq. 10"});
+  metric("mse", &PredictionMetrics::mse, {squared(torque_unit), "mean squared error"});
+  metric("sse", &PredictionMetrics::sse, {squared(torque_unit), "sum of squared errors", "seed eq. 10"});
   metric("relerr", &PredictionMetrics::relerr, {"1", "relative error"});
-  metric("residual_std", &PredictionMetrics::residual_std, {"N m", "standard deviation of the residual"});
-  metric("residual_mean", &PredictionMetrics::residual_mean, {"N m", "mean residual"});
+  metric("residual_std", &PredictionMetrics::residual_std, {torque_unit, "standard deviation of the residual"});
+  metric("residual_mean", &PredictionMetrics::residual_mean, {torque_unit, "mean residual"});
   if (!results.validate.empty())
-    write_numbers(writer, group + "/validation_relerr",
-                  RunResults::each(results.validate, &PredictionMetrics::relerr),
+    write_numbers(writer, group + "/validation_relerr", RunResults::each(results.validate, &PredictionMetrics::relerr),
                   {"1", "relative error on unseen data"});
-  write_numbers(writer, group + "/gap", results.gap, {"(N m)2", "MSE above the least-squares floor"});
+  write_numbers(writer, group + "/gap", results.gap, {squared(torque_unit), "MSE above the least-squares floor"});
   writer.texts(group + "/stop_reason", results.stop_reason, {"1", "why each run ended"});
   write_summary(writer, group, results);
 }

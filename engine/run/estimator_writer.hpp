@@ -22,9 +22,12 @@ struct HistoryShape {
   std::size_t parameters = 0;
 };
 
-void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape);
+// torque_unit: "N m" or "N"
+void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,
+                       std::string const& torque_unit);
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history);
-void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results);
+void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
+                   std::string const& torque_unit);
 
 // what only least squares has: errors, intervals, the equivalent form (nullptr: the model has none)
 struct JointForm;

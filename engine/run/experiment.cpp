@@ -10,7 +10,9 @@ namespace torquescope {
 
 namespace {
 
-std::string counted(std::size_t n, std::string const& thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+std::string counted(std::size_t n, std::string const& thing) {
+  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
 
 std::size_t runs_of(EstimatorPlan const& plan, ExperimentOptions const& experiment) {
   return plan.is_closed_form() ? 1 : static_cast<std::size_t>(experiment.runs);
@@ -39,7 +41,8 @@ std::string const& Experiment::name() const { return parts_->experiment.name; }
 std::uint64_t Experiment::seed() const { return static_cast<std::uint64_t>(parts_->experiment.seed); }
 
 std::filesystem::path Experiment::output_file() const {
-  return parts_->output.file.empty() ? std::filesystem::path(name() + ".h5") : std::filesystem::path(parts_->output.file);
+  return parts_->output.file.empty() ? std::filesystem::path(name() + ".h5")
+                                     : std::filesystem::path(parts_->output.file);
 }
 
 std::string Experiment::inputs_sha256() const {
@@ -96,9 +99,9 @@ std::vector<CheckLine> Experiment::check(int threads) const {
 
   auto const add_set = [&](DataSet const& set, std::string const& purpose) {
     for (auto const& recording : set.recordings) {
-      lines.push_back({Level::ok, purpose,
-                       fmt::format("{}: {} samples at {:.6g} Hz", recording.name, recording.time_s.size(),
-                                   recording.rate_hz)});
+      lines.push_back(
+          {Level::ok, purpose,
+           fmt::format("{}: {} samples at {:.6g} Hz", recording.name, recording.time_s.size(), recording.rate_hz)});
       for (auto const& warning : recording.warnings) lines.push_back({Level::warn, warning.topic, warning.text});
     }
   };

@@ -85,6 +85,7 @@ struct Study {
   ProgressSink const& progress;
   ResultWriter& writer;
   ResidualObjective const& squares;  // of the training rows: what every gap is measured with
+  std::string torque_unit;           // "N m" or "N"
 };
 
 void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
@@ -118,7 +119,7 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   HistoryShape const shape{static_cast<std::size_t>(parts.experiment.runs),
                            static_cast<std::size_t>(plan.stop_rules.generations),
                            plan.make_optimiser(parts.box, {})->batch_size(), parts.regressor->size()};
-  declare_histories(study.writer, plan.label, shape);
+  declare_histories(study.writer, plan.label, shape, study.torque_unit);
   StageProgress progress(study.progress, plan.label, parts.experiment.runs,
                          static_cast<std::int64_t>(shape.runs * (shape.generations + 1) * shape.members));
 
@@ -177,13 +178,14 @@ IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& opt
   write_study(writer, experiment);
 
   ResidualObjective const squares(parts.train.regression, parts.box);
-  Study const study{parts, options, progress, writer, squares};
+  bool const revolute = parts.regressor->joint() == JointKind::revolute;
+  Study const study{parts, options, progress, writer, squares, revolute ? "N m" : "N"};
   IdentifyReport report;
   std::vector<std::string> order;
   for (auto const& plan : parts.estimators) {
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
-    write_results(writer, plan, results);
+    write_results(writer, plan, results, study.torque_unit);
     order.push_back(plan.label);
     report.runs += static_cast<std::int64_t>(results.runs());
     for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;

@@ -5,10 +5,18 @@
 namespace torquescope {
 
 std::vector<std::string> const& known_sections() {
-  static std::vector<std::string> const names{"experiment",          "recording",          "filter",
-                                              "model",               "model.bounds",       "estimator",
-                                              "simulate",            "simulate.plant",     "simulate.reference",
-                                              "simulate.controller", "simulate.encoder",   "simulate.noise",
+  static std::vector<std::string> const names{"experiment",
+                                              "recording",
+                                              "filter",
+                                              "model",
+                                              "model.bounds",
+                                              "estimator",
+                                              "simulate",
+                                              "simulate.plant",
+                                              "simulate.reference",
+                                              "simulate.controller",
+                                              "simulate.encoder",
+                                              "simulate.noise",
                                               "output"};
   return names;
 }

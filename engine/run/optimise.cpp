@@ -30,26 +30,20 @@ void evaluate(Objective const& objective, MatrixView<double const> candidates, s
   });
 }
 
-template <class Source>
-void copy_generation(Source const& source, std::vector<double>& history, std::size_t generation, std::size_t width) {
-  std::copy_n(source.data(), width, history.begin() + static_cast<std::ptrdiff_t>(generation * width));
-}
-
 void record(Optimiser const& optimiser, SearchSetting const& setting, RunHistory& history) {
   Progress const& progress = optimiser.progress();
-  auto const generation = static_cast<std::size_t>(progress.generation);
-  if (generation >= history.best.size()) return;  // a run without a generation limit keeps the first ones
   auto const population = optimiser.population();
-  copy_generation(population, history.population, generation, population.rows() * population.columns());
-  copy_generation(optimiser.fitness(), history.fitness, generation, population.rows());
-  history.F[generation] = progress.F;
-  history.CR[generation] = progress.CR;
-  history.PC[generation] = progress.PC;
-  history.FC[generation] = progress.FC;
-  history.best[generation] = progress.best_fitness * setting.fitness_to_mse;
-  history.gap[generation] = setting.gap_to_floor(progress.best);
-  std::fill(history.evaluations.begin() + static_cast<std::ptrdiff_t>(generation), history.evaluations.end(),
-            progress.evaluations);
+  history.population.insert(history.population.end(), population.data(),
+                            population.data() + population.rows() * population.columns());
+  auto const fitness = optimiser.fitness();
+  history.fitness.insert(history.fitness.end(), fitness.begin(), fitness.end());
+  history.F.push_back(progress.F);
+  history.CR.push_back(progress.CR);
+  history.PC.push_back(progress.PC);
+  history.FC.push_back(progress.FC);
+  history.best.push_back(progress.best_fitness * setting.fitness_to_mse);
+  history.gap.push_back(setting.gap_to_floor(progress.best));
+  history.evaluations.push_back(progress.evaluations);
 }
 
 }  // namespace
@@ -58,14 +52,19 @@ RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team
   using Clock = std::chrono::steady_clock;
   auto const start = Clock::now();
   std::size_t const dimension = optimiser.dimension();
-  RunHistory history(static_cast<std::size_t>(setting.rules.generations), optimiser.batch_size(), dimension);
+  RunHistory history;
   workspaces.resize(static_cast<std::size_t>(std::max(1, team)));
   std::vector<double> candidates, fitness;
 
   std::optional<StopReason> reason;
   while (!reason) {
     if (setting.stop_requested && setting.stop_requested())
-      throw Error(Problem{ExitCode::stopped, "stopped by a signal: nothing was published", {}, {}, {}, {},
+      throw Error(Problem{ExitCode::stopped,
+                          "stopped by a signal: nothing was published",
+                          {},
+                          {},
+                          {},
+                          {},
                           "run the same command again"});
     std::size_t const batch = optimiser.batch_size();
     candidates.resize(batch * dimension);
@@ -82,6 +81,7 @@ RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team
     double const elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     reason = reason_to_stop(setting.rules, optimiser, setting.objective.bounds(), elapsed_s);
   }
+  history.pad(static_cast<std::size_t>(setting.rules.generations) + 1, optimiser.batch_size(), dimension);
   history.parameters = optimiser.progress().best;
   history.stop_reason = to_string(*reason);
   history.nonfinite = optimiser.progress().nonfinite;

@@ -21,8 +21,8 @@ namespace torquescope {
 struct SearchSetting {
   Objective const& objective;
   StopRules const& rules;
-  double fitness_to_mse = 1.0;                                     // 1 for MSE, 1/n for SSE
-  std::function<double(std::span<double const>)> gap_to_floor;     // MSE above the OLS floor, without cancellation
+  double fitness_to_mse = 1.0;                                        // 1 for MSE, 1/n for SSE
+  std::function<double(std::span<double const>)> gap_to_floor;        // MSE above the OLS floor, without cancellation
   std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a generation, any thread
   std::function<bool()> stop_requested{};
 };

@@ -14,17 +14,7 @@
 namespace torquescope {
 
 struct RunHistory {
-  RunHistory(std::size_t generations, std::size_t members, std::size_t dimension)
-      : population((generations + 1) * members * dimension, not_a_number),
-        fitness((generations + 1) * members, not_a_number),
-        F(generations + 1, not_a_number),
-        CR(generations + 1, not_a_number),
-        PC(generations + 1, not_a_number),
-        FC(generations + 1, not_a_number),
-        best(generations + 1, not_a_number),
-        gap(generations + 1, not_a_number),
-        evaluations(generations + 1, 0) {}
-
+  // one entry per generation told, in their order; memory grows with the generations that really were
   std::vector<double> population;
   std::vector<double> fitness;
   std::vector<double> F, CR, PC, FC;
@@ -36,8 +26,14 @@ struct RunHistory {
   std::string stop_reason;
   std::int64_t nonfinite = 0;  // candidates without finite fitness
 
- private:
-  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  // fills up to `entries` generations of `members` x `dimension`: all runs of an estimator are stored at one size
+  void pad(std::size_t entries, std::size_t members, std::size_t dimension) {
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    population.resize(entries * members * dimension, not_a_number);
+    fitness.resize(entries * members, not_a_number);
+    for (auto* list : {&F, &CR, &PC, &FC, &best, &gap}) list->resize(entries, not_a_number);
+    evaluations.resize(entries, evaluations.empty() ? 0 : evaluations.back());
+  }
 };
 
 }  // namespace torquescope

@@ -46,7 +46,9 @@ std::size_t lower_median_index(std::vector<double> const& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   // NaN last; ties by index, so that the answer does not depend on the sort
-  auto const key = [&](std::size_t i) { return std::isnan(values[i]) ? std::numeric_limits<double>::infinity() : values[i]; };
+  auto const key = [&](std::size_t i) {
+    return std::isnan(values[i]) ? std::numeric_limits<double>::infinity() : values[i];
+  };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
   return order[(order.size() - 1) / 2];

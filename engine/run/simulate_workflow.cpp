@@ -27,8 +27,7 @@ std::string csv_text(SimulatedRecording const& recording, std::string const& job
   for (auto const& column : table) names.push_back(column.name);
   fmt::format_to(out, "{}\n", fmt::join(names, ","));
   for (Eigen::Index row = 0; row < recording.time_s.size(); ++row) {
-    for (std::size_t c = 0; c < table.size(); ++c)
-      fmt::format_to(out, "{}{}", c ? "," : "", (*table[c].values)[row]);
+    for (std::size_t c = 0; c < table.size(); ++c) fmt::format_to(out, "{}{}", c ? "," : "", (*table[c].values)[row]);
     text.push_back('\n');
   }
   return fmt::to_string(text);

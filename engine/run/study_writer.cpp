@@ -102,8 +102,7 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   writer.attribute("/job", "inputs_sha256", experiment.inputs_sha256());
   write_model(writer, parts);
   write_data_set(writer, "/data/train", parts.train, parts.filter, parts.regressor->joint());
-  if (parts.validate)
-    write_data_set(writer, "/data/validate", *parts.validate, parts.filter, parts.regressor->joint());
+  if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts.filter, parts.regressor->joint());
   write_health(writer, parts.health);
 }
 

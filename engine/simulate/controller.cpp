@@ -8,7 +8,6 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/portable_math.hpp"
-#include "engine/simulate/problem_at.hpp"
 
 namespace torquescope {
 

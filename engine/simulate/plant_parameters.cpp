@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "engine/simulate/problem_at.hpp"
 
 namespace torquescope {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/base/contract.hpp"
-#include "engine/simulate/problem_at.hpp"
 #include "engine/simulate/references/reference_choice.hpp"
 
 namespace torquescope {

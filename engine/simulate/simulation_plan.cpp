@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "engine/simulate/plant_parameters.hpp"
-#include "engine/simulate/problem_at.hpp"
 
 namespace torquescope {
 

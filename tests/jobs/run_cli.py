@@ -245,7 +245,7 @@ class GoodRun(Folder):
             self.assertIn("\n  " + row, outcome.out)
         self.assertIn("OLS standard error", outcome.out)
         self.assertRegex(outcome.out, r"\n7 runs, [0-9 ]+ evaluations, [0-9.]+ s\n$")
-        for line in [r"^job +good", r"\ndata ", r"\nthreads +2 \(OMP_NUM_THREADS\), seed 11", r"\nprogress stage=de runs=3/3",
+        for line in [r"^job +good", r"\ndata ", r"\nthreads +2 \(OMP_NUM_THREADS\), \w+, seed 11", r"\nprogress stage=de runs=3/3",
                      r"\nwrote  good.h5  [0-9.]+ [kM]B\n", r"\nlook   torquescope report good.h5\n$"]:
             self.assertRegex(outcome.err, line)
 
@@ -269,7 +269,7 @@ class GoodRun(Folder):
         self.run_good()
         self.write("other.toml", GOOD_JOB + "# changed\n")
         self.assert_refused(self.run_here("run", "other.toml", "--out", "good.h5"), 73,
-                            ["good.h5 exists and was made by another job (sha256 differs)", "--out another name, or delete good.h5"])
+                            ["good.h5 exists and was made by another job, or from other recordings (sha256 differs)", "--out another name, or delete good.h5"])
 
     def test_what_is_no_result_is_not_overwritten(self):
         self.assert_refused(self.run_here("run", "good.toml", "--out", "good.csv"), 73, ["good.csv exists"])

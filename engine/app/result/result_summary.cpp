@@ -56,6 +56,11 @@ EstimatorSummary read_estimator(ResultReader const& reader, std::string const& n
   summary.mse_lower_quartile = quantile(mse, 0.25);
   summary.mse_upper_quartile = quantile(mse, 0.75);
   summary.gap_median = number_or_nan(reader, group, "gap_median");
+  auto const gap = reader.numbers(group + "/gap").values;
+  summary.gap_lower_quartile = quantile(gap, 0.25);
+  summary.gap_upper_quartile = quantile(gap, 0.75);
+  summary.gap_best = quantile(gap, 0.0);
+  summary.gap_worst = quantile(gap, 1.0);
   summary.relerr_median = number_or_nan(reader, group, "relerr_median");
   summary.validation_relerr_median = number_or_nan(reader, group, "validation_relerr_median");
   summary.residual_std_median = number_or_nan(reader, group, "residual_std_median");

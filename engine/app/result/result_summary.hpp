@@ -21,7 +21,8 @@ struct EstimatorSummary {
   std::vector<double> standard_error;   // [R] least squares only: HAC; else empty
   double mse_median = 0.0, mse_best = 0.0, mse_worst = 0.0, mse_std = 0.0, mse_mean = 0.0;
   double mse_lower_quartile = 0.0, mse_upper_quartile = 0.0;
-  double gap_median = 0.0;
+  // MSE above the OLS floor: what tells searches apart once their MSEs agree to every printed digit
+  double gap_median = 0.0, gap_lower_quartile = 0.0, gap_upper_quartile = 0.0, gap_best = 0.0, gap_worst = 0.0;
   double relerr_median = 0.0, validation_relerr_median = 0.0;
   double residual_std_median = 0.0;
   std::map<std::string, std::int64_t> stop_reasons;  // how many runs ended for which reason

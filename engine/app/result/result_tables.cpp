@@ -140,7 +140,7 @@ std::string data_text(DataSummary const& data) {
   std::string text = fmt::format("{}; {} samples kept", names, count_text(data.samples));
   if (!std::isnan(data.duration_s)) text += fmt::format(", {:.4g} s", data.duration_s);
   if (!std::isnan(data.rate_hz)) text += fmt::format(" at {:.6g} Hz", data.rate_hz);
-  if (!std::isnan(data.cutoff_hz)) text += fmt::format("; cutoff {:.4g} Hz", data.cutoff_hz);
+  if (data.cutoff_hz > 0.0) text += fmt::format("; cutoff {:.4g} Hz", data.cutoff_hz);
   return text;
 }
 
@@ -179,11 +179,11 @@ std::string estimator_lines(ResultSummary const& summary, Ink const& ink) {
   using Align = TextTable::Align;
   TextTable table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::left},
                   "  ");
-  table.row({"MSE of the runs", "median", "quartile", "quartile", "best", "worst", ""});
+  table.row({"MSE above the OLS floor", "median", "quartile", "quartile", "best", "worst", ""});
   for (auto const& estimator : summary.estimators)
-    table.row({column_title(estimator), short_number(estimator.mse_median), short_number(estimator.mse_lower_quartile),
-               short_number(estimator.mse_upper_quartile), short_number(estimator.mse_best),
-               short_number(estimator.mse_worst), ""});
+    table.row({column_title(estimator), rough_number(estimator.gap_median), rough_number(estimator.gap_lower_quartile),
+               rough_number(estimator.gap_upper_quartile), rough_number(estimator.gap_best),
+               rough_number(estimator.gap_worst), ""});
   std::string text = table.text(page_width);
   for (auto const& estimator : summary.estimators)
     text += hanging(fmt::format("  {} ended by ", column_title(estimator)), reasons_text(estimator.stop_reasons));

@@ -57,7 +57,8 @@ double share_done(ProgressUpdate const& update) {
   bool const counted = update.evaluations_total > 0;
   auto const done = static_cast<double>(counted ? update.evaluations_done : update.runs_done);
   auto const total = static_cast<double>(counted ? update.evaluations_total : update.runs_total);
-  return total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
+  // all evaluations told is not yet all runs handed over: only is_done() is the whole
+  return total > 0.0 ? std::clamp(done / total, 0.0, 0.999) : 0.0;
 }
 
 std::optional<double> seconds_left(ProgressUpdate const& update) {

@@ -28,8 +28,9 @@ coulomb = 0.1
 )";
 
 TEST(LoadExperiment, KnowsTheTruthOfSimulatedData) {
-  auto const job = write_job("[model]\nterms = [\"inertia\", \"viscous\", \"coulomb\", \"offset\"]\n[[estimator]]\nname = \"ols\"\n" +
-                             simulated_joint);
+  auto const job = write_job(
+      "[model]\nterms = [\"inertia\", \"viscous\", \"coulomb\", \"offset\"]\n[[estimator]]\nname = \"ols\"\n" +
+      simulated_joint);
   Experiment const experiment = Experiment::load(job);
   auto const& parts = experiment.parts();
   ASSERT_EQ(parts.truth.size(), 4);

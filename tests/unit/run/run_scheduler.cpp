@@ -35,9 +35,8 @@ TEST(ScheduleRuns, AFailedRunIsToldAndNothingBehindItIsCommitted) {
     if (index == 2) throw std::runtime_error("third run");
     return index;
   };
-  EXPECT_THROW(
-      schedule_runs(6, 2, failing, [&](std::size_t index, std::size_t) { committed.push_back(index); }),
-      std::runtime_error);
+  EXPECT_THROW(schedule_runs(6, 2, failing, [&](std::size_t index, std::size_t) { committed.push_back(index); }),
+               std::runtime_error);
   for (std::size_t index : committed) EXPECT_LT(index, 2u);
 }
 

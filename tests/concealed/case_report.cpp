@@ -1,0 +1,81 @@
+#include "concealed/case_report.hpp"
+
+#include <cmath>
+
+#include "concealed/low_pass.hpp"
+#include "concealed/sensors.hpp"
+
+namespace concealed {
+namespace {
+
+LoopRun run_training(Case const& one_case, Rig const& rig, HiddenEffects const& effects, double step_s) {
+  Excitation const excitation = one_case.excitation(true);
+  RunPlan plan = one_case.plan(excitation, true);
+  plan.step_s = step_s;
+  return run_closed_loop(rig, effects, plan);
+}
+
+std::vector<double> difference(std::vector<double> a, std::vector<double> const& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+  return a;
+}
+
+Relerr relerr(Rig const& rig, LoopRun const& noisy, Baseline const& fitted) {
+  auto const noise = torque_noise(rig, noisy);
+  std::vector<double> from_baseline = baseline_residual(noisy.truth, fitted), from_truth(noise.size(), 0.0);
+  std::vector<double> torque(noise.size(), 0.0);
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    if (!noisy.truth.moves[k]) continue;
+    from_baseline[k] += noisy.recording.torque[k] - noisy.truth.motor[k];
+    from_truth[k] = noise[k];
+    torque[k] = noisy.recording.torque[k];
+  }
+  auto in_band_rms = [](std::vector<double> const& x) { return rms(low_passed(x, parallel_cutoff_hz, 1.0 / tick_s)); };
+  double const whole = in_band_rms(torque);
+  return {in_band_rms(from_baseline) / whole, in_band_rms(from_truth) / whole};
+}
+
+}  // namespace
+
+StepError step_error(Case const& one_case, LoopRun const& noisy_training) {
+  Rig smooth = one_case.rig;
+  smooth.encoder_bits = 0;
+  LoopRun const coarse = run_training(one_case, smooth, one_case.laws(), default_step_s);
+  LoopRun const fine = run_training(one_case, smooth, one_case.laws(), 0.5 * default_step_s);
+  double const rounding =
+      Encoder::per_turn(one_case.rig.encoder_bits, one_case.rig.joint.travel_per_turn).step() / std::sqrt(12.0);
+  return {rms(difference(coarse.truth.motor, fine.truth.motor)) / rms(torque_noise(one_case.rig, noisy_training)),
+          rms(difference(coarse.truth.q, fine.truth.q)) / rounding};
+}
+
+CaseReport report_case(Case const& one_case) {
+  Rig const& rig = one_case.rig;
+  Rig const quiet_rig = without_noise(rig);
+  bool const with_gravity = rig.joint.baseline.has_gravity();
+
+  LoopRun const noisy = run_training(one_case, rig, one_case.laws(), default_step_s);
+  LoopRun const quiet = run_training(one_case, quiet_rig, one_case.laws(), default_step_s);
+  Excitation const unseen = one_case.excitation(false);
+  LoopRun const validate = run_closed_loop(rig, one_case.laws(), one_case.plan(unseen, false));
+
+  CaseReport report;
+  report.fit = fit_baseline(quiet.truth, with_gravity);
+  report.together = effect_size(quiet, noisy, report.fit.parameters, rig);
+  for (std::size_t i = 0; i < one_case.effects.size(); ++i) {
+    report.regions.push_back(truth_regions(quiet.truth, quiet.truth.added[i], rig.joint.baseline));
+    if (one_case.effects.size() == 1) {
+      report.alone.push_back(report.together);
+      continue;
+    }
+    LoopRun const single = run_training(one_case, quiet_rig, {one_case.effects[i].law}, default_step_s);
+    report.alone.push_back(effect_size(single, noisy, fit_baseline(single.truth, with_gravity).parameters, rig));
+  }
+  report.train_relerr = relerr(rig, noisy, report.fit.parameters);
+  report.validate_relerr = relerr(rig, validate, report.fit.parameters);
+  report.step_error = step_error(one_case, noisy);
+  report.train = noisy.recording;
+  report.validate = validate.recording;
+  return report;
+}
+
+}  // namespace concealed

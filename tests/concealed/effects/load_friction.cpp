@@ -1,0 +1,30 @@
+// Dry friction that grows with what the gear transmits to the link, rounded near zero load.
+#include <cmath>
+
+#include "concealed/effects/laws.hpp"
+
+namespace concealed {
+namespace {
+
+class LoadFriction final : public HiddenEffect {
+ public:
+  LoadFriction(double share, double round, Link const& link) : share_(share), round_(round), link_(link) {}
+  double dry(Instant const& now, double const*) const override {
+    double const load =
+        link_.inertia * now.a + link_.gravity_sin * std::sin(now.q) + link_.gravity_cos * std::cos(now.q);
+    return share_ * (std::sqrt(load * load + round_ * round_) - round_);
+  }
+  bool feels_load() const override { return true; }
+
+ private:
+  double share_, round_;
+  Link link_;
+};
+
+}  // namespace
+
+Effect load_friction(double share, double round, Link const& link) {
+  return std::make_shared<LoadFriction>(share, round, link);
+}
+
+}  // namespace concealed

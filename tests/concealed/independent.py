@@ -1,0 +1,47 @@
+"""The plant that conceals physics and the engine that looks for it share nothing but the recordings.
+
+No include of engine/ or kernels/ in this folder, no engine library linked to it, and nobody but the scorer reads a truth.
+"""
+import pathlib
+import re
+import sys
+
+FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
+LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
+READERS = {"judge.py", "score.py", "test_score.py", "independent.py"}
+
+
+def foreign_includes(sources):
+    return [f"{path} includes the engine: {hit.strip()}" for path, text in sources.items() for hit in FOREIGN.findall(text)]
+
+
+def teeth():
+    assert foreign_includes({"a.cpp": '#include "engine/base/error.hpp"', "b.cpp": '#  include "../../kernels/x.hpp"',
+                             "c.cpp": '#include "concealed/plant.hpp"\n#include <vector>'}).__len__() == 2
+
+
+def main(root):
+    teeth()
+    root = pathlib.Path(root)
+    here = root / "tests" / "concealed"
+    sources = {p.relative_to(root).as_posix(): p.read_text() for p in here.rglob("*") if p.suffix in (".hpp", ".cpp")}
+    assert len(sources) > 30, "too few sources found: is this the source tree?"
+    found = foreign_includes(sources)
+    found += [f"CMakeLists.txt links {hit}" for hit in LINK.findall((here / "CMakeLists.txt").read_text())]
+    # and the other way round: the engine neither includes the plant nor knows its truth
+    for folder in ("engine", "kernels", "scripts", "jobs"):
+        for path in (root / folder).rglob("*"):
+            if not path.is_file() or path.suffix in (".h5", ".gz"):
+                continue
+            text = path.read_text(errors="replace")
+            if "truth.json" in text or re.search(r'#\s*include\s+"concealed/', text):
+                found.append(f"{path.relative_to(root)} looks at the concealed plant")
+    for path in here.glob("*.py"):
+        if "truth" in path.read_text() and path.name not in READERS:
+            found.append(f"{path.name} reads a truth: only the scorer may")
+    print("\n".join(found) or f"{len(sources)} sources of the concealed plant: none shares a header with the engine")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

@@ -1,0 +1,174 @@
+"""The scorer on hand-made truths and verdicts: perfect, wrong, abstaining, missing, broken."""
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import binomial
+import judge
+import score
+
+
+def size(snr):
+    return {"snr_eff": snr, "torque_share": 0.01 * snr}
+
+
+def true_effect(name="stribeck", family="reversal", catalogue_form=True, snr=3.0):
+    region = {"axis": "velocity", "edges": [-2.0, -1.0, 0.0, 1.0, 2.0], "occupancy": [0.25] * 4,
+              "inside": [False, True, True, False]}
+    return {"name": name, "family": family, "catalogue_form": catalogue_form, "size": size(snr),
+            "parameters": [{"name": "stribeck", "value": 0.5}], "regions": [region]}
+
+
+def truth(expected="named", effects=None, snr=3.0):
+    effects = [true_effect(snr=snr)] if effects is None else effects
+    return {"case": "x", "expected": expected, "size": size(snr), "effects": effects,
+            "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01}}, "step_error": {"torque": 1e-6, "position": 1e-6}}
+
+
+def clean():
+    return truth("none", [], 0.0)
+
+
+def effect(name="stribeck", family="reversal", equivalent=(), low=-1.0, high=1.0):
+    return {"name": name, "family": family, "equivalent": list(equivalent), "region": {"axis": "velocity", "from": low, "to": high},
+            "parameters": [{"name": "stribeck", "value": 0.55, "ci95": [0.45, 0.65]}]}
+
+
+def verdict(kind="named", effects=()):
+    joint = {"effects": list(effects), "baseline": {"validation_relerr": 0.11}, "augmented": {"validation_relerr": 0.02}}
+    return {"schema": 1, "verdict": kind, "joints": [joint]}
+
+
+class Binomial(unittest.TestCase):
+    def test_closed_forms_at_the_ends(self):
+        self.assertAlmostEqual(binomial.upper(0, 12), 1 - 0.05 ** (1 / 12), 9)
+        self.assertAlmostEqual(binomial.lower(12, 12), 0.05 ** (1 / 12), 9)
+        self.assertEqual(binomial.upper(5, 5), 1.0)
+        self.assertEqual(binomial.lower(0, 5), 0.0)
+
+    def test_sample_sizes_of_the_protocol(self):
+        # PHYSICS.md section 4: 16 of 500 stays below 5 %, 371 of 400 above 90 %; one more or less does not
+        self.assertLess(binomial.upper(16, 500), 0.05)
+        self.assertGreater(binomial.upper(17, 500), 0.05)
+        self.assertGreater(binomial.lower(371, 400), 0.90)
+        self.assertLess(binomial.lower(369, 400), 0.90)
+
+
+class Judge(unittest.TestCase):
+    def test_perfect_verdict(self):
+        j = judge.judge(truth(), verdict("named", [effect()]))
+        self.assertTrue(j.right and j.reached("exact") and j.found[0].first)
+        self.assertEqual(j.false_names, ())
+        self.assertAlmostEqual(j.found[0].iou, 1.0)
+        self.assertAlmostEqual(j.found[0].parameter_error, 0.1)
+        self.assertEqual(j.found[0].intervals, (True,))
+        self.assertAlmostEqual(j.gap_closed, 0.9)
+
+    def test_wrong_name_is_a_false_name_and_a_miss(self):
+        j = judge.judge(truth(), verdict("named", [effect("cogging", "order-locked")]))
+        self.assertFalse(j.right)
+        self.assertEqual(j.false_names, ("cogging",))
+        self.assertEqual(j.found[0].level, "missed")
+
+    def test_class_and_family(self):
+        j = judge.judge(truth(), verdict("class", [effect("presliding", equivalent=["stribeck"])]))
+        self.assertTrue(j.right and j.reached("class") and not j.reached("exact"))
+        j = judge.judge(truth(), verdict("named", [effect("backlash")]))
+        self.assertEqual((j.found[0].level, j.right, j.false_names), ("family", False, ()))
+
+    def test_family_is_enough_for_another_form(self):
+        j = judge.judge(truth(effects=[true_effect(catalogue_form=False)]), verdict("named", [effect("presliding")]))
+        self.assertTrue(j.right)
+
+    def test_second_name_of_the_same_family_is_false(self):
+        j = judge.judge(truth(), verdict("named", [effect("presliding"), effect()]))
+        self.assertEqual(j.false_names, ("presliding",))
+        self.assertEqual(j.found[0].level, "exact")
+        self.assertFalse(j.found[0].first or j.right)
+
+    def test_abstaining(self):
+        for kind in ("unexplained", "insufficient", "none"):
+            self.assertFalse(judge.judge(truth(), verdict(kind)).right)
+        small = judge.judge(truth(snr=0.2), verdict("none"))
+        self.assertTrue(small.right)
+        self.assertFalse(judge.judge(truth(snr=0.2), verdict("named", [effect("spring", "static-position")])).right)
+
+    def test_clean(self):
+        self.assertTrue(judge.judge(clean(), verdict("none")).right)
+        self.assertFalse(judge.judge(clean(), verdict("unexplained")).right)
+        j = judge.judge(clean(), verdict("named", [effect()]))
+        self.assertEqual((j.right, j.false_names), (False, ("stribeck",)))
+
+    def test_outside_the_catalogue(self):
+        outside = truth("unexplained", [true_effect(name="", family="")])
+        self.assertTrue(judge.judge(outside, verdict("unexplained")).right)
+        self.assertFalse(judge.judge(outside, verdict("named", [effect()])).right)
+        self.assertEqual(judge.judge(outside, verdict("unexplained", [effect("x", "")])).false_names, ("x",))
+
+    def test_pair_needs_both(self):
+        pair = truth(effects=[true_effect(), true_effect("spring", "static-position")])
+        self.assertFalse(judge.judge(pair, verdict("named", [effect()])).right)
+        self.assertTrue(judge.judge(pair, verdict("named", [effect("spring", "static-position"), effect()])).right)
+
+    def test_region_overlap_counts_samples(self):
+        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": 0.0, "to": 2.0}, true_effect()["regions"]), 1 / 3)
+        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": -0.5, "to": 0.5}, true_effect()["regions"]), 0.5)
+        self.assertIsNone(judge.region_iou({"axis": "time", "from": 0, "to": 1}, true_effect()["regions"]))
+
+    def test_missing_and_broken_verdicts_are_failures(self):
+        self.assertEqual(judge.judge(clean(), None).verdict, "missing")
+        self.assertFalse(judge.judge(clean(), None).right)
+        for broken in ({}, {"schema": 2, "verdict": "none", "joints": []}, {"schema": 1, "verdict": "maybe", "joints": []},
+                       {"schema": 1, "verdict": "none", "joints": [{}]}):
+            self.assertEqual(judge.judge(clean(), broken).verdict, "invalid")
+            self.assertFalse(judge.judge(clean(), broken).right)
+
+    def test_refuses_a_coarse_truth(self):
+        coarse = clean()
+        coarse["step_error"]["torque"] = 0.02
+        with self.assertRaises(ValueError):
+            judge.judge(coarse, verdict("none"))
+
+
+class Board(unittest.TestCase):
+    def run_score(self, truths, verdicts):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for case, text in truths.items():
+                (folder / case).mkdir()
+                (folder / case / "truth.json").write_text(text)
+            (folder / "verdicts").mkdir()
+            for case, text in verdicts.items():
+                (folder / "verdicts" / f"{case}.json").write_text(text)
+            out, err = io.StringIO(), io.StringIO()
+            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+                code = score.main([str(folder), str(folder / "verdicts"), "--json", str(folder / "board.json")])
+            board = json.loads((folder / "board.json").read_text()) if code == 0 else None
+            return code, out.getvalue(), err.getvalue(), board
+
+    def test_counts_missing_verdicts_in_the_denominator(self):
+        code, text, _, board = self.run_score({"a": json.dumps(clean()), "b": json.dumps(clean()), "c": json.dumps(clean())},
+                                              {"a": json.dumps(verdict("none")), "b": "not json"})
+        self.assertEqual(code, 0)
+        self.assertEqual(board["board"]["clean: verdict none"]["hits"], 1)
+        self.assertEqual(board["board"]["clean: verdict none"]["of"], 3)
+        self.assertEqual(board["board"]["no answer"]["hits"], 2)
+        self.assertIn("missing", text)
+
+    def test_small_effects_do_not_enter_the_naming_rates(self):
+        _, _, _, board = self.run_score({"a": json.dumps(truth()), "b": json.dumps(truth(snr=0.5))},
+                                        {"a": json.dumps(verdict("named", [effect()]))})
+        self.assertEqual(board["board"]["single: exact"]["of"], 1)
+
+    def test_no_truth_and_damaged_truth(self):
+        self.assertEqual(self.run_score({}, {})[0], 66)
+        self.assertEqual(self.run_score({"a": "{"}, {})[0], 65)
+        self.assertEqual(self.run_score({"a": json.dumps({"case": "a"})}, {})[0], 65)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

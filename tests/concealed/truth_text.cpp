@@ -1,0 +1,82 @@
+// truth.json: everything about a case that its recordings do not say (read by score.py).
+#include <nlohmann/json.hpp>
+
+#include "concealed/case_writer.hpp"
+
+namespace concealed {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json size_json(EffectSize const& size) {
+  return {{"snr_eff", size.snr()},
+          {"torque_share", size.torque_share()},
+          {"residual_rms", size.residual_rms},
+          {"noise_rms", size.noise_rms},
+          {"torque_rms", size.torque_rms}};
+}
+
+Json region_json(TruthRegion const& region) {
+  return {{"axis", region.axis},
+          {"intervals", region.intervals()},
+          {"edges", region.edges},
+          {"occupancy", region.occupancy},
+          {"inside", region.inside}};
+}
+
+Json effect_json(ConcealedEffect const& effect, EffectSize const& size, std::vector<TruthRegion> const& regions) {
+  Json out = {{"name", effect.name},     {"family", effect.family},
+              {"form", effect.form},     {"catalogue_form", effect.catalogue_form},
+              {"size", size_json(size)}, {"parameters", Json::array()},
+              {"regions", Json::array()}};
+  for (auto const& parameter : effect.parameters) {
+    out["parameters"].push_back({{"name", parameter.name}, {"value", parameter.value}});
+  }
+  for (auto const& region : regions) out["regions"].push_back(region_json(region));
+  return out;
+}
+
+Json baseline_json(Baseline const& baseline) {
+  Json out = {{"inertia", baseline.inertia},
+              {"viscous", baseline.viscous},
+              {"coulomb", baseline.coulomb},
+              {"offset", baseline.offset}};
+  if (baseline.has_gravity()) {
+    out["gravity_sin"] = baseline.gravity_sin;
+    out["gravity_cos"] = baseline.gravity_cos;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string truth_text(Case const& one_case, CaseReport const& report) {
+  Rig const& rig = one_case.rig;
+  Json truth = {
+      {"schema", 1},
+      {"case", one_case.name},
+      {"seed", one_case.seed},
+      {"expected", one_case.expected_verdict()},
+      {"rig",
+       {{"joint", rig.joint.name},
+        {"controller", rig.controller.name},
+        {"law", to_text(rig.controller.law)},
+        {"noise", rig.noise.name},
+        {"encoder_bits", rig.encoder_bits},
+        {"train", to_text(one_case.train)},
+        {"validate", to_text(one_case.validate)}}},
+      {"baseline", baseline_json(rig.joint.baseline)},
+      {"absorbed_baseline", baseline_json(report.fit.parameters)},
+      {"size", size_json(report.together)},
+      {"relerr",
+       {{"train", {{"baseline", report.train_relerr.baseline}, {"oracle", report.train_relerr.oracle}}},
+        {"validate", {{"baseline", report.validate_relerr.baseline}, {"oracle", report.validate_relerr.oracle}}}}},
+      {"step_error", {{"torque", report.step_error.torque}, {"position", report.step_error.position}}},
+      {"effects", Json::array()}};
+  for (std::size_t i = 0; i < one_case.effects.size(); ++i) {
+    truth["effects"].push_back(effect_json(one_case.effects[i], report.alone[i], report.regions[i]));
+  }
+  return truth.dump(1) + "\n";
+}
+
+}  // namespace concealed
