@@ -115,25 +115,25 @@ std::string bound_text(Bound const& bound) {
     case RelativeTo::absolute:
       break;
     case RelativeTo::peak_speed:
-      scale = " peak speed";
+      scale = " x peak speed";
       break;
     case RelativeTo::position_range:
-      scale = " position range";
+      scale = " x position range";
       break;
     case RelativeTo::position:
-      scale = " position range from its centre";
+      scale = " x position range from its centre";
       break;
     case RelativeTo::resolution:
-      scale = " encoder step";
+      scale = " x encoder step";
       break;
     case RelativeTo::duration:
-      scale = " duration";
+      scale = " x duration";
       break;
     case RelativeTo::instant:
-      scale = " duration from the start";
+      scale = " x duration from the start";
       break;
     case RelativeTo::sample_period:
-      scale = " sample period";
+      scale = " x sample period";
       break;
     case RelativeTo::filter_time:
       scale = " / (2 pi cutoff)";
@@ -142,58 +142,58 @@ std::string bound_text(Bound const& bound) {
       scale = " / duration";
       break;
     case RelativeTo::cutoff_frequency:
-      scale = " cutoff";
+      scale = " x cutoff";
       break;
     case RelativeTo::lowest_order:
-      scale = " wave per position range";
+      scale = " x wave per position range";
       break;
     case RelativeTo::highest_order:
-      scale = " order at the cutoff at 0.1 peak speed (400 per turn at most)";
+      scale = " x order at the cutoff at 0.1 peak speed (400 per turn at most)";
       break;
     case RelativeTo::torque:
-      scale = " torque rms";
+      scale = " x torque rms";
       break;
     case RelativeTo::torque_peak:
-      scale = " torque peak";
+      scale = " x torque peak";
       break;
     case RelativeTo::torque_inverse2:
       scale = " / torque rms^2";
       break;
     case RelativeTo::coulomb:
-      scale = " Coulomb level";
+      scale = " x Coulomb level";
       break;
     case RelativeTo::coulomb_per_range:
-      scale = " Coulomb level / position range";
+      scale = " x Coulomb level / position range";
       break;
     case RelativeTo::coulomb_per_duration:
-      scale = " Coulomb level / duration";
+      scale = " x Coulomb level / duration";
       break;
     case RelativeTo::viscous:
-      scale = " viscous";
+      scale = " x viscous";
       break;
     case RelativeTo::viscous_per_duration:
-      scale = " viscous / duration";
+      scale = " x viscous / duration";
       break;
     case RelativeTo::inertia:
-      scale = " inertia";
+      scale = " x inertia";
       break;
     case RelativeTo::torque_per_duration:
-      scale = " torque rms / duration";
+      scale = " x torque rms / duration";
       break;
     case RelativeTo::torque_per_speed:
-      scale = " torque rms / peak speed";
+      scale = " x torque rms / peak speed";
       break;
     case RelativeTo::torque_per_speed2:
-      scale = " torque rms / peak speed^2";
+      scale = " x torque rms / peak speed^2";
       break;
     case RelativeTo::torque_per_speed3:
-      scale = " torque rms / peak speed^3";
+      scale = " x torque rms / peak speed^3";
       break;
     case RelativeTo::torque_per_range:
-      scale = " torque rms / position range";
+      scale = " x torque rms / position range";
       break;
     case RelativeTo::torque_per_range3:
-      scale = " torque rms / position range^3";
+      scale = " x torque rms / position range^3";
       break;
   }
   return fmt::format("{:g}{}", bound.factor, scale);

@@ -78,7 +78,7 @@ struct Bound {
 
 // in the SI unit of the parameter
 double bound_value(Bound const& bound, JointScales const& scales);
-// "0.2 peak speed", "5 sample periods", "no bound"
+// "0.2 x peak speed", "0.2 / (2 pi cutoff)", "no bound"
 std::string bound_text(Bound const& bound);
 
 }  // namespace torquescope

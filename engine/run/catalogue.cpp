@@ -26,12 +26,13 @@ std::string joined(std::vector<Word> const& words) {
   return text;
 }
 
-// "parameter  stribeck in N m, N (prismatic): 0 to 2 Coulomb level"
-// "shape      stribeck_speed in rad/s, m/s (prismatic): 0.002 peak speed to 0.2 peak speed, logarithmic"
+// "parameter  stribeck in N m (N on a slide): 0 to 2 x Coulomb level"
+// "shape      stribeck_speed in rad/s (m/s on a slide): 0.002 x peak speed to 0.2 x peak speed, logarithmic"
 std::string parameter_line(EffectParameter const& parameter) {
-  std::string const slide =
-      parameter.unit_prismatic.empty() ? "revolute joints only" : parameter.unit_prismatic + " (prismatic)";
-  auto line = fmt::format("{}  {} in {}, {}", parameter.is_shape ? "shape    " : "parameter", parameter.name,
+  std::string slide = fmt::format(" ({} on a slide)", parameter.unit_prismatic);
+  if (parameter.unit_prismatic.empty()) slide = " (revolute joints only)";
+  if (parameter.unit_prismatic == parameter.unit_revolute) slide = "";
+  auto line = fmt::format("{}  {} in {}{}", parameter.is_shape ? "shape    " : "parameter", parameter.name,
                           parameter.unit_revolute, slide);
   if (!std::isinf(parameter.lower.factor) || !std::isinf(parameter.upper.factor))
     line += fmt::format(": {} to {}", bound_text(parameter.lower), bound_text(parameter.upper));
@@ -41,7 +42,7 @@ std::string parameter_line(EffectParameter const& parameter) {
 
 void add_effects(std::vector<CatalogueEntry>& entries) {
   for (Effect const* effect : effect_choices()) {
-    CatalogueEntry entry{effect->name(), "effect", effect->title(), {}, {}};
+    CatalogueEntry entry{effect->name(), "effect", effect->title() + " [" + word(effect->family()) + "]", {}, {}};
     entry.text.push_back("family     " + joined(effect->families()));
     entry.text.push_back(
         fmt::format("equation   {}{}", effect->acts_on() == ActsOn::joint ? "tau = " : "", effect->equation()));

@@ -104,7 +104,7 @@ TEST(Bounds, OfZeroAreSignsFromPhysics) {
 }
 
 TEST(Bounds, AreReadableWithoutTheData) {
-  EXPECT_EQ(bound_text({0.2, RelativeTo::peak_speed}), "0.2 peak speed");
+  EXPECT_EQ(bound_text({0.2, RelativeTo::peak_speed}), "0.2 x peak speed");
   EXPECT_EQ(bound_text({0.0, RelativeTo::coulomb}), "0");
   EXPECT_EQ(bound_text({std::numeric_limits<double>::infinity()}), "no bound");
   EXPECT_EQ(bound_text({0.5}), "0.5");

@@ -65,6 +65,26 @@ TEST(Regressor, RefusesGravityOnASlideAndNamesTheConstantInstead) {
   EXPECT_THAT(problems[0].help, HasSubstr("\"offset\""));
 }
 
+TEST(Regressor, RefusesWhatLeastSquaresOnTheMotionCannotFitAndSaysWhy) {
+  auto const what = [](std::string const& term) {
+    auto const problems = problems_of({"inertia", term});
+    EXPECT_EQ(problems.size(), 1u) << term;
+    EXPECT_THAT(problems[0].help, HasSubstr("torquescope diagnose"));
+    return problems[0].what;
+  };
+  EXPECT_EQ(
+      what("stribeck"),
+      "\"stribeck\" cannot be a term of the model: its torque is not linear in stribeck_speed, stribeck_exponent");
+  EXPECT_THAT(what("load_dependent_friction"), HasSubstr("built on the torque of a fitted model"));
+  EXPECT_THAT(what("actuator_lag"), HasSubstr("depends on what happened before"));
+  EXPECT_THAT(what("encoder_eccentricity"), HasSubstr("recorded channel"));
+}
+
+TEST(Regressor, AcceptsEveryEffectThatIsPlain) {
+  for (auto const* effect : effect_choices())
+    EXPECT_EQ(problems_of({effect->name()}).empty(), effect->is_plain_term()) << effect->name();
+}
+
 TEST(Regressor, RefusesEveryCollinearCoulombForm) {
   // sign(dq) = [dq>0] - [dq<0] and 1 = [dq>0] + [dq<0] while the joint moves
   EXPECT_EQ(problems_of({"coulomb_positive", "coulomb_negative", "coulomb"}).size(), 1u);

@@ -29,5 +29,26 @@ TEST(Catalogue, DescribesEverySectionAJobMayHave) {
   }
 }
 
+TEST(Catalogue, DescribesAnEffectWithFamilyBoundsAndSignature) {
+  for (auto const& entry : catalogue()) {
+    if (entry.name != "stribeck") continue;
+    EXPECT_EQ(entry.text,
+              (std::vector<std::string>{
+                  "family     reversal, velocity_law",
+                  "equation   tau = s Fs exp(-(|dq| / vs)^delta)",
+                  "parameter  stribeck in N m (N on a slide): 0 to 2 x Coulomb level",
+                  "shape      stribeck_speed in rad/s (m/s on a slide): 0.002 x peak speed to 0.2 x peak speed, "
+                  "logarithmic",
+                  "shape      stribeck_exponent in 1: 0.5 to 2",
+                  "signature  velocity, since_velocity_reversal; odd in the velocity",
+                  "acts on    joint",
+                  "source     Armstrong-Helouvry 1991, Control of Machines with Friction; Bittencourt, "
+                  "Gunnarsson 2012",
+              }));
+    return;
+  }
+  FAIL() << "no stribeck";
+}
+
 }  // namespace
 }  // namespace torquescope
