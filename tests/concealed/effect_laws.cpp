@@ -108,6 +108,26 @@ TEST(ConcealedEffects, PreslidingTakesLittleInSmallStrokesAndNearlyAllOfCoulombI
   EXPECT_LT(loop_work(0.5), 4.0 * coulomb * 0.5);
 }
 
+TEST(ConcealedEffects, HaveTheShapesTheyAreNamedAfter) {
+  Instant const now{7.0, 0.0, 0.1, 0.0, 1};
+  EXPECT_NEAR(lorentzian_stribeck(0.3, 0.1)->dry(now, nullptr), 0.3 / 2.0, 1e-15);
+  EXPECT_NEAR(rational_stribeck(0.3, 0.1)->dry(now, nullptr), 0.3 / 4.0, 1e-15);
+  EXPECT_NEAR(asymmetric_viscous(0.2)->torque(now, nullptr), 0.02, 1e-15);
+  double const cold = 0.6 * std::exp(-7.0 / 40.0) + 0.4 * std::exp(-7.0 / 160.0);
+  EXPECT_NEAR(warm_up(0.9, 0.7, 0.1, 40.0, 160.0)->dry(now, nullptr), 0.09 * cold, 1e-15);
+  EXPECT_NEAR(warm_up(0.9, 0.7, 0.1, 40.0, 160.0)->torque(now, nullptr), 0.07 * cold * 0.1, 1e-15);
+
+  // from rest the bristle reaches x / (1 + x) of its level, x = stiffness * distance / level
+  auto const bristle = bristle_presliding(0.8, 800.0);
+  double z = 0.0, rate = 0.0;
+  double const dt = 1e-6;
+  for (int i = 0; i < 30000; ++i) {
+    bristle->rates(now, &z, &rate);
+    z += dt * rate;
+  }
+  EXPECT_NEAR(z / 0.8, 3.0 / 4.0, 1e-4);
+}
+
 TEST(ConcealedEffects, PreslidingDoesNotDependOnTheRate) {
   auto const bristle = bristle_presliding(0.8, 800.0);
   EXPECT_NEAR(work_over(*bristle, 0.01, 1.0, 2.0, 3.0), work_over(*bristle, 0.01, 0.25, 2.0, 3.0), 1e-5);

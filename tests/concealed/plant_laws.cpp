@@ -53,6 +53,8 @@ TEST(ConcealedPlant, RestsBelowTheCoulombLevelAndLeavesAboveIt) {
     State const end = after(plant, plant.at_rest(0.3), {.motor = torque}, 0.2, step_s);
     EXPECT_EQ(end.q(), 0.3) << torque;
     EXPECT_EQ(end.v(), 0.0) << torque;
+    EXPECT_EQ(plant.direction(end, {.motor = torque}), 0) << torque;
+    EXPECT_EQ(plant.acceleration(end, {.motor = torque}), 0.0) << torque;
   }
   EXPECT_GT(after(plant, plant.at_rest(0.3), {.motor = 0.96}, 0.2, step_s).q(), 0.3);
   EXPECT_LT(after(plant, plant.at_rest(0.3), {.motor = -0.86}, 0.2, step_s).q(), 0.3);

@@ -54,10 +54,13 @@ def scoreboard(judgements):
     found = [f for j in named for f in j.found]
     intervals = [inside for f in found for inside in f.intervals]
     count = lambda items, test: sum(1 for item in items if test(item))
+    unanswered = lambda j: j.verdict in ("missing", "invalid")
+    # silence must not look like caution: a missing verdict counts as one with a false name
+    invented = lambda j: j.false_names or unanswered(j)
     return {
         "cases": len(judgements),
-        "no answer": rate(count(judgements, lambda j: j.verdict in ("missing", "invalid")), len(judgements), "low"),
-        "clean: any false name": rate(count(clean, lambda j: j.false_names), len(clean), "low"),
+        "no answer": rate(count(judgements, unanswered), len(judgements), "low"),
+        "clean: any false name": rate(count(clean, invented), len(clean), "low"),
         "clean: verdict none": rate(count(clean, lambda j: j.right), len(clean), "high"),
         "single: exact": rate(count(single, lambda j: j.reached("exact") and j.found[0].first), len(single), "high"),
         "single: exact or class": rate(count(single, lambda j: j.reached("class") and j.found[0].first), len(single), "high"),
@@ -65,8 +68,9 @@ def scoreboard(judgements):
         "several: whole set by family": rate(
             count(several, lambda j: j.reached("family") and not j.false_names), len(several), "high"),
         "outside the catalogue: unexplained": rate(count(outside, lambda j: j.right), len(outside), "high"),
-        "with effects: any false name": rate(count(named + outside, lambda j: j.false_names), len(named + outside), "low"),
-        "false share of names": spread([len(j.false_names) / max(1, j.n_named) for j in named]),
+        "with effects: any false name": rate(count(named + outside, invented), len(named + outside), "low"),
+        "false share of names": spread(
+            [len(j.false_names) / max(1, j.n_named) for j in named if not unanswered(j)]),
         "region IoU": spread([f.iou for f in found]),
         "parameter error": spread([f.parameter_error for f in found]),
         "intervals that hold the truth": rate(sum(intervals), len(intervals), "high"),

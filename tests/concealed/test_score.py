@@ -157,6 +157,8 @@ class Board(unittest.TestCase):
         self.assertEqual(board["board"]["clean: verdict none"]["hits"], 1)
         self.assertEqual(board["board"]["clean: verdict none"]["of"], 3)
         self.assertEqual(board["board"]["no answer"]["hits"], 2)
+        # silence is not caution
+        self.assertEqual(board["board"]["clean: any false name"]["hits"], 2)
         self.assertIn("missing", text)
 
     def test_small_effects_do_not_enter_the_naming_rates(self):
