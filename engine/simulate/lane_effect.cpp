@@ -9,40 +9,47 @@
 namespace torquescope {
 namespace {
 
-class MemorylessEffect final : public LaneEffect {
+// one runner per lane: each twin has its own memory
+class JointEffect final : public LaneEffect {
  public:
-  MemorylessEffect(Effect const& effect, std::vector<double> parameters)
-      : effect_(effect), parameters_(std::move(parameters)) {}
+  JointEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales)
+      : is_dry_friction_(effect.is_dry_friction()) {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
+  }
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      JointState const state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
-      if (effect_.is_dry_friction()) {
-        demand.forward[lane] += sliding(state, 1.0);
-        demand.backward[lane] += sliding(state, -1.0);
+      JointState state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
+      state.motor_torque = at.motor_torque[lane];
+      runners_[lane]->advance(state, at.step_s);
+      if (is_dry_friction_) {
+        demand.forward[lane] += sliding(*runners_[lane], state, 1.0);
+        demand.backward[lane] += sliding(*runners_[lane], state, -1.0);
       } else {
-        demand.smooth[lane] += effect_.torque(state, parameters_);
+        demand.smooth[lane] += std::as_const(*runners_[lane]).torque(state);
       }
     }
   }
 
  private:
   // the branch that moves in `direction`, continued to rest
-  double sliding(JointState state, double direction) const {
+  static double sliding(EffectRunner const& runner, JointState state, double direction) {
     state.dq = direction * std::max(direction * state.dq, std::numeric_limits<double>::min());
-    return effect_.torque(state, parameters_);
+    return runner.torque(state);
   }
 
-  Effect const& effect_;
-  std::vector<double> parameters_;
+  bool is_dry_friction_;
+  std::vector<std::unique_ptr<EffectRunner>> runners_;
 };
 
 }  // namespace
 
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters) {
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales) {
   TORQUESCOPE_EXPECT(parameters.size() == effect.parameters().size());
-  return
-      [&effect, parameters = std::move(parameters)] { return std::make_unique<MemorylessEffect>(effect, parameters); };
+  TORQUESCOPE_EXPECT(effect.acts_on() == ActsOn::joint);
+  return [&effect, parameters = std::move(parameters), scales] {
+    return std::make_unique<JointEffect>(effect, parameters, scales);
+  };
 }
 
 }  // namespace torquescope

@@ -44,7 +44,7 @@ class LaneEffect {
 // a fresh object, its memory at the start of a recording
 using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
 
-// an effect without memory, lane by lane; parameters as Effect::torque takes them
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters);
+// an effect that acts in the joint, lane by lane, each with its own memory; parameters as Effect::runner takes them
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales);
 
 }  // namespace torquescope
