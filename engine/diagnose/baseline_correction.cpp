@@ -12,7 +12,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLo
                                     std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
   constexpr int most_rounds = 6;
-  constexpr double small_step = 0.2;  // standard deviations
+  constexpr double small_mismatch = 0.2;  // standard deviations
   BaselineCorrection result;
   result.least_squares = recording_fit;
   result.parameters = recording_fit;
@@ -32,13 +32,14 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLo
     result.std = ((fits.rowwise() - mean).colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt();
     // the first two rounds go all the way; later ones average out what the twins' rounding makes of every new start
     double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
-    Eigen::VectorXd const step = gain * (recording_fit - mean.transpose());
-    result.parameters += step;
+    Eigen::VectorXd const mismatch = recording_fit - mean.transpose();
+    result.parameters += gain * mismatch;
     ++result.rounds;
     // without noise all twins are one: then rounding is the yardstick
     Eigen::ArrayXd const yardstick = result.std.array().max(1e-9 * result.parameters.array().abs());
-    result.largest_step = (step.array().abs() / yardstick).maxCoeff();
-    result.converged = result.largest_step < small_step;
+    result.largest_mismatch = (mismatch.array().abs() / yardstick).maxCoeff();
+    // the whole mismatch, not the shortened step: a small gain must not pass for agreement
+    result.converged = result.largest_mismatch < small_mismatch;
   }
   return result;
 }

@@ -4,7 +4,7 @@
 //
 // Equation   find a with mean over twins of fit(twin(a)) = fit(recording):  a <- a + g (fit(recording) - mean fit(twin(a))),
 //            g = 1 in the first two rounds, then 1/2, 1/3 ... (Robbins, Monro)
-// Stop       every |step| below 0.2 of the standard deviation of that parameter over twins, or 6 rounds
+// Stop       every |fit(recording) - mean fit(twin(a))| below 0.2 of the standard deviation of that parameter over twins, or 6 rounds
 // Twins      the same noise in every round, so that rounds differ by a alone
 // Errors     Error 65 as make_twin_joint and the pipeline
 // Threads    spreads twins over `threads`; same bits for any number
@@ -22,7 +22,7 @@ struct BaselineCorrection {
   Eigen::VectorXd parameters;     // corrected
   Eigen::VectorXd least_squares;  // of the recording
   Eigen::VectorXd std;            // of a fit, over twins: noise of this recording's length
-  double largest_step = 0.0;      // of the last round, in std
+  double largest_mismatch = 0.0;  // of the last round, in std
   int rounds = 0;
   bool converged = false;
   bool ran_away = false;  // the loop could not hold the joint: the recording's loop is not what was identified
