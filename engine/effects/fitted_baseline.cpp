@@ -67,7 +67,7 @@ FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double cons
     auto const& column = regressor.column_owners()[k];
     Eigen::VectorXd const torque = parameters[k] * phi.col(static_cast<Eigen::Index>(k));
     baseline.model_torque += torque;
-    if ((column.needs_position || column.needs_acceleration) && !column.needs_velocity) baseline.load_torque += torque;
+    if (column.needs_position || column.needs_acceleration) baseline.load_torque += torque;
   }
   return baseline;
 }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-
 namespace torquescope {
 
 namespace {
@@ -50,20 +49,20 @@ std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::
   std::vector<PlantTerm> terms;
   for (Effect const* effect : effect_choices()) {
     PlantTerm term{effect, {}};
-    bool is_written = false;
+    std::string written;  // the first of its parameters that is
     for (auto const& parameter : effect->parameters()) {
       known.push_back(parameter.name);
       Setting const* setting = section.find(parameter.name);
-      is_written = is_written || setting;
+      if (setting && written.empty()) written = parameter.name;
       term.parameters.push_back(setting ? finite_number(section, *setting, problems).value_or(0.0) : 0.0);
       if (setting && joint == JointKind::prismatic && parameter.unit_prismatic.empty())
         problems.push_back(problem_at(section, parameter.name,
                                       fmt::format("{} needs an angle, but the joint is prismatic", parameter.name),
                                       "remove it, or write joint = \"revolute\" in [model]"));
     }
-    if (!is_written) continue;
+    if (written.empty()) continue;
     if (!can_be_in_a_plant(*effect)) {
-      problems.push_back(problem_at(section, effect->parameters().front().name,
+      problems.push_back(problem_at(section, written,
                                     fmt::format("effect \"{}\" cannot be part of the plant", effect->name()),
                                     "a plant is made of effects that follow from position, velocity, acceleration and "
                                     "time alone; remove its parameters"));

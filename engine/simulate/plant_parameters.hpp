@@ -3,11 +3,10 @@
 //
 // Example    inertia = 0.0036, viscous = 0.0164, coulomb_positive = 0.0089, coulomb_negative = -0.2582
 // Rules      an effect is in the plant when one of its parameters is written; its other linear ones are then 0, its
-// shape
-//            parameters must be written and lie within their bounds
+//            shape parameters must be written
 // Errors     Problems with exit code 78: unknown parameter (with a suggestion), not a finite number, shape missing or
-// out
-//            of bounds, an effect of an angle on a prismatic joint, nothing written at all
+//            not above 0 where only that makes sense, an effect with memory, of a recorded channel or built on a fitted
+//            model, an effect of an angle on a prismatic joint, nothing written at all
 
 #include <string>
 #include <vector>

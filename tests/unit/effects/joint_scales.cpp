@@ -60,8 +60,8 @@ JointScales slide_in(Units const& u) {
 }
 
 TEST(Bounds, ScaleAsTheUnitsOfTheirParameter) {
-  Units const millimetres{1e3, 1e3, 0.1};
-  auto const plain = slide_in({}), scaled = slide_in(millimetres);
+  Units const odd{1e3, 60.0, 0.1};
+  auto const plain = slide_in({}), scaled = slide_in(odd);
   auto const expect_alike = [](double value, double expected, std::string const& name) {
     if (std::isfinite(expected)) {
       EXPECT_NEAR(value, expected, 1e-12 * std::abs(expected)) << name;
@@ -77,7 +77,7 @@ TEST(Bounds, ScaleAsTheUnitsOfTheirParameter) {
       auto const& parameter = effect->parameters()[k];
       bool const has_bound = std::isfinite(bounds[k].lower * bounds[k].upper) && bounds[k].upper != 0.0;
       if (parameter.unit_prismatic.empty() || !has_bound) continue;
-      double const factor = factor_of_unit(parameter.unit_prismatic, millimetres);
+      double const factor = factor_of_unit(parameter.unit_prismatic, odd);
       expect_alike(other[k].lower, bounds[k].lower * factor, parameter.name);
       expect_alike(other[k].upper, bounds[k].upper * factor, parameter.name);
     }

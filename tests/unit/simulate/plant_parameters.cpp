@@ -63,6 +63,25 @@ TEST(PlantParameters, RefuseWhatIsNoNumber) {
   EXPECT_EQ(problems_of({}).size(), 1u);
 }
 
+TEST(PlantParameters, NeedTheShapeOfALawThatHasOne) {
+  EXPECT_TRUE(problems_of({{"stribeck", 0.1}, {"stribeck_speed", 0.02}, {"stribeck_exponent", 1.0}}).empty());
+  auto const missing = problems_of({{"stribeck", 0.1}, {"stribeck_exponent", 1.0}});
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_THAT(missing[0].what, HasSubstr("needs its parameter stribeck_speed"));
+  auto const negative = problems_of({{"stribeck", 0.1}, {"stribeck_speed", -0.02}, {"stribeck_exponent", 1.0}});
+  ASSERT_EQ(negative.size(), 1u);
+  EXPECT_THAT(negative[0].what, HasSubstr("not above 0"));
+}
+
+TEST(PlantParameters, RefuseEffectsThatThePlantCannotHold) {
+  for (auto const* name : {"maxwell_slip_2", "delay", "actuator_lag", "load_dependent_friction", "sensor_drift"}) {
+    auto const problems = problems_of({{"inertia", 0.1}, {name, 0.1}});
+    ASSERT_EQ(problems.size(), 1u) << name;
+    EXPECT_THAT(problems[0].what, HasSubstr("cannot be part of the plant"));
+    EXPECT_EQ(problems[0].key, std::string("simulate.plant.") + name);
+  }
+}
+
 TEST(PlantParameters, ASlideHasNoAngle) {
   EXPECT_TRUE(problems_of({{"inertia", 0.1}}, JointKind::prismatic).empty());
   EXPECT_EQ(problems_of({{"inertia", 0.1}, {"gravity_sin", 1.0}}, JointKind::prismatic).size(), 1u);
