@@ -50,7 +50,9 @@ TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& par
   double const* value = parameters.data();
   for (auto const* effect : regressor.terms()) {
     std::size_t const count = effect->parameters().size();
-    if (!place(joint, effect->name(), value)) joint.effects.push_back(lane_effect(*effect, {value, value + count}));
+    // a term of [model] needs nothing but the motion, so no scales of the data either
+    if (!place(joint, effect->name(), value))
+      joint.effects.push_back(lane_effect(*effect, {value, value + count}, JointScales{}));
     value += count;
   }
   validate(std::isfinite(parameters.sum()) && joint.lanes.inertia > 0.0, [&] {

@@ -110,8 +110,9 @@ TEST(CleanTwin, IsTheSameWithATermInTheLanesOrAsAnEffect) {
   split.lanes.viscous = split.lanes.gravity_sin = split.lanes.gravity_cos = 0.0;
   split.coulomb_forward -= 0.5;
   split.coulomb_backward += 0.5;
-  split.effects = {lane_effect(*find_effect("viscous"), {0.164}), lane_effect(*find_effect("gravity"), {0.4, 0.2}),
-                   lane_effect(*find_effect("coulomb"), {0.5})};
+  split.effects = {lane_effect(*find_effect("viscous"), {0.164}, {}),
+                   lane_effect(*find_effect("gravity"), {0.4, 0.2}, {}),
+                   lane_effect(*find_effect("coulomb"), {0.5}, {})};
   TwinGroup one, two;
   twin_of(recording, whole).simulate({1, 0, 0}, 0, one);
   twin_of(recording, split).simulate({1, 0, 0}, 0, two);
