@@ -23,7 +23,7 @@ Error usage_error(std::string what, std::string help) {
   return Error(problem);
 }
 
-std::string with_suggestion(std::string what, std::string const& close) {
+std::string with_suggestion(std::string const& what, std::string const& close) {
   return close.empty() ? what : what + fmt::format("; did you mean \"{}\"?", close);
 }
 

@@ -4,6 +4,7 @@
 
 #include <new>
 #include <string>
+#include <utility>
 
 #include "engine/base/contract.hpp"
 
@@ -37,7 +38,7 @@ std::string promise_words(std::string const& text) {
 
 std::vector<Problem> problems_of(std::exception_ptr failure) {
   try {
-    std::rethrow_exception(failure);
+    std::rethrow_exception(std::move(failure));
   } catch (Error const& error) {
     return error.problems();
   } catch (BrokenPromise const& broken) {

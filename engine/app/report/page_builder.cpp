@@ -63,7 +63,7 @@ constexpr char const* question =
 
 std::string find_python() {
   std::optional<int> missing;
-  for (std::string const python : {"/usr/bin/python3", "python3"}) {
+  for (char const* const python : {"/usr/bin/python3", "python3"}) {
     auto const status = run_program({python, "-c", question}, Voice::silent);
     if (status == 0) return python;
     if (status && *status != 127 && !missing) missing = status;

@@ -1,6 +1,6 @@
 #include "engine/app/terminal/interrupt.hpp"
 
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): sigaction is POSIX, <csignal> does not promise it
 #include <unistd.h>
 
 #include <atomic>
