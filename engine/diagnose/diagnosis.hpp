@@ -1,0 +1,182 @@
+#pragma once
+// What a diagnosis found about one joint: everything the verdict, the page and the result file are written from.
+//
+// Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
+// Unknown    NaN: not measured (no unseen recording, no repeated laps, no reference to simulate with)
+// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp)
+// Threads    plain records
+// Source     DESIGN.md section 1 (verdict JSON); PHYSICS.md section 2 (abstention ladder)
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace torquescope {
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+enum class Verdict { none, named, one_of_class, unexplained, insufficient, data_fault };
+std::string word(Verdict verdict);  // "class" for one_of_class
+
+struct ParameterEstimate {
+  std::string name;
+  std::string unit;
+  double value = unknown;
+  double lower = unknown, upper = unknown;  // 95 %
+};
+
+// an interval of one axis; `axis` is a word of SignatureAxis
+struct AxisInterval {
+  std::string axis;
+  double from = unknown, to = unknown;
+  std::string unit;
+};
+
+// a located region: where the recording's residual is not what clean twins have
+struct MismatchRegion {
+  AxisInterval where;
+  double time_share = unknown;
+  double energy_share = unknown;      // of the residual's energy, baseline fitted
+  double repeatable_share = unknown;  // of the region's own energy: what twins never show
+};
+
+struct MapCell {
+  double from = 0.0, to = 0.0;
+  Eigen::Index samples = 0;     // rows
+  double mean_residual = 0.0;   // torque; of a spectrum: amplitude
+  double twin_mean = 0.0;       // the same of the twins, averaged
+  double twin_std = 0.0;        // spread of one twin's mean residual
+  double z = 0.0;               // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
+  double after_z = unknown;     // the same with everything named in the model
+  double after_residual = unknown;
+};
+
+// one row of the mismatch map
+struct MapAxis {
+  std::string axis;  // word of SignatureAxis
+  std::string unit;
+  bool is_spectrum = false;         // frequency, order: one-sided, cells hold power
+  std::vector<MapCell> cells{};
+  double energy_share = 0.0;        // of the residual, beyond what the twins have on this axis
+  double p = 1.0;                   // of that share, from the twins
+  std::vector<MismatchRegion> regions{};
+};
+
+enum class Decision { named, equivalent, measurement, rejected, not_tested };
+std::string word(Decision decision);  // "named", "class", "measurement", "no", "not tested"
+
+// one line of the candidate table, at the step at which nothing was named yet
+struct Candidate {
+  std::string name;
+  std::string family;
+  double z = 0.0, p = 1.0, q = 1.0;
+  double gain = 0.0;             // share of the mismatch (residual beyond the twins) it explains, at its best shape
+  double cv_gain = unknown;      // the same on blocks it was not fitted to
+  double chance_z = unknown;     // the largest z that 95 % of the twins stay below
+  Decision decision = Decision::rejected;
+  std::string reason{};          // one clause: why this decision
+};
+
+struct EffectGain {
+  double train = unknown, cv = unknown, validation = unknown;  // shares of the residual's energy
+};
+
+// a curve to draw: the effect against its principal axis
+struct EffectCurve {
+  AxisInterval axis{};           // whole range drawn
+  std::vector<double> at{};      // cell centres
+  std::vector<double> partial{};  // mean of effect + what is left
+  std::vector<double> modelled{};  // mean of the effect
+  std::vector<double> spread{};   // of one twin's mean
+};
+
+struct NamedEffect {
+  std::string name;
+  std::string family;
+  std::string title;                      // of the effect, for people
+  std::string equation;
+  std::string acts_on;                    // word of ActsOn
+  std::vector<std::string> equivalent{};  // effects that fit as well
+  double p = 1.0, q = 1.0, z = 0.0;       // at the step at which it was accepted
+  bool p_is_bound = false;                // no twin reached it: p is an upper bound
+  EffectGain gain{};
+  AxisInterval region{};                  // where 80 % of its energy lies
+  double rms = unknown, peak = unknown;   // torque, on the rows
+  std::vector<ParameterEstimate> parameters{};
+  std::string sentence{};
+  EffectCurve curve{};
+};
+
+struct Budget {  // shares of the baseline residual's energy, sum 1
+  double parameter_error = 0.0, missing_physics = 0.0, unexplained = 0.0, noise = 1.0;
+};
+
+struct UnexplainedPart {
+  AxisInterval where;
+  double energy_share = unknown;
+};
+
+struct ExcitationAdvice {
+  std::string lacks;
+  std::vector<std::string> would_separate{};
+};
+
+// torque of a stretch of a recording, for the trace on the page; rows are evenly spaced, masked rows hold NaN residuals
+struct TorqueTrace {
+  std::string recording;
+  double rate_hz = 0.0;
+  Eigen::VectorXd time_s, torque, before, after;  // before, after: residuals
+  Eigen::VectorXd velocity, position;
+};
+
+// closed loop from the recording's reference, without noise: rms of position minus measured position, rad or m
+struct ForwardSimulation {
+  std::string recording;
+  double before_rms = unknown, after_rms = unknown;
+  double motion_rms = unknown;  // of the measured position about its mean
+  double encoder_step = 0.0;
+};
+
+struct JointDiagnosis {
+  int joint = 1;
+  std::string unit_position, unit_torque;  // "rad", "N m"
+  std::vector<ParameterEstimate> baseline{};
+  double train_relerr = unknown, validation_relerr = unknown, cv_relerr = unknown;
+  std::vector<MapAxis> map{};
+  std::vector<Candidate> candidates{};  // strongest first
+  std::vector<NamedEffect> effects{};   // in the order of acceptance
+  std::vector<ParameterEstimate> augmented{};
+  double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
+  double floor_relerr = unknown;             // what a complete model would leave, unseen recording (or training)
+  double train_floor_relerr = unknown;
+  Budget budget{};
+  std::vector<UnexplainedPart> unexplained{};
+  std::vector<ExcitationAdvice> excitation{};
+  std::vector<std::string> nuisances{};      // what was refitted on the head of the unseen recording
+  std::vector<TorqueTrace> traces{};         // the unseen recordings, else the training ones
+  std::vector<ForwardSimulation> forward{};
+  // how it was found
+  std::string loop_source;                   // "identified", "approximated", "tracking"
+  std::string loop_remark;
+  double torque_noise = unknown, disturbance = unknown;
+  std::size_t twins = 0;
+  double omnibus_z = 0.0, omnibus_p = 1.0;   // of the whole mismatch, before anything was named
+  double mismatch_rms = 0.0;                 // torque beyond the twins
+  double left_rms = 0.0;                     // the same with everything named in the model
+  std::vector<double> twin_energy{};         // residual energy of each twin over that of the recording
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::none;
+  std::string reason;  // one sentence for a person
+  std::string way_out{};  // data_fault, insufficient: what to do
+  std::vector<JointDiagnosis> joints{};
+  std::uint64_t seed = 0;
+  double q = 0.05;
+};
+
+}  // namespace torquescope
