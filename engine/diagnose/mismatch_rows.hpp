@@ -1,0 +1,38 @@
+#pragma once
+// The recording and its clean twins on the same rows: what every statistic of a diagnosis is computed from.
+//
+// Common motion  of a twin without noise and encoder: candidate columns and axes are computed from it, once, for data and
+//                twins alike. Columns of each one's own measured motion would carry its own noise into the statistic
+// Rows           kept samples at which the recording, the common motion and the pilot twins all surely move one way
+// Residual       torque - own columns * own least squares, everything filtered alike; data and twins in the same way
+// Shapes         n rows in time order, M twins
+// Memory         8 n M bytes; nothing at the full rate but the common motion
+// Units          SI
+// Threads        plain record
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/data/motion.hpp"
+
+namespace torquescope {
+
+struct MismatchRows {
+  double rate_hz = 0.0;                      // of the kept samples before the mask
+  std::vector<Eigen::Index> kept_rows{};     // of each row: index among the pipeline's kept samples
+  Motion motion{};                           // common motion, full rate; its torque is that of the model
+  Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};  // of the common motion, per row
+  Eigen::VectorXd load_torque{};             // per row: terms of position and acceleration
+  Eigen::VectorXd model_torque{};            // per row: all terms
+  Eigen::VectorXd since_velocity_reversal{};  // distance travelled, rad or m
+  Eigen::VectorXd since_torque_reversal{};   // distance travelled since the model's torque changed its sign
+  Eigen::VectorXd torque{};                  // of the recording, filtered
+  Eigen::VectorXd residual{};                // of the recording
+  Eigen::VectorXd twin_mean{};               // mean residual of the twins
+  Eigen::MatrixXd twins{};                   // n x M: residual of each twin
+
+  Eigen::Index size() const { return residual.size(); }
+  Eigen::Index n_twins() const { return twins.cols(); }
+};
+
+}  // namespace torquescope
