@@ -49,7 +49,7 @@ CellReading shown_reading(SignatureAxis axis) {
 }
 
 std::string axis_unit(SignatureAxis axis, JointKind joint) {
-  std::string const length = joint == JointKind::revolute ? "rad" : "m";
+  std::string length = joint == JointKind::revolute ? "rad" : "m";
   switch (axis) {
     case SignatureAxis::velocity:
       return length + "/s";

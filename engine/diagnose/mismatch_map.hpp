@@ -22,7 +22,8 @@
 //            the same over the twins. What varies inside a cell counts as not repeatable. 0 to 1; NaN without energy
 // After      the same cells and readings with the effects that were named in the model; rows beyond the edges go to the end
 //            cells
-// Requires   M >= 8 for a map (from 19 on with regions)
+// Requires   M >= 8 for a map (from 19 on with regions). Error rates hold as far as twins are like the recording; the
+//            frequency row asks most, since it sees the spectrum of their noise
 // Cost       12 000 rows, 200 twins: below a second on one core; memory small beside the rows
 // Threads    spreads twins over `threads`; same bits for any number
 // Source     PHYSICS.md section 1 (signature axes); UX.md section 3 item 3; LESSONS item 7
