@@ -21,9 +21,11 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
   fit_x << x.topRows(before), x.bottomRows(n_after);
   Eigen::VectorXd fit_y(before + n_after);
   fit_y << y.head(before), y.tail(n_after);
-  Eigen::VectorXd const length = fit_x.colwise().norm().cwiseMax(1e-300);
-  Eigen::VectorXd const theta =
-      (fit_x * length.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(fit_y).cwiseQuotient(length);
+  Eigen::VectorXd const length = fit_x.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
+  // an event that lies in the block alone is no column outside it: least norm gives it nothing
+  Eigen::VectorXd const scaled =
+      (fit_x * length.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().solve(fit_y);
+  Eigen::VectorXd const theta = scaled.cwiseQuotient(length);
   return (y.segment(from, to - from) - x.middleRows(from, to - from) * theta).squaredNorm();
 }
 

@@ -43,6 +43,11 @@ std::vector<double> hierarchical_q(std::vector<EffectScan> const& scans) {
   return q;
 }
 
+// its scan is over waves, each of which stands for itself
+bool is_wave(EffectParameter const& shape) {
+  return shape.lower.to == RelativeTo::lowest_order || shape.lower.to == RelativeTo::slowest_frequency;
+}
+
 bool is_event(Effect const& effect) { return effect.signature().front() == SignatureAxis::time; }
 
 // reason against linear parameters, empty when there is none
@@ -157,8 +162,10 @@ class Search {
     });
   }
 
+  // waves may be named again: a second order is another wave
   bool has_accepted(Effect const* effect) const {
     auto const& effects = stage_.model().effects();
+    if (effect->n_shape() > 0 && is_wave(effect->parameters()[effect->n_linear()])) return false;
     return std::any_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; });
   }
 
