@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/diagnose/sentences.hpp"
 #include "engine/effects/effect.hpp"
 
 namespace torquescope::example {
@@ -238,11 +239,15 @@ JointDiagnosis invented_joint() {
   return joint;
 }
 
-Diagnosis of(Verdict verdict, JointDiagnosis joint) {
+Diagnosis of(Verdict verdict, JointDiagnosis joint, std::string finding = {}, std::string way_out = {}) {
   Diagnosis diagnosis;
   diagnosis.verdict = verdict;
+  for (auto& effect : joint.effects) effect.sentence = effect_sentence(joint, effect);
   diagnosis.joints.push_back(std::move(joint));
   diagnosis.seed = 7;
+  diagnosis.finding = std::move(finding);
+  diagnosis.way_out = std::move(way_out);
+  diagnosis.reason = reason_sentence(diagnosis);
   return diagnosis;
 }
 
@@ -265,7 +270,13 @@ JointDiagnosis without_effects() {
 
 }  // namespace
 
-Diagnosis invented_diagnosis() { return of(Verdict::one_of_class, invented_joint()); }
+Diagnosis invented_diagnosis() { return of(Verdict::named, invented_joint()); }
+
+Diagnosis invented_class() {
+  JointDiagnosis joint = invented_joint();
+  joint.effects.resize(1);
+  return of(Verdict::one_of_class, std::move(joint));
+}
 
 Diagnosis invented_none() {
   JointDiagnosis joint = without_effects();
@@ -298,10 +309,8 @@ Diagnosis invented_insufficient() {
   joint.baseline = invented_parameters(0.41, 0.52);
   joint.train_relerr = 0.1182;
   joint.excitation = {{"the other direction of motion", {"viscous", "coulomb"}}};
-  Diagnosis diagnosis = of(Verdict::insufficient, std::move(joint));
-  diagnosis.finding = "only one direction of motion was recorded";
-  diagnosis.way_out = "record both directions";
-  return diagnosis;
+  return of(Verdict::insufficient, std::move(joint), "only one direction of motion was recorded",
+            "record both directions");
 }
 
 Diagnosis invented_data_fault() {
@@ -314,10 +323,7 @@ Diagnosis invented_data_fault() {
   effect.gain = {0.52, 0.51, 0.53};
   effect.parameters = {{"delay", "s", 0.0038, 0.0037, 0.0039}, {"delay_span", "s", 0.004, 0.002, 0.006}};
   joint.effects = {std::move(effect)};
-  Diagnosis diagnosis = of(Verdict::data_fault, std::move(joint));
-  diagnosis.finding = "the torque comes 3.8 ms after the motion";
-  diagnosis.way_out = "shift it (recording.delay_s = -0.0038) or fix the logger";
-  return diagnosis;
+  return of(Verdict::data_fault, std::move(joint), "", "shift it (recording.delay_s = -0.0038) or fix the logger");
 }
 
 }  // namespace torquescope::example
