@@ -275,6 +275,7 @@ Diagnosis invented_diagnosis() { return of(Verdict::named, invented_joint()); }
 Diagnosis invented_class() {
   JointDiagnosis joint = invented_joint();
   joint.effects.resize(1);
+  joint.candidates[2].decision = Decision::rejected;
   return of(Verdict::one_of_class, std::move(joint));
 }
 
