@@ -5,6 +5,7 @@
 
 #include "engine/run/diagnosis_writer.hpp"
 #include "engine/store/result_writer.hpp"
+#include "support/example_diagnosis.hpp"
 
 namespace torquescope::example {
 
@@ -68,6 +69,14 @@ void write_data(ResultWriter& writer, std::string const& group, TorqueTrace cons
   writer.plottable(group, "torque", {"time"});
 }
 
+void write_health(ResultWriter& writer) {
+  std::string const group = "/data/regressor_health";
+  Eigen::Matrix4d const correlation = Eigen::Matrix4d::Identity();
+  writer.numbers(group + "/correlation", {n_parameters, n_parameters}, {correlation.data(), 16}, {"1", "correlation"});
+  writer.attribute(group, "condition_number", 4.2);
+  writer.attribute(group, "words", std::string());
+}
+
 void write_provenance(ResultWriter& writer) {
   std::string const group = "/provenance";
   writer.attribute(group, "started", std::string("2000-01-01T00:00:00Z"));
@@ -89,10 +98,11 @@ std::string write_diagnosis_file(std::filesystem::path const& name, Diagnosis co
   write_job(writer);
   JointDiagnosis const& joint = diagnosis.joints.front();
   write_model(writer, joint);
-  if (!joint.traces.empty()) {
-    write_data(writer, "/data/train", joint.traces.front(), "invented_train.csv");
-    write_data(writer, "/data/validate", joint.traces.front(), joint.traces.front().recording);
-  }
+  // one recording serves them all, whatever the diagnosis kept of it
+  TorqueTrace const trace = invented_diagnosis().joints.front().traces.front();
+  write_data(writer, "/data/train", trace, "invented_train.csv");
+  if (!joint.traces.empty()) write_data(writer, "/data/validate", trace, trace.recording);
+  write_health(writer);
   write_diagnosis(writer, diagnosis);
   write_provenance(writer);
   return writer.finish();

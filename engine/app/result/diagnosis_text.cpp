@@ -52,15 +52,6 @@ std::string with_each(std::string text, std::string const& old_words, std::strin
   return text;
 }
 
-std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
-  VerdictWords const words = words_of(diagnosis.verdict);
-  std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
-  std::string const inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
-  // a number stays with its percent sign: wrap() breaks at spaces only
-  std::string const text = hanging(inked + "  ", with_each(printable(diagnosis.reason), " %", "\u00A0%"));
-  return with_each(text, "\u00A0%", " %");
-}
-
 std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
 
 std::string joined(std::vector<std::string> const& names) {
@@ -217,8 +208,17 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 
 }  // namespace
 
-std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
-  std::string text = verdict_text(diagnosis, options.utf8, ink);
+std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
+  VerdictWords const words = words_of(diagnosis.verdict);
+  std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
+  std::string const inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
+  // a number stays with its percent sign: wrap() breaks at spaces only
+  std::string const text = hanging(inked + "  ", with_each(printable(diagnosis.reason), " %", "\u00A0%"));
+  return with_each(text, "\u00A0%", " %");
+}
+
+std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
+  std::string text;
   for (auto const& joint : diagnosis.joints) {
     std::string const part =
         where_text(joint, options.utf8) + what_text(joint, options.all_candidates) + next_text(joint);
@@ -228,6 +228,10 @@ std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions cons
     text += part;
   }
   return text;
+}
+
+std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
+  return verdict_text(diagnosis, options.utf8, ink) + evidence_text(diagnosis, options, ink);
 }
 
 std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {

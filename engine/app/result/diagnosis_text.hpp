@@ -18,6 +18,11 @@ struct DiagnosisTextOptions {
   bool utf8 = true;
 };
 
+// mark, word and reason: what `--quiet` leaves
+std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink);
+// where, what, next; begins with an empty line unless there is nothing to show
+std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);
+// both
 std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);
 
 // parameters of every joint before and after, with 95 % intervals

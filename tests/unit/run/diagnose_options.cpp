@@ -86,6 +86,11 @@ TEST(DiagnoseOptions, AllLeavesOutTheTermsOfTheModelAndWhatTheJointCannotHave) {
   EXPECT_TRUE(problems.empty());
 }
 
+TEST(DiagnoseOptions, AllIsAWordNotAList) {
+  EXPECT_EQ(load("[diagnose]\neffects = \"all\"\n", Purpose::diagnose).parts().effects,
+            load("", Purpose::diagnose).parts().effects);
+}
+
 TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
   Experiment const experiment =
       load("[diagnose]\neffects = [\"presliding\", \"stribeck\"]\ntwins = 60\n", Purpose::diagnose);
