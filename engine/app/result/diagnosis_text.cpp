@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
@@ -45,6 +46,9 @@ VerdictWords words_of(Verdict verdict) {
 bool needs_care(Verdict verdict) {
   return verdict == Verdict::unexplained || verdict == Verdict::insufficient || verdict == Verdict::data_fault;
 }
+
+constexpr std::array<std::pair<char const*, char const*>, 3> kept_together{
+    {{" %", "\u00A0%"}, {"p < ", "p\u00A0<\u00A0"}, {"p = ", "p\u00A0=\u00A0"}}};
 
 std::string with_each(std::string text, std::string const& old_words, std::string const& new_words) {
   for (std::size_t at = 0; (at = text.find(old_words, at)) != std::string::npos; at += new_words.size())
@@ -212,9 +216,10 @@ std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) 
   VerdictWords const words = words_of(diagnosis.verdict);
   std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
   std::string const inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
-  // a number stays with its percent sign: wrap() breaks at spaces only
-  std::string const text = hanging(inked + "  ", with_each(printable(diagnosis.reason), " %", "\u00A0%"));
-  return with_each(text, "\u00A0%", " %");
+  // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
+  std::string reason = printable(diagnosis.reason);
+  for (auto const& [loose, tight] : kept_together) reason = with_each(reason, loose, tight);
+  return with_each(hanging(inked + "  ", reason), "\u00A0", " ");
 }
 
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
@@ -246,9 +251,9 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
       ParameterEstimate const* before = find_parameter(joint.baseline, one.name);
       table.row({printable(one.name), printable(one.unit), before ? interval_text(*before) : "", interval_text(one)});
     }
-    table.row({"error, train", "%", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
+    table.row({"error, train", "", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
     table.row(
-        {"error, unseen", "%", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
+        {"error, unseen", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
     text += ink.bold(fmt::format("model of joint {} (+- 95 %)", joint.joint)) + "\n" + table.text(page_width);
   }
   return text;

@@ -71,6 +71,18 @@ TEST(DiagnosisText, NoLineIsWiderThanThePage) {
         EXPECT_LE(columns_of(line), page_width) << line;
 }
 
+TEST(DiagnosisText, NumbersStayWithWhatBelongsToThem) {
+  Diagnosis diagnosis = example::invented_none();
+  for (int words = 0; words < 40; ++words) {
+    diagnosis.reason =
+        std::string(static_cast<std::size_t>(words), 'x') + " clean twins (p = 0.41) have 6.0 % (p < 0.005) left";
+    for (auto const& line : lines_of(verdict_text(diagnosis, true, Ink()))) {
+      EXPECT_THAT(line, Not(::testing::MatchesRegex(".*(p|p =|p <|6\\.0)"))) << line;
+      EXPECT_THAT(line, Not(HasSubstr("\u00A0")));
+    }
+  }
+}
+
 TEST(DiagnosisText, ColourNeverCarriesTheMeaning) {
   for (auto const& diagnosis : all_verdicts()) {
     std::string inked = diagnosis_text(diagnosis, {}, Ink(true));
