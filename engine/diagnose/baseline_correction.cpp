@@ -20,7 +20,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLo
   Eigen::MatrixXd fits(n, recording_fit.size());
   std::vector<char> ran_away(twins);
   while (result.rounds < most_rounds && !result.converged) {
-    CleanTwin const twin(make_twin_joint(pipeline.regressor(), result.parameters), loop, track, step_s);
+    CleanTwin const twin(pipeline.model().twin_joint(result.parameters), loop, track, step_s);
     for_each_twin(twin, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
       ran_away[visited.index] = visited.ran_away;
       if (!visited.ran_away) fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;

@@ -25,7 +25,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   };
   correct();
   if (result.baseline.ran_away) return result;
-  CleanTwin const twin(make_twin_joint(pipeline.regressor(), result.baseline.parameters), result.loop.loop,
+  CleanTwin const twin(pipeline.model().twin_joint(result.baseline.parameters), result.loop.loop,
                        result.loop.track, options.step_s);
   result.disturbance = disturbance_level(record, twin, pipeline, options.step_s, level_set, options.twins, threads);
   if (result.disturbance.ran_away || result.disturbance.std == 0.0) return result;
@@ -36,7 +36,22 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
 }
 
 double fitted_inertia(RecordPipeline const& pipeline, Eigen::VectorXd const& parameters) {
-  return make_twin_joint(pipeline.regressor(), parameters).lanes.inertia;
+  return pipeline.model().twin_joint(parameters).lanes.inertia;
+}
+
+// what the motor gave: the recorded torque without what effects of the torque channel add to it. A controller never saw
+// a fault of the torque's measurement (LESSONS item 16)
+Recording without_channel_faults(Recording recording, ProcessedRecord const& record, JointModel const& model) {
+  Eigen::MatrixXd columns;
+  for (std::size_t i = 0; i < model.effects().size(); ++i) {
+    auto const& effect = *model.effects()[i].effect;
+    if (effect.acts_on() != ActsOn::recorded_torque) continue;
+    if (columns.size() == 0) columns = model.columns(record.motion);
+    auto const first = static_cast<Eigen::Index>(model.first_parameter(i));
+    auto const width = static_cast<Eigen::Index>(effect.n_linear());
+    recording.torque -= columns.middleCols(first, width) * record.parameters.segment(first, width);
+  }
+  return recording;
 }
 
 }  // namespace
@@ -45,9 +60,10 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
                                 TwinOptions const& options, int threads) {
   ProcessedRecord record = pipeline.process(recording);
   double const inertia = fitted_inertia(pipeline, record.parameters);
-  Attempt made = attempt(recorded_loop(recording, inertia, filter), record, pipeline, options, threads);
+  Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
+  Attempt made = attempt(recorded_loop(in_loop, inertia, filter), record, pipeline, options, threads);
   if (made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt(tracking_loop(recording, inertia, filter), record, pipeline, options, threads);
+    made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   }
   validate(!made.ran_away(), [&] {
@@ -57,7 +73,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
         "torque_per_unit";
     return problem;
   });
-  CleanTwin twin(make_twin_joint(pipeline.regressor(), made.baseline.parameters), made.loop.loop, made.loop.track,
+  CleanTwin twin(pipeline.model().twin_joint(made.baseline.parameters), made.loop.loop, made.loop.track,
                  options.step_s);
   return {std::move(record), std::move(made.loop), std::move(made.baseline), made.disturbance, std::move(twin)};
 }

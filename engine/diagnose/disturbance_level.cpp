@@ -37,17 +37,29 @@ Energies twin_energies(CleanTwin const& twin, double disturbance_std, RecordPipe
 }  // namespace
 
 double fast_energy(ProcessedRecord const& record) {
+  constexpr std::size_t block = 8;  // rows: longer than the filter's memory, shorter than the time between reversals
+  std::vector<double> energies;
   double sum = 0.0;
-  Eigen::Index count = 0;
+  std::size_t count = 0;
   auto const& rows = record.kept_rows;
   for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
-    if (rows[i + 1] - rows[i - 1] != 2) continue;
+    if (rows[i + 1] - rows[i - 1] != 2) {
+      sum = 0.0;
+      count = 0;
+      continue;
+    }
     auto const at = static_cast<Eigen::Index>(i);
     double const bend = record.residual[at - 1] - 2.0 * record.residual[at] + record.residual[at + 1];
     sum += bend * bend;
-    ++count;
+    if (++count < block) continue;
+    energies.push_back(sum / static_cast<double>(block));
+    sum = 0.0;
+    count = 0;
   }
-  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+  if (energies.empty()) return 0.0;
+  auto const middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
+  std::nth_element(energies.begin(), middle, energies.end());
+  return *middle;
 }
 
 DisturbanceLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& twin,

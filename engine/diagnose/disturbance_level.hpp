@@ -2,7 +2,8 @@
 // The torque that acts on the joint and that the controller never tells: its level, where no missing physics can pose as it.
 //
 // Statistic  energy of the residual's second differences over neighbouring rows: the top of the band that the regression
-//            filter leaves, where effects of position, velocity and load have nothing to say
+//            filter leaves, where effects of position, velocity and load have little to say; the median over blocks of
+//            eight rows, because a disturbance is there all the time and an impact of lost motion is not
 // Equation   energy(twins with level s) = energy(recording); energy grows linearly with s^2, found by secant
 // Zero       when the recording's energy is within 1.64 standard deviations of twins without disturbance: a level too
 //            low makes false names, so the doubt goes to the disturbance (one-sided 5 %)
@@ -27,7 +28,7 @@ struct DisturbanceLevel {
   bool ran_away = false;
 };
 
-// mean squared second difference of the residual, over rows with both neighbours
+// median over blocks of the mean squared second difference of the residual, over rows with both neighbours
 double fast_energy(ProcessedRecord const& record);
 
 // the twin's own disturbance is not used; the loop's torque noise sets the scale of the first guess

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "engine/data/motion.hpp"
+#include "engine/diagnose/record_pipeline.hpp"
+#include "engine/simulate/clean_twin.hpp"
 
 namespace torquescope {
 
@@ -34,5 +36,20 @@ struct MismatchRows {
   Eigen::Index size() const { return residual.size(); }
   Eigen::Index n_twins() const { return twins.cols(); }
 };
+
+// the recording, its noiseless twin and M noisy ones on common rows
+struct TwinComparison {
+  MismatchRows rows;
+  ProcessedRecord recording;   // on those rows
+  ProcessedRecord common;      // of the twin without noise, on those rows
+  Eigen::MatrixXd twin_fits;   // M x model.size(): least squares of each twin
+  bool ran_away = false;       // the twin cannot follow the reference: nothing else is filled
+};
+
+// pipeline: its rows become the common ones.  twins >= 8
+// Errors     as the pipeline; Error 65 when fewer than 10 rows per parameter are left
+// Threads    spreads twins over `threads`; same bits for any number
+TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
+                                  TwinAddress const& address, std::size_t twins, int threads);
 
 }  // namespace torquescope

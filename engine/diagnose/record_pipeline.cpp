@@ -22,9 +22,9 @@ std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const
 
 }  // namespace
 
-RecordPipeline::RecordPipeline(Regressor const& regressor, FilterOptions const& options, double rate_hz,
-                               Eigen::Index n_samples, Section const& filter)
-    : regressor_(&regressor),
+RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
+                               Section const& filter)
+    : model_(std::move(model)),
       options_(options),
       section_(filter),
       rate_hz_(rate_hz),
@@ -36,11 +36,13 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   TORQUESCOPE_EXPECT(recording.position.size() == n_samples_ && recording.torque.size() == n_samples_);
   ProcessedRecord record;
   record.motion = differentiate(recording, options_, section_);
-  record.kept_rows = moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz);
+  record.kept_rows = fixed_rows_.empty()
+                         ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz)
+                         : fixed_rows_;
 
-  Eigen::MatrixXd const full_rate = regressor_->columns(record.motion);
+  Eigen::MatrixXd const full_rate = model_.columns(record.motion);
   RegressionData data;
-  data.columns = regressor_->column_owners();
+  data.columns = model_.column_owners();
   data.recording_names = {recording.name};
   data.phi.resize(static_cast<Eigen::Index>(record.kept_rows.size()), full_rate.cols());
   for (Eigen::Index r = 0; r < full_rate.cols(); ++r) data.phi.col(r) = filtered(full_rate.col(r), record);

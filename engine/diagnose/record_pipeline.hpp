@@ -1,8 +1,8 @@
 #pragma once
 // What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot differ.
 //
-// Steps      differentiate, columns of the baseline, parallel filter on torque and columns, reversal mask, least squares
-// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every baseline column
+// Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, least squares
+// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
 // Memory     about 60 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
@@ -11,18 +11,19 @@
 // Source     LESSONS item 3; parallel filtering: Gautier 1997
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
-#include "engine/effects/regressor.hpp"
+#include "engine/diagnose/joint_model.hpp"
 
 namespace torquescope {
 
 struct ProcessedRecord {
   Motion motion;                        // full rate, filtered: what candidate columns are computed from
   std::vector<Eigen::Index> kept_rows;  // of the rows below: index among the pipeline's kept samples
-  Eigen::MatrixXd columns;              // of the baseline
+  Eigen::MatrixXd columns;              // of the model
   Eigen::VectorXd torque;
   Eigen::VectorXd parameters;  // least squares on these rows
   Eigen::VectorXd residual;
@@ -32,16 +33,19 @@ struct ProcessedRecord {
 
 class RecordPipeline {
  public:
-  // `regressor` outlives the pipeline; `filter` is the job's [filter] section, for the places in messages
-  RecordPipeline(Regressor const& regressor, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
+  // the model's regressor outlives the pipeline; `filter` is the job's [filter] section, for the places in messages
+  RecordPipeline(JointModel model, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
                  Section const& filter = {});
 
-  Regressor const& regressor() const { return *regressor_; }
+  JointModel const& model() const { return model_; }
   double rate_hz() const { return rate_hz_; }
   Eigen::Index samples() const { return n_samples_; }
   Eigen::Index kept_samples() const { return filter_.kept_samples(); }  // before the mask
   double kept_rate_hz() const { return filter_.kept_rate_hz(); }
   double cutoff_hz() const { return cutoff_hz_; }  // of the parallel filter; 0: none
+
+  // from now on process() keeps exactly these rows, whatever its own mask would be
+  void restrict_to(std::vector<Eigen::Index> kept_rows) { fixed_rows_ = std::move(kept_rows); }
 
   ProcessedRecord process(Recording const& recording) const;
   // any signal of the full rate, filtered like a column, on the rows of that record
@@ -50,13 +54,14 @@ class RecordPipeline {
   Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
 
  private:
-  Regressor const* regressor_;
+  JointModel model_;
   FilterOptions options_;
   Section section_;
   double rate_hz_;
   Eigen::Index n_samples_;
   double cutoff_hz_;
   ParallelFilter filter_;
+  std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
 };
 
 }  // namespace torquescope

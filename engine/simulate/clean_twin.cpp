@@ -12,7 +12,7 @@ namespace torquescope {
 namespace {
 
 // numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3, start = 4 };
+enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3, start = 4, phase = 5 };
 
 std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
   constexpr std::uint32_t most_streams = 8;
@@ -80,6 +80,18 @@ void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const
   }
 }
 
+// Where the encoder's steps lie is not known better than a step: what rounding makes of one motion is noise, not physics.
+// With the steps in one place all twins of an undisturbed joint would share nearly every reading, and one pattern of
+// rounding would pass for all there is.
+void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* phase) {
+  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::twin},
+                        stream_number(address, TwinStream::phase),
+                        group * static_cast<std::uint32_t>(twin_lanes) + lane);
+    phase[lane] = loop.encoder_step * (random.uniform() - 0.5);
+  }
+}
+
 // the law in all lanes: what it remembers, and its answer
 class LaneController {
  public:
@@ -114,9 +126,10 @@ class LaneController {
   double summed_error_[twin_lanes] = {};
 };
 
-void read_encoder(double step, double* position) {
+void read_encoder(double step, double const* phase, double* position) {
   if (step == 0.0) return;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] = step * std::floor(position[lane] / step + 0.5);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    position[lane] = step * std::floor((position[lane] + phase[lane]) / step + 0.5) - phase[lane];
 }
 
 LaneInstant instant_of(LaneState const& state, double time_s, double step_s, double const* motor_torque) {
@@ -162,8 +175,9 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   wanted_.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     wanted_[k] = reference_at(k + law.shift);
-    open_[k] = law.constant + law.reference[0] * reference_at(k + law.shift - 1) + law.reference[1] * wanted_[k] +
-               law.reference[2] * reference_at(k + law.shift + 1);
+    open_[k] = law.constant;
+    for (std::size_t j = 0; j < law.reference.size(); ++j)
+      open_[k] += law.reference[j] * reference_at(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
   }
 }
 
@@ -173,6 +187,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
   double disturbance_level[twin_lanes];
   draw_levels(address, group, loop_, disturbance_level);
+  double encoder_phase[twin_lanes];
+  draw_phases(address, group, loop_, encoder_phase);
   LaneController controller(loop_.law, track_);
   std::vector<std::unique_ptr<LaneEffect>> effects;
   for (auto const& make : joint_.effects) effects.push_back(make());
@@ -197,7 +213,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     position_noise.next(noise);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) measured[lane] = state.q[lane] + noise[lane];
     for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
-    read_encoder(loop_.encoder_step, measured);
+    read_encoder(loop_.encoder_step, encoder_phase, measured);
     controller.command(measured, open_[k], wanted_[k], command);
 
     // log
@@ -228,7 +244,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
         torques.held[lane] = noise[lane] - demand.smooth[lane];
         torques.forward[lane] = joint_.coulomb_forward + demand.forward[lane];
-        torques.backward[lane] = joint_.coulomb_backward + demand.backward[lane];
+        // friction that an effect turned into a drive is none at all
+        torques.backward[lane] = std::min(joint_.coulomb_backward + demand.backward[lane], torques.forward[lane]);
       }
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }

@@ -63,6 +63,7 @@ class CleanTwin {
   TwinJoint const& joint() const { return joint_; }
   TwinLoop const& loop() const { return loop_; }
   TwinTrack const& track() const { return track_; }
+  double step_s() const { return step_s_; }  // as taken: a whole number of steps per tick
   void simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const;
 
  private:

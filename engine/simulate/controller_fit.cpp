@@ -14,6 +14,9 @@ namespace torquescope {
 namespace {
 
 constexpr int largest_shift = 2;
+// differences of the reference: a velocity taken over several samples, a sample of computing time, a feedforward
+constexpr int most_behind = 5, most_ahead = 2;
+constexpr int n_differences = most_behind + most_ahead;
 constexpr std::array<int, 3> lag_ladder{3, 6, 12};
 constexpr int most_lags = lag_ladder.back();
 // two-sided normal quantiles: 1 % over four autocorrelations; 0.1 % for an integral or a shift to be there
@@ -29,20 +32,20 @@ using Rows = std::vector<Eigen::Index>;
 // every regression uses the same samples, whatever its shift and lags
 Rows usable_rows(Eigen::Index n) {
   Rows rows;
-  for (Eigen::Index k = most_lags + 1; k + largest_shift + 1 < n; ++k) rows.push_back(k);
+  for (Eigen::Index k = most_lags + 1; k + largest_shift + most_ahead < n; ++k) rows.push_back(k);
   return rows;
 }
 
-// columns: e, differences of q, of r behind and ahead, 1, t, [sum of e last]
+// columns: e, differences of q, differences of r from behind to ahead, 1, t, [sum of e last]
 struct Columns {
   int lags = 0, shift = 0;
   bool has_integral = true;
 
-  Eigen::Index count() const { return 1 + lags + 4 + (has_integral ? 1 : 0); }
-  Eigen::Index behind() const { return 1 + lags; }
-  Eigen::Index constant() const { return 3 + lags; }
-  Eigen::Index drift() const { return 4 + lags; }
-  Eigen::Index integral() const { return 5 + lags; }
+  Eigen::Index count() const { return integral() + (has_integral ? 1 : 0); }
+  Eigen::Index reference() const { return 1 + lags; }  // r_(i+1) - r_i, i = -most_behind first
+  Eigen::Index constant() const { return reference() + n_differences; }
+  Eigen::Index drift() const { return constant() + 1; }
+  Eigen::Index integral() const { return drift() + 1; }
 };
 
 Eigen::VectorXd summed_error(LoopSignals const& s, int shift) {
@@ -63,8 +66,8 @@ Eigen::MatrixXd regressors(LoopSignals const& s, Columns const& columns, Rows co
     Eigen::Index const k = rows[static_cast<std::size_t>(i)], at = k + columns.shift;
     x(i, 0) = r[at] - q[k];
     for (int lag = 0; lag < columns.lags; ++lag) x(i, 1 + lag) = q[k - lag] - q[k - lag - 1];
-    x(i, columns.behind()) = r[at] - r[at - 1];
-    x(i, columns.behind() + 1) = r[at + 1] - r[at];
+    for (int j = 0; j < n_differences; ++j)
+      x(i, columns.reference() + j) = r[at - most_behind + j + 1] - r[at - most_behind + j];
     x(i, columns.constant()) = 1.0;
     x(i, columns.drift()) = s.time_s[k] - s.time_s[0];
     if (columns.has_integral) x(i, columns.integral()) = sum[k];
@@ -92,7 +95,7 @@ Regression regress(LoopSignals const& s, Columns const& columns, Rows const& row
   Eigen::VectorXd length = x.colwise().norm();
   for (auto& one : length) one = one > 0.0 ? one : 1.0;
   Eigen::MatrixXd const scaled = x * length.cwiseInverse().asDiagonal();
-  // unpivoted columns of no use (a reference that never accelerates) get 0, not a wild number
+  // columns of no use (a reference that never accelerates) get 0, not a wild number
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(1e-12);
   qr.compute(scaled);
@@ -175,8 +178,13 @@ LoopLaw law_of(Regression const& fit) {
     law.position[static_cast<std::size_t>(lag)] += c[1 + lag];
     law.position[static_cast<std::size_t>(lag) + 1] -= c[1 + lag];
   }
-  double const behind = c[columns.behind()], ahead = c[columns.behind() + 1];
-  law.reference = {-behind, c[0] + behind - ahead, ahead};
+  law.behind = most_behind;
+  law.reference.assign(n_differences + 1, 0.0);
+  law.reference[most_behind] = c[0];
+  for (int j = 0; j < n_differences; ++j) {
+    law.reference[static_cast<std::size_t>(j)] -= c[columns.reference() + j];
+    law.reference[static_cast<std::size_t>(j) + 1] += c[columns.reference() + j];
+  }
   law.constant = c[columns.constant()];
   law.integral = columns.has_integral ? c[columns.integral()] : 0.0;
   return law;

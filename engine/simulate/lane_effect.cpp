@@ -1,6 +1,7 @@
 #include "engine/simulate/lane_effect.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -10,17 +11,18 @@ namespace torquescope {
 namespace {
 
 // one runner per lane: each twin has its own memory
-class JointEffect final : public LaneEffect {
+class CatalogueEffect final : public LaneEffect {
  public:
-  JointEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales)
-      : is_dry_friction_(effect.is_dry_friction()) {
+  CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
+                  LaneJoint const& baseline)
+      : acts_on_(effect.acts_on()), is_dry_friction_(effect.is_dry_friction()), baseline_(baseline) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
+    if (acts_on_ != ActsOn::joint) return;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      JointState state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
-      state.motor_torque = at.motor_torque[lane];
+      JointState const state = state_of(at, lane);
       runners_[lane]->advance(state, at.step_s);
       if (is_dry_friction_) {
         demand.forward[lane] += sliding(*runners_[lane], state, 1.0);
@@ -31,24 +33,47 @@ class JointEffect final : public LaneEffect {
     }
   }
 
+  void shift_position(LaneInstant const& tick, double* position) override {
+    if (acts_on_ == ActsOn::recorded_position) shift(tick, position);
+  }
+
+  void shift_torque(LaneInstant const& tick, double* torque) override {
+    if (acts_on_ == ActsOn::recorded_torque) shift(tick, torque);
+  }
+
  private:
+  JointState state_of(LaneInstant const& at, std::size_t lane) const {
+    JointState state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
+    state.load_torque = baseline_.inertia * state.ddq + baseline_.gravity_sin * std::sin(state.q) +
+                        baseline_.gravity_cos * std::cos(state.q);
+    state.motor_torque = at.motor_torque[lane];
+    return state;
+  }
+
+  void shift(LaneInstant const& tick, double* channel) {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      channel[lane] += runners_[lane]->torque(state_of(tick, lane), tick.step_s);
+  }
+
   // the branch that moves in `direction`, continued to rest
   static double sliding(EffectRunner const& runner, JointState state, double direction) {
     state.dq = direction * std::max(direction * state.dq, std::numeric_limits<double>::min());
     return runner.torque(state);
   }
 
+  ActsOn acts_on_;
   bool is_dry_friction_;
+  LaneJoint baseline_;
   std::vector<std::unique_ptr<EffectRunner>> runners_;
 };
 
 }  // namespace
 
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales) {
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+                            LaneJoint const& baseline) {
   TORQUESCOPE_EXPECT(parameters.size() == effect.parameters().size());
-  TORQUESCOPE_EXPECT(effect.acts_on() == ActsOn::joint);
-  return [&effect, parameters = std::move(parameters), scales] {
-    return std::make_unique<JointEffect>(effect, parameters, scales);
+  return [&effect, parameters = std::move(parameters), scales, baseline] {
+    return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline);
   };
 }
 

@@ -44,7 +44,9 @@ class LaneEffect {
 // a fresh object, its memory at the start of a recording
 using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
 
-// an effect that acts in the joint, lane by lane, each with its own memory; parameters as Effect::runner takes them
-LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales);
+// an effect of the catalogue, lane by lane, each with its own memory, at the place where it acts (Effect::acts_on);
+// parameters as Effect::runner takes them. baseline: what its load torque is made of, inertia and gravity
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+                            LaneJoint const& baseline = {.inertia = 0.0});
 
 }  // namespace torquescope

@@ -1,13 +1,12 @@
 #pragma once
 // A linear discrete controller as its numbers: what an identified loop is, and what twins are simulated with.
 //
-// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-1+j) + integral sum_(i<=k) e_i,
+// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k) e_i,
 //            e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1
-// Shapes     position: lags 0, 1, ...; reference: one sample behind, at, one ahead of k + shift
+// Shapes     position: lags 0, 1, ...; reference: `behind` samples before k + shift, that one, and those ahead of it
 // Units      q, r rad or m; u N m or N; gains their quotients
 // Threads    plain record
 
-#include <array>
 #include <limits>
 #include <vector>
 
@@ -15,7 +14,8 @@ namespace torquescope {
 
 struct LoopLaw {
   std::vector<double> position{};
-  std::array<double, 3> reference{};
+  std::vector<double> reference{};
+  int behind = 1;
   int shift = 0;
   double integral = 0.0;
   double constant = 0.0;

@@ -1,0 +1,53 @@
+#include "engine/diagnose/blocked_cv.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr Eigen::Index n_blocks = 10;
+
+// what the fit outside [from, to) leaves inside it
+double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::Index from, Eigen::Index to,
+                   Eigen::Index guard) {
+  Eigen::Index const before = std::max<Eigen::Index>(0, from - guard);
+  Eigen::Index const after = std::min(y.size(), to + guard);
+  Eigen::Index const n_after = y.size() - after;
+  Eigen::MatrixXd fit_x(before + n_after, x.cols());
+  fit_x << x.topRows(before), x.bottomRows(n_after);
+  Eigen::VectorXd fit_y(before + n_after);
+  fit_y << y.head(before), y.tail(n_after);
+  Eigen::VectorXd const length = fit_x.colwise().norm().cwiseMax(1e-300);
+  Eigen::VectorXd const theta =
+      (fit_x * length.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(fit_y).cwiseQuotient(length);
+  return (y.segment(from, to - from) - x.middleRows(from, to - from) * theta).squaredNorm();
+}
+
+}  // namespace
+
+BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
+                         Eigen::Index guard_rows) {
+  TORQUESCOPE_EXPECT(mismatch.size() >= 100 && model.rows() == mismatch.size() && effect.rows() == mismatch.size());
+  Eigen::MatrixXd both(mismatch.size(), model.cols() + effect.cols());
+  both << model, effect;
+  BlockedGain result;
+  for (Eigen::Index block = 0; block < n_blocks; ++block) {
+    Eigen::Index const from = mismatch.size() * block / n_blocks, to = mismatch.size() * (block + 1) / n_blocks;
+    double const gain = left_inside(mismatch, model, from, to, guard_rows) -
+                        left_inside(mismatch, both, from, to, guard_rows);
+    result.per_block.push_back(gain);
+    result.gain += gain;
+  }
+  double const mean = result.gain / static_cast<double>(n_blocks);
+  double squares = 0.0;
+  for (double gain : result.per_block) squares += (gain - mean) * (gain - mean);
+  double const error = std::sqrt(squares / static_cast<double>(n_blocks * (n_blocks - 1)));
+  result.t = error > 0.0 ? mean / error : 0.0;
+  return result;
+}
+
+}  // namespace torquescope

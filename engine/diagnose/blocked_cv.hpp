@@ -1,0 +1,27 @@
+#pragma once
+// Does an effect help where it was not fitted: blocks of time are left out one after the other.
+//
+// Fold       one of ten equal stretches of rows; rows closer to it than the guard are left out of the fit
+// Fit        linear parameters of model and effect on the mismatch, shape held
+// Gain       per block: energy of the mismatch predicted by the model's columns alone less that with the effect
+// t          mean gain over its standard error, blocks as the sample
+// Shapes     mismatch: n; model: n x k; effect: n x L
+// Requires   n >= 100
+// Threads    free function
+// Source     PHYSICS.md section 2 step 9; blocked cross-validation: Burman, Chow, Nolan 1994
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace torquescope {
+
+struct BlockedGain {
+  double gain = 0.0;  // energy, over all blocks
+  double t = 0.0;
+  std::vector<double> per_block{};
+};
+
+BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
+                         Eigen::Index guard_rows);
+
+}  // namespace torquescope

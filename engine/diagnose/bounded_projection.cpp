@@ -1,0 +1,86 @@
+#include "engine/diagnose/bounded_projection.hpp"
+
+#include <Eigen/QR>
+#include <cstddef>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double negligible = 1e-6;  // of a column's length
+
+// least squares of c on the chosen columns of r
+BoundedGain solve_subset(Eigen::MatrixXd const& r, Eigen::VectorXd const& c, std::vector<Eigen::Index> const& chosen) {
+  BoundedGain result{0.0, Eigen::VectorXd::Zero(r.cols())};
+  if (chosen.empty()) return result;
+  Eigen::MatrixXd const part = r(Eigen::all, chosen);
+  Eigen::VectorXd const theta = part.completeOrthogonalDecomposition().solve(c);
+  result.parameters(chosen) = theta;
+  result.gain = c.squaredNorm() - (c - part * theta).squaredNorm();
+  return result;
+}
+
+}  // namespace
+
+OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                   std::vector<bool> non_negative) {
+  TORQUESCOPE_EXPECT(columns.rows() == nuisance.rows());
+  TORQUESCOPE_EXPECT(non_negative.size() == static_cast<std::size_t>(columns.cols()));
+  Eigen::RowVectorXd const whole = columns.colwise().norm();
+  // twice is enough (Kahan): a column that is nearly nuisance loses its digits in the first pass
+  for (int pass = 0; pass < 2; ++pass) columns -= nuisance * (nuisance.transpose() * columns).eval();
+
+  OrthonormalGroup group;
+  group.non_negative = std::move(non_negative);
+  // modified Gram-Schmidt with pivoting by what is left of each column
+  Eigen::MatrixXd left = columns;
+  group.q.resize(columns.rows(), 0);
+  for (Eigen::Index step = 0; step < columns.cols(); ++step) {
+    Eigen::Index best = -1;
+    double share = negligible;
+    for (Eigen::Index k = 0; k < left.cols(); ++k) {
+      double const now = whole[k] > 0.0 ? left.col(k).norm() / whole[k] : 0.0;
+      if (now > share) {
+        share = now;
+        best = k;
+      }
+    }
+    if (best < 0) break;
+    Eigen::VectorXd direction = left.col(best);
+    direction -= group.q * (group.q.transpose() * direction).eval();
+    direction.normalize();
+    group.q.conservativeResize(Eigen::NoChange, group.q.cols() + 1);
+    group.q.rightCols(1) = direction;
+    left -= direction * (direction.transpose() * left).eval();
+    left.col(best).setZero();
+  }
+  group.r = group.q.transpose() * columns;
+  return group;
+}
+
+BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c) {
+  TORQUESCOPE_EXPECT(c.size() == group.rank());
+  std::vector<Eigen::Index> free, bounded;
+  for (Eigen::Index k = 0; k < group.r.cols(); ++k)
+    (group.non_negative[static_cast<std::size_t>(k)] ? bounded : free).push_back(k);
+  BoundedGain best{0.0, Eigen::VectorXd::Zero(group.r.cols())};
+  for (std::size_t subset = 0; subset < (std::size_t{1} << bounded.size()); ++subset) {
+    std::vector<Eigen::Index> chosen = free;
+    for (std::size_t k = 0; k < bounded.size(); ++k)
+      if ((subset >> k & 1U) != 0) chosen.push_back(bounded[k]);
+    BoundedGain const now = solve_subset(group.r, c, chosen);
+    bool allowed = true;
+    for (Eigen::Index k : bounded) allowed = allowed && now.parameters[k] >= 0.0;
+    if (allowed && now.gain > best.gain) best = now;
+  }
+  return best;
+}
+
+Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd const& columns) {
+  Eigen::MatrixXd const none(columns.rows(), 0);
+  return orthonormal_group(columns, none, std::vector<bool>(static_cast<std::size_t>(columns.cols()), false)).q;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,98 @@
+#include "engine/diagnose/candidate_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+// a wave of fixed time frequency: the zero-phase filter changes its size alone, which a linear parameter takes up
+bool is_fixed_frequency(Effect const& effect) {
+  return effect.n_shape() == 1 &&
+         effect.parameters()[effect.n_linear()].lower.to == RelativeTo::slowest_frequency;
+}
+
+std::vector<bool> signs(Effect const& effect) {
+  std::vector<bool> non_negative(effect.n_linear());
+  for (std::size_t k = 0; k < non_negative.size(); ++k)
+    non_negative[k] = effect.parameters()[k].sign() == Sign::non_negative;
+  return non_negative;
+}
+
+}  // namespace
+
+double shape_step(ParameterRange const& range, double value) {
+  constexpr double share = 1e-3;
+  double const step = range.spacing == Spacing::logarithmic ? share * value : share * (range.upper - range.lower);
+  return value + step <= range.upper ? step : -step;
+}
+
+CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison,
+                                   BaselineReference reference, Eigen::VectorXd const& parameters,
+                                   std::size_t without)
+    : pipeline_(&pipeline),
+      comparison_(&comparison),
+      reference_(std::move(reference)),
+      baseline_(on_motion(pipeline.model().regressor(), reference_, comparison.rows.motion)),
+      model_columns_(comparison.common.columns) {
+  auto const& rows = comparison.rows;
+  row_motion_ = {rows.rate_hz, rows.time_s, rows.q, rows.dq, rows.ddq, rows.model_torque};
+  tangents_ = fill_tangents(parameters, without);
+  if (without != none) {
+    auto const& model = pipeline.model();
+    auto const first = static_cast<Eigen::Index>(model.first_parameter(without));
+    auto const width = static_cast<Eigen::Index>(model.effects()[without].effect->n_linear());
+    Eigen::Index const after = model_columns_.cols() - first - width;
+    model_columns_.middleCols(first, after) = model_columns_.rightCols(after).eval();
+    model_columns_.conservativeResize(Eigen::NoChange, first + after);
+  }
+  Eigen::MatrixXd all(model_columns_.rows(), model_columns_.cols() + tangents_.cols());
+  all << model_columns_, tangents_;
+  nuisance_ = orthonormal_basis(all);
+}
+
+Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double const> shape) const {
+  auto const linear = static_cast<Eigen::Index>(effect.n_linear());
+  auto const& common = comparison_->common;
+  if (is_fixed_frequency(effect)) {
+    Eigen::MatrixXd out(common.torque.size(), linear);
+    effect.columns({row_motion_, reference_.scales}, shape, out);
+    return out;
+  }
+  Eigen::MatrixXd full_rate(common.motion.q.size(), linear);
+  effect.columns(baseline_.input(comparison_->rows.motion), shape, full_rate);
+  Eigen::MatrixXd out(common.torque.size(), linear);
+  for (Eigen::Index k = 0; k < linear; ++k) out.col(k) = pipeline_->filtered(full_rate.col(k), common);
+  return out;
+}
+
+OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double const> shape) const {
+  return orthonormal_group(columns(effect, shape), nuisance_, signs(effect));
+}
+
+Eigen::MatrixXd CandidateColumns::fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const {
+  auto const& model = pipeline_->model();
+  std::vector<Eigen::VectorXd> found;
+  for (std::size_t i = 0; i < model.effects().size(); ++i) {
+    if (i == without) continue;
+    auto const& [effect, shape] = model.effects()[i];
+    auto const ranges = effect->shape_bounds(reference_.scales);
+    auto const first = static_cast<Eigen::Index>(model.first_parameter(i));
+    Eigen::VectorXd const linear = parameters.segment(first, static_cast<Eigen::Index>(effect->n_linear()));
+    Eigen::VectorXd const here = columns(*effect, shape) * linear;
+    for (std::size_t k = 0; k < shape.size(); ++k) {
+      std::vector<double> moved = shape;
+      double const step = shape_step(ranges[k], shape[k]);
+      moved[k] += step;
+      found.emplace_back((columns(*effect, moved) * linear - here) / step);
+    }
+  }
+  Eigen::MatrixXd tangents(comparison_->common.torque.size(), static_cast<Eigen::Index>(found.size()));
+  for (std::size_t k = 0; k < found.size(); ++k) tangents.col(static_cast<Eigen::Index>(k)) = found[k];
+  return tangents;
+}
+
+}  // namespace torquescope

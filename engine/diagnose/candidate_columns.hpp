@@ -1,0 +1,53 @@
+#pragma once
+// The columns of effects on the common motion, as the fit would see them, and what is left of them beside the model.
+//
+// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows
+// Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
+//            wrong shape leaves must not take a second name (LESSONS item 11)
+// Shapes     n rows; L = effect.n_linear()
+// Threads    const object, any number of threads; looks into the comparison and the pipeline, which outlive it
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "engine/diagnose/bounded_projection.hpp"
+#include "engine/diagnose/mismatch_rows.hpp"
+
+namespace torquescope {
+
+class CandidateColumns {
+ public:
+  // parameters: of the pipeline's model, for the tangents; reference: what candidates are told of the baseline
+  // without: this effect of the model is no nuisance, it is one of the candidates; none: all are
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison, BaselineReference reference,
+                   Eigen::VectorXd const& parameters, std::size_t without = none);
+
+  JointScales const& scales() const { return reference_.scales; }
+  JointKind joint() const { return reference_.scales.joint; }
+  TwinComparison const& comparison() const { return *comparison_; }
+  Eigen::MatrixXd const& nuisance() const { return nuisance_; }  // n x k, orthonormal
+  // columns of the model, then tangents: what a shape's step is fitted with
+  Eigen::MatrixXd const& model_columns() const { return model_columns_; }
+  Eigen::MatrixXd const& tangents() const { return tangents_; }  // one per shape of the model, in its order
+
+  Eigen::MatrixXd columns(Effect const& effect, std::span<double const> shape) const;
+  OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
+
+ private:
+  Eigen::MatrixXd fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const;
+
+  RecordPipeline const* pipeline_;
+  TwinComparison const* comparison_;
+  BaselineReference reference_;
+  FittedBaseline baseline_;
+  Motion row_motion_;  // the rows' own samples, for effects that a zero-phase filter only scales
+  Eigen::MatrixXd model_columns_, tangents_, nuisance_;
+};
+
+// a step of a shape parameter for a difference quotient: small against its bounds, inside them
+double shape_step(ParameterRange const& range, double value);
+
+}  // namespace torquescope

@@ -1,0 +1,267 @@
+#include "engine/diagnose/forward_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/diagnose/joint_refinement.hpp"
+#include "engine/diagnose/multiple_testing.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double least_share_of_rest = 0.25;
+constexpr double least_share_of_whole = 0.002;
+constexpr double nearly_all = 0.97;
+constexpr double least_cv_t = 2.0;
+constexpr std::size_t n_refined = 5;
+
+std::vector<double> hierarchical_q(std::vector<EffectScan> const& scans) {
+  std::vector<double> p;
+  std::vector<std::string> family;
+  for (auto const& scan : scans) {
+    p.push_back(scan.p);
+    family.push_back(word(scan.effect->family()));
+  }
+  // a member is found at level q only with its family: the larger of both
+  std::vector<double> q(p.size(), 1.0);
+  for (auto const& test : hierarchical_test(p, family, 1.0)) {
+    std::vector<double> own;
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (family[i] == test.family) {
+        own.push_back(p[i]);
+        members.push_back(i);
+      }
+    std::vector<double> const inside = benjamini_hochberg_q(own);
+    for (std::size_t k = 0; k < members.size(); ++k) q[members[k]] = std::max(test.q, inside[k]);
+  }
+  return q;
+}
+
+bool is_event(Effect const& effect) { return effect.signature().front() == SignatureAxis::time; }
+
+// reason against linear parameters, empty when there is none
+std::string implausible(RefinedEffect const& refined, JointScales const& scales) {
+  auto const bounds = refined.effect->linear_bounds(scales);
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    double const value = refined.parameters[static_cast<Eigen::Index>(k)];
+    auto const& name = refined.effect->parameters()[k].name;
+    if (value < bounds[k].lower || value > bounds[k].upper)
+      return fmt::format("{} = {:.3g} is outside its plausible range", name, value);
+  }
+  return {};
+}
+
+class Search {
+ public:
+  Search(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress)
+      : setting_(setting), options_(options), progress_(progress) {}
+
+  Selection run() {
+    tell("twins", 0);
+    auto first = make_stage(setting_, setting_.regressor);
+    validate(first.has_value(), [&] {
+      Problem problem{ExitCode::bad_data, setting_.recording.name + ": the fitted joint cannot follow the reference"};
+      problem.help = "check recording.columns, units and torque_per_unit: the torque may be another signal";
+      return problem;
+    });
+    stage_ = std::move(*first);
+    selection_.first_energy = stage_.energy;
+    while (take_one()) {
+    }
+    if (!selection_.accepted.empty()) drop_superfluous();
+    return finish();
+  }
+
+ private:
+  struct Trial {
+    EffectScan scan;
+    double q = 1.0;
+    RefinedEffect refined;
+    BlockedGain cv;
+  };
+
+  void tell(char const* what, std::size_t step) const {
+    if (progress_) progress_(what, step, options_.max_effects + 1);
+  }
+
+  double whole() const { return std::max(selection_.first_energy.excess, std::numeric_limits<double>::min()); }
+
+  void reject(Effect const* effect, std::string reason) {
+    selection_.rejected.push_back({effect, selection_.accepted.size(), std::move(reason)});
+  }
+
+  // one round of search; false when nothing more is to be found
+  bool take_one() {
+    std::size_t const step = selection_.accepted.size();
+    bool const is_first = step == 0;
+    if (!is_first && (step >= options_.max_effects || !is_significant(stage_))) return false;
+    tell("search", step);
+    CandidateColumns const columns(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters());
+    auto scans = scan_candidates(columns, options_.candidates, setting_.threads);
+    std::vector<double> const q = hierarchical_q(scans);
+    bool const found = std::any_of(q.begin(), q.end(), [&](double one) { return one <= options_.q; });
+    if (is_first) {
+      selection_.first_scan = scans;
+      selection_.first_q = q;
+      selection_.first_cv_gain.assign(scans.size(), std::numeric_limits<double>::quiet_NaN());
+      selection_.is_gate_open = is_significant(stage_);
+    }
+    if (!found || !is_significant(stage_)) return false;
+    for (Trial& trial : refined_trials(columns, scans, q, is_first))
+      if (accept(columns, trial)) return true;
+    return false;
+  }
+
+  // the candidates worth a closer look, best first
+  std::vector<Trial> refined_trials(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                                    std::vector<double> const& q, bool is_first) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      if (scans[i].is_testable && q[i] <= options_.q && scans[i].gain > 0.0 && !has_accepted(scans[i].effect))
+        order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return scans[a].gain > scans[b].gain; });
+    order.resize(std::min(order.size(), n_refined));
+
+    Eigen::VectorXd const mismatch = stage_.mismatch();
+    ShapeSearch const search = shape_search(options_.shape_optimiser, setting_.seed);
+    auto const guard = static_cast<Eigen::Index>(
+        std::ceil(3.0 * stage_.pipeline->kept_rate_hz() / std::max(stage_.pipeline->cutoff_hz(), 1.0)));
+    std::vector<Trial> trials;
+    for (std::size_t i : order) {
+      Trial trial{scans[i], q[i], refine_shape(columns, scans[i], mismatch, search, setting_.threads), {}};
+      selection_.evaluations += trial.refined.evaluations;
+      trial.cv = blocked_gain(mismatch, columns.model_columns(),
+                              columns.columns(*trial.refined.effect, trial.refined.shape), guard);
+      if (is_first) selection_.first_cv_gain[i] = trial.cv.gain;
+      trials.push_back(std::move(trial));
+    }
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](Trial const& a, Trial const& b) { return a.refined.gain > b.refined.gain; });
+    prefer_fewer_parameters(trials);
+    return trials;
+  }
+
+  static void prefer_fewer_parameters(std::vector<Trial>& trials) {
+    if (trials.empty()) return;
+    double const enough = nearly_all * trials.front().refined.gain;
+    auto const last = std::find_if(trials.begin(), trials.end(),
+                                   [&](Trial const& trial) { return trial.refined.gain < enough; });
+    std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
+      return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
+    });
+  }
+
+  bool has_accepted(Effect const* effect) const {
+    auto const& effects = stage_.model().effects();
+    return std::any_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; });
+  }
+
+  bool accept(CandidateColumns const& columns, Trial const& trial) {
+    auto const* effect = trial.refined.effect;
+    double const gain = trial.refined.gain;
+    if (gain < least_share_of_rest * stage_.energy.excess || gain < least_share_of_whole * whole()) {
+      reject(effect, fmt::format("explains {:.0f} % of what is left (a quarter is asked for)",
+                                 100.0 * gain / stage_.energy.excess));
+      return false;
+    }
+    if (std::string why = implausible(trial.refined, columns.scales()); !why.empty()) {
+      reject(effect, std::move(why));
+      return false;
+    }
+    if (!is_event(*effect) && trial.cv.t < least_cv_t) {
+      reject(effect, "does not help on blocks it was not fitted to");
+      return false;
+    }
+    std::vector<ShapedEffect> effects = stage_.model().effects();
+    effects.push_back({effect, trial.refined.shape});
+    tell("twins", effects.size());
+    auto next = refined_stage(setting_, stage_.reference(), std::move(effects));
+    if (!next) {
+      reject(effect, "twins with it do not follow the reference");
+      return false;
+    }
+    // the twins must confirm at least half of what the projection promised
+    constexpr double confirmed = 0.5;
+    if (next->energy.excess > stage_.energy.excess - confirmed * gain) {
+      reject(effect, "twins with it leave as much as twins without it");
+      return false;
+    }
+    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.t, trial.cv.gain});
+    keep_baseline();
+    stage_ = std::move(*next);
+    return true;
+  }
+
+  // the first stage is asked for again at the end
+  void keep_baseline() {
+    if (stage_.model().effects().empty()) selection_.baseline = std::move(stage_);
+  }
+
+  // backward: what each effect explains that the others cannot
+  void drop_superfluous() {
+    while (selection_.accepted.size() > 1) {
+      std::size_t weakest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < selection_.accepted.size(); ++i) {
+        CandidateColumns const others(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters(), i);
+        double const own = own_energy(others, i);
+        if (own < least) {
+          least = own;
+          weakest = i;
+        }
+      }
+      if (least >= least_share_of_whole * whole()) return;
+      std::vector<ShapedEffect> effects = stage_.model().effects();
+      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(weakest));
+      auto next = refined_stage(setting_, stage_.reference(), std::move(effects));
+      if (!next) return;
+      reject(selection_.accepted[weakest].effect, "superfluous beside the effects named after it");
+      selection_.accepted.erase(selection_.accepted.begin() + static_cast<std::ptrdiff_t>(weakest));
+      stage_ = std::move(*next);
+    }
+  }
+
+  double own_energy(CandidateColumns const& others, std::size_t i) const {
+    auto const& shaped = stage_.model().effects()[i];
+    OrthonormalGroup const group = others.group(*shaped.effect, shaped.shape);
+    auto const first = static_cast<Eigen::Index>(stage_.model().first_parameter(i));
+    Eigen::VectorXd const linear =
+        stage_.parameters().segment(first, static_cast<Eigen::Index>(shaped.effect->n_linear()));
+    return (group.r * linear).squaredNorm();
+  }
+
+  Selection finish() {
+    selection_.final = std::move(stage_);
+    return std::move(selection_);
+  }
+
+  StageSetting const& setting_;
+  SelectionOptions const& options_;
+  StageSink const& progress_;
+  ModelStage stage_;
+  Selection selection_;
+};
+
+}  // namespace
+
+double mismatch_share(ModelStage const& stage) {
+  auto const& torque = stage.comparison.rows.torque;
+  double const rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
+  return rms > 0.0 ? stage.energy.excess_rms() / rms : 0.0;
+}
+
+bool is_significant(ModelStage const& stage) {
+  return stage.energy.z > smallest_omnibus_z && mismatch_share(stage) > smallest_mismatch_share;
+}
+
+Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress) {
+  return Search(setting, options, progress).run();
+}
+
+}  // namespace torquescope

@@ -1,0 +1,73 @@
+#pragma once
+// Which effects, one after the other: the mismatch is searched, the effect that explains most of it is put into the model,
+// twins are made anew, and what is left is searched again.
+//
+// Gate       the family test of the scans at level q, the omnibus z above 4, and more than 0.25 % of the torque's rms
+//            beyond the twins; without it nothing is named
+// Choice     the candidates with most gain are refined in shape; the largest gain wins, a lesser one with fewer parameters
+//            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, keep its
+//            plausible bounds, and improve blocks of time it was not fitted to (t >= 2)
+// Accepted   when twins with it follow the reference and leave less mismatch than before
+// End        backward: an effect whose own share is below 0.2 % of the whole is taken out again
+// Threads    as the stages
+// Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/blocked_cv.hpp"
+#include "engine/diagnose/model_stage.hpp"
+#include "engine/diagnose/shape_refinement.hpp"
+
+namespace torquescope {
+
+struct SelectionOptions {
+  std::vector<Effect const*> candidates{};
+  double q = 0.05;
+  std::size_t max_effects = 5;
+  std::string shape_optimiser = "de";
+};
+
+struct AcceptedEffect {
+  Effect const* effect = nullptr;
+  EffectScan scan{};           // of the step at which it was accepted
+  double q = 1.0;              // hierarchical, there
+  double gain = 0.0;           // energy of the mismatch it explained there
+  double cv_t = 0.0;           // of the improvement on blocks it was not fitted to
+  double cv_gain = 0.0;        // energy
+};
+
+// why a refined candidate was not taken
+struct RejectedEffect {
+  Effect const* effect = nullptr;
+  std::size_t step = 0;
+  std::string reason{};
+};
+
+struct Selection {
+  std::vector<EffectScan> first_scan{};  // before anything was accepted
+  std::vector<double> first_q{};         // of each
+  std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
+  MismatchEnergy first_energy{};
+  bool is_gate_open = false;             // something is missing
+  std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
+  std::vector<RejectedEffect> rejected{};
+  ModelStage baseline;                   // without effects
+  ModelStage final;                      // with all of them; a second copy of the baseline's when there are none
+  std::int64_t evaluations = 0;          // of shapes
+};
+
+inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
+inline constexpr double smallest_omnibus_z = 4.0;
+
+// share of the torque's rms that the mismatch makes up
+double mismatch_share(ModelStage const& stage);
+bool is_significant(ModelStage const& stage);
+
+// told before every piece of work: "twins", "search"; steps done of those that are surely to come
+using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
+
+Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress);
+
+}  // namespace torquescope

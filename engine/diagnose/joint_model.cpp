@@ -1,0 +1,72 @@
+#include "engine/diagnose/joint_model.hpp"
+
+#include <utility>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+JointModel::JointModel(Regressor const& regressor, BaselineReference reference, std::vector<ShapedEffect> effects)
+    : regressor_(&regressor), reference_(std::move(reference)), effects_(std::move(effects)) {
+  TORQUESCOPE_EXPECT(effects_.empty() || static_cast<std::size_t>(reference_.parameters.size()) == regressor.size());
+}
+
+std::size_t JointModel::size() const { return first_parameter(effects_.size()); }
+
+std::size_t JointModel::first_parameter(std::size_t effect) const {
+  std::size_t first = regressor_->size();
+  for (std::size_t i = 0; i < effect; ++i) first += effects_[i].effect->n_linear();
+  return first;
+}
+
+std::vector<RegressorColumn> JointModel::column_owners() const {
+  std::vector<RegressorColumn> owners = regressor_->column_owners();
+  for (std::size_t i = 0; i < effects_.size(); ++i)
+    for (std::size_t k = 0; k < effects_[i].effect->n_linear(); ++k) {
+      auto const& parameter = effects_[i].effect->parameters()[k];
+      owners.push_back({parameter.name, parameter.unit_for(regressor_->joint()), regressor_->terms().size() + i});
+    }
+  return owners;
+}
+
+Eigen::MatrixXd JointModel::columns(Motion const& motion) const {
+  if (effects_.empty()) return regressor_->columns(motion);
+  Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));
+  all.leftCols(static_cast<Eigen::Index>(regressor_->size())) = regressor_->columns(motion);
+  FittedBaseline const baseline = on_motion(*regressor_, reference_, motion);
+  EffectInput const input = baseline.input(motion);
+  for (std::size_t i = 0; i < effects_.size(); ++i)
+    effects_[i].effect->columns(input, effects_[i].shape,
+                                all.middleCols(static_cast<Eigen::Index>(first_parameter(i)),
+                                               static_cast<Eigen::Index>(effects_[i].effect->n_linear())));
+  return all;
+}
+
+std::vector<double> JointModel::effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const {
+  auto const first = static_cast<Eigen::Index>(first_parameter(effect));
+  auto const& shaped = effects_[effect];
+  std::vector<double> all(shaped.effect->n_linear());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = parameters[first + static_cast<Eigen::Index>(k)];
+  all.insert(all.end(), shaped.shape.begin(), shaped.shape.end());
+  return all;
+}
+
+TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
+  TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
+  TwinJoint joint = make_twin_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
+  for (std::size_t i = 0; i < effects_.size(); ++i)
+    joint.effects.push_back(
+        lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales, joint.lanes));
+  return joint;
+}
+
+FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion) {
+  FittedBaseline baseline =
+      fitted_baseline(regressor,
+                      {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())}, motion,
+                      reference.scales.cutoff_hz, reference.scales.encoder_step);
+  baseline.scales = reference.scales;
+  return baseline;
+}
+
+}  // namespace torquescope

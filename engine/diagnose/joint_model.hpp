@@ -1,0 +1,62 @@
+#pragma once
+// The model as it stands in a diagnosis: the baseline's terms and every effect accepted so far, at a fixed shape.
+//
+// Equation   tau = [columns of the baseline | columns of each effect at its shape] * parameters
+// Shapes     columns: n_samples x size(), full rate, before the parallel filter; effects in the order of acceptance
+// Reference  the baseline's parameters that effects are told (Coulomb levels, load and model torque): fixed numbers, so
+//            that the model stays linear in its parameters and is the same for the recording and its twins
+// Units      SI
+// Threads    const object, any number of threads
+// Source     PHYSICS.md section 2 step 8
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/effects/fitted_baseline.hpp"
+#include "engine/effects/regressor.hpp"
+#include "engine/simulate/twin_joint.hpp"
+
+namespace torquescope {
+
+struct ShapedEffect {
+  Effect const* effect = nullptr;
+  std::vector<double> shape{};
+};
+
+struct BaselineReference {
+  JointScales scales{};
+  Eigen::VectorXd parameters{};  // of the regressor
+};
+
+class JointModel {
+ public:
+  // NOLINTNEXTLINE(google-explicit-constructor): a regressor is a model without effects; it outlives the model
+  JointModel(Regressor const& regressor) : regressor_(&regressor) {}
+  JointModel(Regressor const& regressor, BaselineReference reference, std::vector<ShapedEffect> effects);
+
+  Regressor const& regressor() const { return *regressor_; }
+  BaselineReference const& reference() const { return reference_; }
+  std::vector<ShapedEffect> const& effects() const { return effects_; }
+  std::size_t size() const;
+  // index of the first parameter of effect i
+  std::size_t first_parameter(std::size_t effect) const;
+  std::vector<RegressorColumn> column_owners() const;
+
+  Eigen::MatrixXd columns(Motion const& motion) const;
+  // linear parameters, then the shape: as Effect::runner takes them
+  std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
+  // Errors: Error 65 as make_twin_joint
+  TwinJoint twin_joint(Eigen::VectorXd const& parameters) const;
+
+ private:
+  Regressor const* regressor_;
+  BaselineReference reference_{};
+  std::vector<ShapedEffect> effects_{};
+};
+
+// load and model torque of the reference on a motion, its scales as they are
+FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion);
+
+}  // namespace torquescope

@@ -1,0 +1,70 @@
+#include "engine/diagnose/joint_refinement.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/diagnose/shape_grid.hpp"
+
+namespace torquescope {
+namespace {
+
+struct ShapeSteps {
+  std::vector<ShapedEffect> effects;
+  bool is_small = true;
+};
+
+ShapeSteps stepped(ModelStage const& stage) {
+  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
+  auto const& rows = stage.comparison.rows;
+  ShapeSteps result{stage.model().effects()};
+  Eigen::Index const n_shapes = columns.tangents().cols();
+  if (n_shapes == 0) return result;
+  Eigen::Index const n_model = columns.model_columns().cols();
+  Eigen::MatrixXd all(rows.size(), n_model + n_shapes);
+  all << columns.model_columns(), columns.tangents();
+  Eigen::VectorXd const length = all.colwise().norm().cwiseMax(1e-300);
+  auto const solver = (all * length.cwiseInverse().asDiagonal()).colPivHouseholderQr();
+  Eigen::VectorXd const step =
+      Eigen::VectorXd(solver.solve(stage.mismatch())).cwiseQuotient(length).tail(n_shapes);
+  Eigen::MatrixXd const apart = rows.twins.colwise() - rows.twin_mean;
+  Eigen::MatrixXd const noise =
+      (length.cwiseInverse().asDiagonal() * Eigen::MatrixXd(solver.solve(apart))).bottomRows(n_shapes);
+  Eigen::VectorXd const std = (noise.rowwise().squaredNorm() / static_cast<double>(rows.n_twins() - 1)).cwiseSqrt();
+
+  constexpr double small = 0.5;  // standard deviations
+  Eigen::Index at = 0;
+  for (auto& shaped : result.effects) {
+    auto const ranges = shaped.effect->shape_bounds(columns.scales());
+    for (std::size_t k = 0; k < shaped.shape.size(); ++k, ++at) {
+      // a linear step must not leave the neighbourhood it was made in
+      double const unit = to_unit(ranges[k], shaped.shape[k]);
+      double const next = to_unit(ranges[k], std::max(shaped.shape[k] + step[at], 1e-3 * shaped.shape[k]));
+      constexpr double longest = 0.1;  // of the bounds
+      double const moved = std::clamp(std::isfinite(next) ? next : unit, unit - longest, unit + longest);
+      double const value = from_unit(ranges[k], moved);
+      if (std::abs(value - shaped.shape[k]) > small * std[at]) result.is_small = false;
+      shaped.shape[k] = value;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<ModelStage> refined_stage(StageSetting const& setting, BaselineReference const& reference,
+                                        std::vector<ShapedEffect> effects) {
+  constexpr int most_rounds = 2;
+  auto best = make_stage(setting, JointModel(setting.regressor, reference, std::move(effects)));
+  for (int round = 0; best && round < most_rounds; ++round) {
+    ShapeSteps steps = stepped(*best);
+    if (steps.is_small) break;
+    auto next = make_stage(setting, JointModel(setting.regressor, best->reference(), std::move(steps.effects)));
+    if (!next || next->energy.excess >= best->energy.excess) break;
+    best = std::move(next);
+  }
+  return best;
+}
+
+}  // namespace torquescope

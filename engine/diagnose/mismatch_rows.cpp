@@ -1,0 +1,120 @@
+#include "engine/diagnose/mismatch_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/error.hpp"
+#include "engine/diagnose/twin_batch.hpp"
+
+namespace torquescope {
+namespace {
+
+CleanTwin without_noise(CleanTwin const& twin, double step_s) {
+  TwinLoop loop = twin.loop();
+  loop.encoder_step = 0.0;
+  loop.torque_noise = white(0.0);
+  loop.disturbance_std = 0.0;
+  loop.disturbance_variance_error = 0.0;
+  loop.position_noise_std = 0.0;
+  return {twin.joint(), loop, twin.track(), step_s};
+}
+
+std::vector<Eigen::Index> common(std::vector<Eigen::Index> const& a, std::vector<Eigen::Index> const& b) {
+  std::vector<Eigen::Index> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+void check_rows(std::vector<Eigen::Index> const& rows, RecordPipeline const& pipeline, std::string const& name) {
+  constexpr std::size_t fewest_per_parameter = 10;
+  validate(rows.size() >= fewest_per_parameter * pipeline.model().size(), [&] {
+    Problem problem{ExitCode::bad_data, fmt::format("{}: only {} rows are left between reversals", name, rows.size())};
+    problem.help = "record a longer motion with fewer reversals per second, or raise filter.parallel_cutoff_hz";
+    return problem;
+  });
+}
+
+// path length since the sign of `signal` last changed
+Eigen::VectorXd distance_since(Eigen::VectorXd const& signal, Eigen::VectorXd const& q) {
+  Eigen::VectorXd distance = Eigen::VectorXd::Zero(q.size());
+  for (Eigen::Index k = 1; k < q.size(); ++k)
+    distance[k] = signal[k] * signal[k - 1] < 0.0 ? 0.0 : distance[k - 1] + std::abs(q[k] - q[k - 1]);
+  return distance;
+}
+
+void fill_axes(MismatchRows& rows, RecordPipeline const& pipeline, ProcessedRecord const& common,
+               Eigen::VectorXd const& parameters) {
+  auto const& model = pipeline.model();
+  auto const& motion = rows.motion;
+  Eigen::MatrixXd const columns = model.columns(motion);
+  Eigen::VectorXd const all = columns * parameters;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(all.size());
+  auto const& owners = model.regressor().column_owners();
+  for (std::size_t k = 0; k < owners.size(); ++k)
+    if (owners[k].needs_position || owners[k].needs_acceleration)
+      load += columns.col(static_cast<Eigen::Index>(k)) * parameters[static_cast<Eigen::Index>(k)];
+  auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, common); };
+  rows.time_s = pick(motion.time_s);
+  rows.q = pick(motion.q);
+  rows.dq = pick(motion.dq);
+  rows.ddq = pick(motion.ddq);
+  rows.load_torque = pick(load);
+  rows.model_torque = pick(all);
+  rows.since_velocity_reversal = pick(distance_since(motion.dq, motion.q));
+  rows.since_torque_reversal = pick(distance_since(all, motion.q));
+}
+
+}  // namespace
+
+TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
+                                  TwinAddress const& address, std::size_t twins, int threads) {
+  TwinComparison result;
+  CleanTwin const noiseless = without_noise(twin, twin.step_s());
+  for_each_twin(noiseless, pipeline, address, 1, 1, [&](VisitedTwin const& visited) {
+    result.ran_away = visited.ran_away;
+    result.common = visited.record;
+  });
+  if (result.ran_away) return result;
+
+  // pilots: rows at which a twin may turn are not safe in any
+  std::size_t const pilots = std::min<std::size_t>(twins, twin_lanes);
+  std::vector<std::vector<Eigen::Index>> kept(pilots);
+  std::vector<char> ran_away(twins, 0);
+  for_each_twin(twin, pipeline, address, pilots, threads, [&](VisitedTwin const& visited) {
+    ran_away[visited.index] = visited.ran_away;
+    kept[visited.index] = visited.record.kept_rows;
+  });
+  std::vector<Eigen::Index> safe = common(pipeline.process(recording).kept_rows, result.common.kept_rows);
+  for (std::size_t i = 0; i < pilots; ++i)
+    if (ran_away[i] == 0) safe = common(safe, kept[i]);
+  check_rows(safe, pipeline, recording.name);
+  pipeline.restrict_to(safe);
+
+  result.recording = pipeline.process(recording);
+  for_each_twin(noiseless, pipeline, address, 1, 1, [&](VisitedTwin const& visited) { result.common = visited.record; });
+  auto& rows = result.rows;
+  rows.rate_hz = pipeline.kept_rate_hz();
+  rows.kept_rows = safe;
+  rows.motion = result.common.motion;
+  fill_axes(rows, pipeline, result.common, result.common.parameters);
+  rows.torque = result.recording.torque;
+  rows.residual = result.recording.residual;
+
+  auto const n = static_cast<Eigen::Index>(safe.size());
+  rows.twins.resize(n, static_cast<Eigen::Index>(twins));
+  result.twin_fits.resize(static_cast<Eigen::Index>(twins), static_cast<Eigen::Index>(pipeline.model().size()));
+  for_each_twin(twin, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
+    ran_away[visited.index] = visited.ran_away;
+    if (visited.ran_away) return;
+    rows.twins.col(static_cast<Eigen::Index>(visited.index)) = visited.record.residual;
+    result.twin_fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+  });
+  result.ran_away = std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; });
+  if (!result.ran_away) rows.twin_mean = rows.twins.rowwise().mean();
+  return result;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,48 @@
+#pragma once
+// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes a
+// new stage, twins included, for a mismatch means nothing against twins of another model.
+//
+// Threads    spreads twins over `threads`; same bits for any number; a stage is a plain record
+// Source     LESSONS items 5, 8, 13 of our own prototype
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/diagnose/baseline_twin.hpp"
+#include "engine/diagnose/candidate_columns.hpp"
+#include "engine/diagnose/mismatch_energy.hpp"
+
+namespace torquescope {
+
+// what does not change from stage to stage
+struct StageSetting {
+  Recording const& recording;  // its time begins at 0
+  Regressor const& regressor;
+  FilterOptions const& filter;
+  Section const& filter_section;
+  std::size_t twins = 200;
+  std::uint64_t seed = 0;
+  int threads = 1;
+};
+
+struct ModelStage {
+  std::unique_ptr<RecordPipeline> pipeline{};  // restricted to the common rows
+  std::optional<BaselineTwin> twin{};          // always there in a stage that make_stage() returned
+  TwinComparison comparison{};
+  MismatchEnergy energy{};
+
+  JointModel const& model() const { return pipeline->model(); }
+  // corrected for the bias of processing
+  Eigen::VectorXd const& parameters() const { return twin->baseline.parameters; }
+  Eigen::VectorXd mismatch() const { return comparison.rows.residual - comparison.rows.twin_mean; }
+  // what candidates are told of the baseline: this stage's own parameters
+  BaselineReference reference() const;
+};
+
+// nothing when the twins run away: such a model is none of this joint
+// Errors     Error 65 as the pipeline and the twins, for a model without effects only
+std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);
+
+}  // namespace torquescope

@@ -1,0 +1,85 @@
+#include "engine/diagnose/shape_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace torquescope {
+namespace {
+
+std::size_t points_for(EffectParameter const& parameter, ParameterRange const& range, std::size_t n_shape,
+                       JointScales const& scales) {
+  constexpr double share_of_resolution = 0.7;
+  constexpr std::size_t places = 24;
+  if (parameter.upper.to == RelativeTo::highest_order || parameter.upper.to == RelativeTo::cutoff_frequency) {
+    bool const is_frequency = parameter.lower.to == RelativeTo::slowest_frequency;
+    bool const is_order = parameter.lower.to == RelativeTo::lowest_order;
+    if (is_frequency || is_order) {
+      double const resolution = bound_value({1.0, parameter.lower.to}, scales);
+      return static_cast<std::size_t>(
+                 std::ceil((range.upper - range.lower) / (share_of_resolution * resolution))) + 1;
+    }
+  }
+  if (parameter.lower.to == RelativeTo::instant || parameter.lower.to == RelativeTo::position) return places;
+  return n_shape == 1 ? 10 : n_shape == 2 ? 6 : 4;
+}
+
+}  // namespace
+
+double to_unit(ParameterRange const& range, double value) {
+  if (!(range.upper > range.lower)) return 0.0;
+  if (range.spacing == Spacing::logarithmic) return std::log(value / range.lower) / std::log(range.upper / range.lower);
+  return (value - range.lower) / (range.upper - range.lower);
+}
+
+double from_unit(ParameterRange const& range, double unit) {
+  if (!(range.upper > range.lower)) return range.lower;
+  double const inside = std::clamp(unit, 0.0, 1.0);
+  if (range.spacing == Spacing::logarithmic) return range.lower * std::pow(range.upper / range.lower, inside);
+  return range.lower + inside * (range.upper - range.lower);
+}
+
+std::size_t ShapeGrid::size() const {
+  std::size_t points = 1;
+  for (auto const& axis : axes) points *= axis.size();
+  return points;
+}
+
+std::vector<double> ShapeGrid::point(std::size_t index) const {
+  std::vector<double> shape;
+  for (auto const& axis : axes) {
+    shape.push_back(axis[index % axis.size()]);
+    index /= axis.size();
+  }
+  return shape;
+}
+
+Bounds ShapeGrid::box(std::size_t index) const {
+  Bounds bounds;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    auto const points = static_cast<double>(axes[k].size());
+    double const centre = to_unit(ranges[k], axes[k][index % axes[k].size()]);
+    double const step = points > 1.0 ? 1.0 / (points - 1.0) : 1.0;
+    bounds.lower.push_back(std::max(0.0, centre - step));
+    bounds.upper.push_back(std::min(1.0, centre + step));
+    index /= axes[k].size();
+  }
+  return bounds;
+}
+
+ShapeGrid shape_grid(Effect const& effect, JointScales const& scales) {
+  ShapeGrid grid;
+  grid.ranges = effect.shape_bounds(scales);
+  for (std::size_t k = 0; k < grid.ranges.size(); ++k) {
+    auto const& range = grid.ranges[k];
+    auto const& parameter = effect.parameters()[effect.n_linear() + k];
+    std::size_t const points =
+        range.upper > range.lower ? std::max<std::size_t>(2, points_for(parameter, range, effect.n_shape(), scales)) : 1;
+    std::vector<double> axis(points);
+    for (std::size_t i = 0; i < points; ++i)
+      axis[i] = from_unit(range, points > 1 ? static_cast<double>(i) / static_cast<double>(points - 1) : 0.0);
+    grid.axes.push_back(std::move(axis));
+  }
+  return grid;
+}
+
+}  // namespace torquescope

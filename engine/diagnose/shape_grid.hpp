@@ -1,0 +1,35 @@
+#pragma once
+// The points at which an effect's shape is tried, and the box round one of them in which it is refined.
+//
+// Points     waves (orders, time frequencies): 0.7 of the resolution that the range or the duration gives, so that no peak
+//            falls between two points; instants and places: 24; everything else: 10 for one parameter, 6 each for two,
+//            4 each for three; spaced as the parameter says, both bounds included
+// Box        one point to both sides, within the bounds
+// Units      SI of the parameter; box in a scale from 0 to 1 over the whole bounds (logarithmic where the parameter is)
+// Threads    free functions
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/effects/effect.hpp"
+#include "engine/optim/objective.hpp"
+
+namespace torquescope {
+
+struct ShapeGrid {
+  std::vector<ParameterRange> ranges{};
+  std::vector<std::vector<double>> axes{};  // per shape parameter
+
+  std::size_t size() const;  // 1 for an effect without shape
+  std::vector<double> point(std::size_t index) const;
+  // of a refinement round point(index), in the unit scale
+  Bounds box(std::size_t index) const;
+};
+
+ShapeGrid shape_grid(Effect const& effect, JointScales const& scales);
+
+// unit scale <-> parameter
+double to_unit(ParameterRange const& range, double value);
+double from_unit(ParameterRange const& range, double unit);
+
+}  // namespace torquescope

@@ -1,0 +1,150 @@
+#include "engine/diagnose/shape_refinement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+#include "engine/base/parallel.hpp"
+
+namespace torquescope {
+namespace {
+
+class Refinement {
+ public:
+  Refinement(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch)
+      : columns_(columns), effect_(*scan.effect), ranges_(scan.grid.ranges), mismatch_(mismatch) {
+    best_.effect = scan.effect;
+    try_shape(scan.shape);
+  }
+
+  RefinedEffect take() && {
+    for (std::size_t k = 0; k < ranges_.size(); ++k) {
+      constexpr double close = 1e-3;
+      double const unit = to_unit(ranges_[k], best_.shape[k]);
+      best_.at_bound = best_.at_bound || unit < close || unit > 1.0 - close;
+    }
+    return std::move(best_);
+  }
+
+  void search_in(Bounds const& box, ShapeSearch const& search, std::uint32_t run, int threads) {
+    auto const optimiser = search.make(box, {search.seed, run, RandomDomain::optimiser});
+    std::size_t const d = ranges_.size();
+    for (int generation = 0; generation <= search.generations; ++generation) {
+      std::size_t const members = optimiser->batch_size();
+      std::vector<double> candidates(members * d), fitness(members);
+      optimiser->ask({candidates.data(), members, d});
+      std::vector<std::pair<std::vector<double>, BoundedGain>> found(members);
+      parallel_for(members, threads, [&](std::size_t i, int) {
+        std::vector<double> shape(d);
+        for (std::size_t k = 0; k < d; ++k) shape[k] = from_unit(ranges_[k], candidates[i * d + k]);
+        BoundedGain gain = gain_at(shape);
+        fitness[i] = -gain.gain;
+        found[i] = {std::move(shape), std::move(gain)};
+      });
+      for (auto& [shape, gain] : found) keep(shape, gain);
+      optimiser->tell({candidates.data(), members, d}, fitness);
+    }
+  }
+
+  void polish() {
+    double damping = 1e-3;
+    constexpr int most_steps = 8;
+    for (int step = 0; step < most_steps && damping < 1e3; ++step) {
+      double const before = best_.gain;
+      std::vector<double> const next = stepped(damping);
+      try_shape(next);
+      if (best_.gain > before) {
+        damping *= 0.1;
+        if (best_.gain - before < 1e-6 * before) return;
+      } else {
+        damping *= 10.0;
+      }
+    }
+  }
+
+ private:
+  BoundedGain gain_at(std::vector<double> const& shape) const {
+    OrthonormalGroup const group = columns_.group(effect_, shape);
+    return bounded_gain(group, group.q.transpose() * mismatch_);
+  }
+
+  void keep(std::vector<double> const& shape, BoundedGain const& gain) {
+    ++best_.evaluations;
+    if (best_.evaluations > 1 && gain.gain <= best_.gain) return;
+    best_.shape = shape;
+    best_.gain = gain.gain;
+    best_.parameters = gain.parameters;
+  }
+
+  void try_shape(std::vector<double> const& shape) { keep(shape, gain_at(shape)); }
+
+  Eigen::VectorXd without_nuisance(Eigen::VectorXd signal) const {
+    signal -= columns_.nuisance() * (columns_.nuisance().transpose() * signal).eval();
+    return signal;
+  }
+
+  // one damped step of all parameters together, in the unit scale of the shapes
+  std::vector<double> stepped(double damping) {
+    std::size_t const d = ranges_.size();
+    Eigen::Index const linear = best_.parameters.size();
+    Eigen::MatrixXd const here = columns_.columns(effect_, best_.shape);
+    Eigen::MatrixXd jacobian(mismatch_.size(), linear + static_cast<Eigen::Index>(d));
+    for (Eigen::Index k = 0; k < linear; ++k) jacobian.col(k) = without_nuisance(here.col(k));
+    for (std::size_t k = 0; k < d; ++k) {
+      std::vector<double> moved = best_.shape;
+      double const unit = to_unit(ranges_[k], best_.shape[k]);
+      double const step = unit < 0.999 ? 1e-3 : -1e-3;
+      moved[k] = from_unit(ranges_[k], unit + step);
+      Eigen::VectorXd const there = columns_.columns(effect_, moved) * best_.parameters;
+      jacobian.col(linear + static_cast<Eigen::Index>(k)) =
+          without_nuisance((there - here * best_.parameters) / step);
+      ++best_.evaluations;
+    }
+    Eigen::VectorXd const left = without_nuisance(mismatch_) - jacobian.leftCols(linear) * best_.parameters;
+    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    normal.diagonal() *= 1.0 + damping;
+    Eigen::VectorXd const move = normal.ldlt().solve(jacobian.transpose() * left);
+    std::vector<double> next = best_.shape;
+    for (std::size_t k = 0; k < d; ++k) {
+      double const unit = to_unit(ranges_[k], best_.shape[k]);
+      double const moved = unit + move[linear + static_cast<Eigen::Index>(k)];
+      if (std::isfinite(moved)) next[k] = from_unit(ranges_[k], moved);
+    }
+    return next;
+  }
+
+  CandidateColumns const& columns_;
+  Effect const& effect_;
+  std::vector<ParameterRange> const& ranges_;
+  Eigen::VectorXd const& mismatch_;
+  RefinedEffect best_{};
+};
+
+}  // namespace
+
+ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
+  auto const* choice = find_optimiser(optimiser);
+  TORQUESCOPE_EXPECT(choice != nullptr);
+  Section section;
+  constexpr std::int64_t members = 10;
+  section.settings.push_back({"population", OptionValue{members}});
+  std::vector<Problem> problems;
+  ShapeSearch search;
+  search.make = choice->prepare(section, {}, problems);
+  search.seed = seed;
+  TORQUESCOPE_EXPECT(problems.empty());
+  return search;
+}
+
+RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
+                           ShapeSearch const& search, int threads) {
+  Refinement refinement(columns, scan, mismatch);
+  if (scan.effect->n_shape() == 0) return std::move(refinement).take();
+  refinement.search_in(scan.grid.box(scan.best_point), search, static_cast<std::uint32_t>(scan.best_point), threads);
+  refinement.polish();
+  return std::move(refinement).take();
+}
+
+}  // namespace torquescope

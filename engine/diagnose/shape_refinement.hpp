@@ -1,0 +1,46 @@
+#pragma once
+// The shape of one effect that explains most of the mismatch: a population search in the shapes alone, the linear
+// parameters solved inside (variable projection), then Levenberg-Marquardt from the best.
+//
+// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter too
+// Polish     steps of the mismatch on [columns | tangents of the shapes], damped, inside the bounds of the effect
+// Evaluation one evaluation = columns of the effect at one shape through the filter
+// Same bits  for any number of threads: members of a population are independent, random numbers addressed
+// Threads    spreads the members of a generation over `threads`
+// Source     Golub, Pereyra 1973; LESSONS item 11 of our own prototype; Levenberg 1944, Marquardt 1963
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/diagnose/candidate_scan.hpp"
+#include "engine/optim/optimiser.hpp"
+
+namespace torquescope {
+
+using MakeShapeSearch = std::function<std::unique_ptr<Optimiser>(Bounds const&, RandomKey)>;
+
+struct ShapeSearch {
+  MakeShapeSearch make{};
+  int generations = 8;
+  std::uint64_t seed = 0;
+};
+
+// the registry's optimiser of that name with a population for few dimensions
+ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed);
+
+struct RefinedEffect {
+  Effect const* effect = nullptr;
+  std::vector<double> shape{};
+  Eigen::VectorXd parameters{};  // linear
+  double gain = 0.0;             // energy of `mismatch` explained, signs kept
+  bool at_bound = false;         // a shape ended on its bound
+  std::int64_t evaluations = 0;
+};
+
+// mismatch: n rows
+RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
+                           ShapeSearch const& search, int threads);
+
+}  // namespace torquescope
