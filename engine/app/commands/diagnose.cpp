@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -30,19 +31,36 @@ struct DiagnoseArguments {
   bool all = false;
 };
 
-// the last word of every stage, in their order
-class StageTimes {
+// what each stage did in all: twins are made again after every effect that is named, so stages come and go
+class StageTotals {
  public:
   void note(ProgressUpdate const& update) {
-    if (stages_.empty() || stages_.back().stage != update.stage)
-      stages_.push_back(update);
-    else
-      stages_.back() = update;
+    if (update.stage != current_.stage) close();
+    current_ = update;
   }
-  std::vector<ProgressUpdate> const& stages() const { return stages_; }
+
+  // in the order in which they came first
+  std::vector<ProgressUpdate> const& finish() {
+    close();
+    return totals_;
+  }
 
  private:
-  std::vector<ProgressUpdate> stages_;
+  void close() {
+    if (current_.stage.empty()) return;
+    auto const known = std::find_if(totals_.begin(), totals_.end(),
+                                    [this](ProgressUpdate const& total) { return total.stage == current_.stage; });
+    if (known == totals_.end()) {
+      totals_.push_back(current_);
+    } else {
+      known->runs_done += current_.runs_done;
+      known->seconds += current_.seconds;
+    }
+    current_ = {};
+  }
+
+  std::vector<ProgressUpdate> totals_;
+  ProgressUpdate current_{};
 };
 
 void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
@@ -64,8 +82,8 @@ void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   }
 }
 
-void print_stages(Session const& session, StageTimes const& times) {
-  for (auto const& stage : times.stages())
+void print_stages(Session const& session, std::vector<ProgressUpdate> const& stages) {
+  for (auto const& stage : stages)
     session.note(session.topic_line(stage.stage, fmt::format("{} {}, {}", count_text(stage.runs_done), stage.counted,
                                                              seconds_text(stage.seconds))));
 }
@@ -107,17 +125,17 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.stop_requested = stop_requested;
   print_before_start(session, experiment, request.threads);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
-  StageTimes times;
+  StageTotals totals;
   Diagnosis diagnosis;
   {
     ProgressPrinter print_progress(progress_settings(session));
     diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
-      times.note(update);
+      totals.note(update);
       print_progress(update);
     });
   }
   print_baseline(session, diagnosis);
-  print_stages(session, times);
+  print_stages(session, totals.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
   print_whereabouts(session, "wrote", output);
   // whatever the verdict: the diagnosis itself succeeded

@@ -58,8 +58,10 @@ class DiagnoseCommand : public ::testing::Test {
     ChosenCommand chosen;
     add_diagnose(app, chosen, [this](auto const& experiment, auto const& request, auto const& progress) {
       ++diagnosed;
-      progress({"twins", 200, 200, 0, 0, 21.4, "twins"});
+      progress({"twins", 100, 200, 0, 0, 7.0, "twins"});
+      progress({"twins", 200, 200, 0, 0, 14.0, "twins"});
       progress({"search", 34, 34, 0, 0, 8.8, "effects"});
+      progress({"twins", 200, 200, 0, 0, 7.4, "twins"});  // again, with what was named
       return diagnose_into_file(experiment, request, [this] { return found; });
     });
     std::vector<std::string> words{"diagnose", (folder / "job.toml").string(), "--out", result().string()};
@@ -97,7 +99,7 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
   EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
   EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % unseen\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("twins    200 twins, 21.4 s\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("twins    400 twins, 21.4 s\n"));
   EXPECT_THAT(outcome.err, HasSubstr("search   34 effects, 8.8 s\n"));
   EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
 }
