@@ -46,6 +46,10 @@ void Session::result(std::string_view text) const {
   if (!options_.quiet && options_.json != "-") print(stdout, text);
 }
 
+void Session::verdict(std::string_view text) const {
+  if (options_.json != "-") print(stdout, text);
+}
+
 void Session::note(std::string_view text) const {
   if (!options_.quiet) print(stderr, text);
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Where the words of one command go: results to stdout, everything else to stderr, a JSON document to its place.
 //
-// Rule       --quiet silences results and notes, never errors; --json - leaves stdout to the document alone
+// Rule       --quiet silences results and notes, never errors and verdicts; --json - leaves stdout to the document alone
 // Errors     Error 74 when the JSON file or stdout cannot be written
 
 #include <string>
@@ -31,6 +31,7 @@ class Session {
   bool utf8() const { return utf8_; }
 
   void result(std::string_view text) const;      // stdout
+  void verdict(std::string_view text) const;     // stdout, also with --quiet
   void note(std::string_view text) const;        // stderr
   void document(std::string const& json) const;  // when --json was given
   void errors(std::vector<Problem> const& problems) const;

@@ -46,12 +46,12 @@ struct MismatchRegion {
 
 struct MapCell {
   double from = 0.0, to = 0.0;
-  Eigen::Index samples = 0;     // rows
-  double mean_residual = 0.0;   // torque; of a spectrum: amplitude
-  double twin_mean = 0.0;       // the same of the twins, averaged
-  double twin_std = 0.0;        // spread of one twin's mean residual
-  double z = 0.0;               // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
-  double after_z = unknown;     // the same with everything named in the model
+  Eigen::Index samples = 0;    // rows
+  double mean_residual = 0.0;  // torque; of a spectrum: amplitude
+  double twin_mean = 0.0;      // the same of the twins, averaged
+  double twin_std = 0.0;       // spread of one twin's mean residual
+  double z = 0.0;              // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
+  double after_z = unknown;    // the same with everything named in the model
   double after_residual = unknown;
 };
 
@@ -59,10 +59,10 @@ struct MapCell {
 struct MapAxis {
   std::string axis;  // word of SignatureAxis
   std::string unit;
-  bool is_spectrum = false;         // frequency, order: one-sided, cells hold power
+  bool is_spectrum = false;  // frequency, order: one-sided, cells hold power
   std::vector<MapCell> cells{};
-  double energy_share = 0.0;        // of the residual, beyond what the twins have on this axis
-  double p = 1.0;                   // of that share, from the twins
+  double energy_share = 0.0;  // of the residual, beyond what the twins have on this axis
+  double p = 1.0;             // of that share, from the twins
   std::vector<MismatchRegion> regions{};
 };
 
@@ -74,11 +74,11 @@ struct Candidate {
   std::string name;
   std::string family;
   double z = 0.0, p = 1.0, q = 1.0;
-  double gain = 0.0;             // share of the mismatch (residual beyond the twins) it explains, at its best shape
-  double cv_gain = unknown;      // the same on blocks it was not fitted to
-  double chance_z = unknown;     // the largest z that 95 % of the twins stay below
+  double gain = 0.0;          // share of the mismatch (residual beyond the twins) it explains, at its best shape
+  double cv_gain = unknown;   // the same on blocks it was not fitted to
+  double chance_z = unknown;  // the largest z that 95 % of the twins stay below
   Decision decision = Decision::rejected;
-  std::string reason{};          // one clause: why this decision
+  std::string reason{};  // one clause: why this decision
 };
 
 struct EffectGain {
@@ -87,25 +87,25 @@ struct EffectGain {
 
 // a curve to draw: the effect against its principal axis
 struct EffectCurve {
-  AxisInterval axis{};           // whole range drawn
-  std::vector<double> at{};      // cell centres
-  std::vector<double> partial{};  // mean of effect + what is left
+  AxisInterval axis{};             // whole range drawn
+  std::vector<double> at{};        // cell centres
+  std::vector<double> partial{};   // mean of effect + what is left
   std::vector<double> modelled{};  // mean of the effect
-  std::vector<double> spread{};   // of one twin's mean
+  std::vector<double> spread{};    // of one twin's mean
 };
 
 struct NamedEffect {
   std::string name;
   std::string family;
-  std::string title;                      // of the effect, for people
+  std::string title;  // of the effect, for people
   std::string equation;
   std::string acts_on;                    // word of ActsOn
   std::vector<std::string> equivalent{};  // effects that fit as well
   double p = 1.0, q = 1.0, z = 0.0;       // at the step at which it was accepted
   bool p_is_bound = false;                // no twin reached it: p is an upper bound
   EffectGain gain{};
-  AxisInterval region{};                  // where 80 % of its energy lies
-  double rms = unknown, peak = unknown;   // torque, on the rows
+  AxisInterval region{};                 // where 80 % of its energy lies
+  double rms = unknown, peak = unknown;  // torque, on the rows
   std::vector<ParameterEstimate> parameters{};
   std::string sentence{};
   EffectCurve curve{};
@@ -151,28 +151,31 @@ struct JointDiagnosis {
   std::vector<NamedEffect> effects{};   // in the order of acceptance
   std::vector<ParameterEstimate> augmented{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
-  double floor_relerr = unknown;             // what a complete model would leave, unseen recording (or training)
+  double floor_relerr = unknown;  // what a complete model would leave, unseen recording (or training)
   double train_floor_relerr = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::vector<ExcitationAdvice> excitation{};
-  std::vector<std::string> nuisances{};      // what was refitted on the head of the unseen recording
-  std::vector<TorqueTrace> traces{};         // the unseen recordings, else the training ones
+  std::vector<std::string> nuisances{};  // what was refitted on the head of the unseen recording
+  std::vector<TorqueTrace> traces{};     // the unseen recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
-  std::string loop_source;                   // "identified", "approximated", "tracking"
+  std::string loop_source;  // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
   std::size_t twins = 0;
-  double omnibus_z = 0.0, omnibus_p = 1.0;   // of the whole mismatch, before anything was named
-  double mismatch_rms = 0.0;                 // torque beyond the twins
-  double left_rms = 0.0;                     // the same with everything named in the model
-  std::vector<double> twin_energy{};         // residual energy of each twin over that of the recording
+  double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, before anything was named
+  double mismatch_rms = 0.0;                // torque beyond the twins
+  double left_rms = 0.0;                    // the same with everything named in the model
+  std::vector<double> twin_energy{};        // residual energy of each twin over that of the recording
+  std::string
+      power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
-  std::string reason;  // one sentence for a person
+  std::string reason;     // one sentence for a person
+  std::string finding{};  // data_fault, insufficient: what is wrong with the recording, a clause without full stop
   std::string way_out{};  // data_fault, insufficient: what to do
   std::vector<JointDiagnosis> joints{};
   std::uint64_t seed = 0;

@@ -22,6 +22,16 @@ Problem missing(Job const& job, std::string what, std::string help) {
   return problem;
 }
 
+// a job must have something to do
+void check_work(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
+  if (purpose == Experiment::Purpose::diagnose || !job.all("estimator").empty()) return;
+  bool const diagnoses = job.find("diagnose") != nullptr;
+  if (purpose == Experiment::Purpose::check && diagnoses) return;
+  std::string const write = "write [[estimator]] with name = \"ols\"";
+  problems.push_back(missing(job, "the job has no [[estimator]]",
+                             diagnoses ? write + ", or run it with `torquescope diagnose`" : write));
+}
+
 void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {
   bool const reads = !recording.train.empty();
   bool const simulates = job.find("simulate") != nullptr;
@@ -31,8 +41,6 @@ void check_sources(Job const& job, RecordingOptions const& recording, std::vecto
   if (reads && simulates)
     problems.push_back(problem_at(*job.find("simulate"), "", "the job has both recording.train and [simulate]",
                                   "remove one of them; `torquescope simulate` writes a recording that train can name"));
-  if (job.all("estimator").empty())
-    problems.push_back(missing(job, "the job has no [[estimator]]", "write [[estimator]] with name = \"ols\""));
 }
 
 std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> const& files,
@@ -97,7 +105,7 @@ Experiment::Experiment(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) 
 Experiment::Experiment(Experiment&&) noexcept = default;
 Experiment::~Experiment() = default;
 
-Experiment Experiment::load(std::filesystem::path const& job_file) {
+Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpose) {
   auto parts = std::make_unique<Parts>();
   parts->job = read_job(job_file);
   Job const& job = parts->job;
@@ -112,10 +120,14 @@ Experiment Experiment::load(std::filesystem::path const& job_file) {
   auto const recording = read_options<RecordingOptions>(job, problems);
   auto const model = read_options<ModelOptions>(job, problems);
   check_sources(job, recording, problems);
+  check_work(job, purpose, problems);
+  parts->diagnose = read_options<DiagnoseOptions>(job, problems);
   parts->estimators = plan_estimators(job.all("estimator"), problems);
   try {
     parts->regressor = make_regressor(model, section_or_empty(job, "model"));
     parts->box = read_search_box(parts->regressor->names(), job.find("model.bounds"), problems);
+    parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,
+                                    section_or_empty(job, "diagnose"), problems);
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   }

@@ -12,6 +12,7 @@
 #include "engine/optim/optimiser.hpp"
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/loss.hpp"
+#include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/simulate/simulation_plan.hpp"
 
@@ -106,6 +107,7 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<ControllerOptions>(entries);
   add_section<EncoderOptions>(entries);
   add_section<NoiseOptions>(entries);
+  add_section<DiagnoseOptions>(entries);
   add_section<OutputOptions>(entries);
 }
 

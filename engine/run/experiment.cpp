@@ -67,6 +67,12 @@ std::string Experiment::job_line() const {
                      fmt::join(labels, ", "), counted(runs, "run"));
 }
 
+std::string Experiment::diagnose_line() const {
+  return fmt::format("{}: 1 joint, {}; {}, {}", name(), counted(parts_->regressor->size(), "parameter"),
+                     counted(parts_->effects.size(), "effect"),
+                     counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"));
+}
+
 std::string Experiment::data_line() const {
   auto const& recordings = parts_->train.recordings;
   std::string line = recordings.size() == 1 ? recordings.front().name : counted(recordings.size(), "recording");
@@ -115,6 +121,11 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   else
     lines.push_back({Level::warn, "separable", parts_->health.words});
 
+  if (parts_->job.find("diagnose") != nullptr)
+    lines.push_back({Level::ok, "diagnosis",
+                     fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),
+                                 counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"))});
+  if (parts_->estimators.empty()) return lines;
   double evaluations = 0.0, bytes = 0.0;
   auto const parameters = static_cast<double>(parts_->regressor->size());
   for (auto const& plan : parts_->estimators) {

@@ -18,6 +18,7 @@
 #include "engine/optim/objective.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
+#include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/workflows.hpp"
 
@@ -41,8 +42,10 @@ struct Experiment::Parts {
   std::optional<DataSet> validate;
   RegressorHealth health;
   Bounds box;
-  Eigen::VectorXd truth;  // NaN where unknown
-  std::vector<EstimatorPlan> estimators;
+  Eigen::VectorXd truth;                  // NaN where unknown
+  std::vector<EstimatorPlan> estimators;  // may be empty unless loaded for identify
+  DiagnoseOptions diagnose;
+  std::vector<Effect const*> effects;  // a diagnosis looks for
 };
 
 }  // namespace torquescope

@@ -1,18 +1,15 @@
 // `torquescope run`: every estimator of a job over the recordings, every generation into the result file.
 
-#include <unistd.h>
-
 #include <atomic>
 #include <chrono>
-#include <ctime>
 #include <mutex>
 
-#include "engine/base/version.hpp"
 #include "engine/effects/joint_form.hpp"
 #include "engine/problem/residual_objective.hpp"
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/optimise.hpp"
+#include "engine/run/provenance_writer.hpp"
 #include "engine/run/run_scheduler.hpp"
 #include "engine/run/study_writer.hpp"
 
@@ -23,20 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::string utc_now() {
-  std::time_t const now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-std::string host_name() {
-  char name[256] = {};
-  return gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
-}
 
 // tells the sink at most once per finished run and some times a second between
 class StageProgress {
@@ -153,21 +136,6 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   return results;
 }
 
-void write_provenance(ResultWriter& writer, IdentifyOptions const& options, std::string const& started,
-                      double seconds) {
-  std::string const group = "/provenance";
-  writer.attribute(group, "started", started);
-  writer.attribute(group, "finished", utc_now());
-  writer.attribute(group, "seconds", seconds);
-  writer.attribute(group, "host", host_name());
-  writer.attribute(group, "threads", std::int64_t{options.threads.count});
-  writer.attribute(group, "threads_reason", options.threads.reason);
-  writer.attribute(group, "vector_target", vector_target());
-  writer.attribute(group, "version", std::string(version));
-  writer.attribute(group, "compiler", std::string(compiler));
-  writer.attribute(group, "build_type", std::string(build_type));
-}
-
 }  // namespace
 
 IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress) {
@@ -192,7 +160,7 @@ IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& opt
   }
   writer.attribute("/runs", "order", order);
   report.seconds = seconds_since(start);
-  write_provenance(writer, options, started, report.seconds);
+  write_provenance(writer, options.threads, started, report.seconds);
   report.content_sha256 = writer.finish();
   report.bytes = std::filesystem::file_size(options.output);
   return report;

@@ -17,6 +17,7 @@ std::vector<std::string> const& known_sections() {
                                               "simulate.controller",
                                               "simulate.encoder",
                                               "simulate.noise",
+                                              "diagnose",
                                               "output"};
   return names;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the commands do, without a word of terminal: load, check, identify, simulate. The app layer prints.
+// What the commands do, without a word of terminal: load, check, identify, diagnose, simulate. The app layer prints.
 //
 // Errors     Error with the exit codes of error.hpp; every problem of a job at once
 // Threads    identify() spreads runs over threads itself; call it from one thread
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/parallel.hpp"
+#include "engine/diagnose/diagnosis.hpp"
 
 namespace torquescope {
 
@@ -29,14 +30,18 @@ struct CheckLine {
 // a job that was read, checked and turned into objects (recordings are read, nothing has run)
 class Experiment {
  public:
+  // what a job is loaded for decides what it must have: [[estimator]] to identify, nothing more to diagnose; to check it,
+  // [[estimator]] or [diagnose]
+  enum class Purpose { identify, diagnose, check };
   // Errors: 66, 65, 78 with everything that can be refused before starting
-  static Experiment load(std::filesystem::path const& job_file);
+  static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
   Experiment(Experiment&&) noexcept;
   ~Experiment();
 
   std::string const& name() const;
-  std::string job_line() const;   // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
-  std::string data_line() const;  // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
+  std::string job_line() const;       // "crs_a465_joint: 1 joint, 4 parameters; ols, de, fade; 61 runs"
+  std::string diagnose_line() const;  // "lab_joint_3: 1 joint, 4 parameters; 34 effects, 200 twins"
+  std::string data_line() const;      // "simulated, 2000 samples, 10 s at 200 Hz; cutoff 20 Hz"
   std::uint64_t seed() const;
   std::string inputs_sha256() const;  // of the job's text and every recording: two results of equal inputs are equal
   std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
@@ -56,7 +61,8 @@ struct ProgressUpdate {
   std::string stage;  // estimator's name
   std::int64_t runs_done = 0, runs_total = 0;
   std::int64_t evaluations_done = 0, evaluations_total = 0;
-  double seconds = 0.0;  // since the stage began
+  double seconds = 0.0;          // since the stage began
+  std::string counted = "runs";  // what is counted as runs: "twins", "effects"
 };
 using ProgressSink = std::function<void(ProgressUpdate const&)>;
 
@@ -76,6 +82,15 @@ struct IdentifyReport {
 
 // runs every estimator of the job and writes the result file
 IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress);
+
+struct DiagnoseRequest {
+  ThreadChoice threads{};
+  std::filesystem::path output{};
+  std::function<bool()> stop_requested{};  // polled between twins and effects; true: Error 75, nothing published
+};
+
+// finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify"
+Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // makes the recording that the job's [simulate] describes; CSV or HDF5 by the ending of `output`
 struct SimulateReport {

@@ -45,7 +45,7 @@ std::string check_json(Experiment const& experiment, std::string const& job, std
 }
 
 ExitCode check_job(std::string const& job, Session const& session) {
-  Experiment const experiment = Experiment::load(job);
+  Experiment const experiment = Experiment::load(job, Experiment::Purpose::check);
   auto const lines = experiment.check(choose_threads(0).count);
   session.result(check_text(lines, session.result_ink()));
   session.document(check_json(experiment, job, lines));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/app/session.hpp"
+#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 
@@ -21,6 +22,9 @@ struct ChosenCommand {
 };
 
 void add_run(CLI::App& app, ChosenCommand& chosen);
+// `diagnose` does the work: the program's is diagnose() of run/workflows.hpp, tests bring their own
+using DiagnoseWork = std::function<Diagnosis(Experiment const&, DiagnoseRequest const&, ProgressSink const&)>;
+void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose);
 void add_simulate(CLI::App& app, ChosenCommand& chosen);
 void add_check(CLI::App& app, ChosenCommand& chosen);
 void add_show(CLI::App& app, ChosenCommand& chosen);

@@ -1,18 +1,16 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <chrono>
 #include <memory>
-#include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/result/finished_result.hpp"
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
 #include "engine/app/result/result_tables.hpp"
-#include "engine/app/terminal/environment.hpp"
+#include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/run/workflows.hpp"
@@ -26,31 +24,6 @@ struct RunArguments {
   std::string out{};
   int threads = 0;  // 0: not given
 };
-
-Error output_exists(std::filesystem::path const& output, std::string const& why) {
-  Problem problem;
-  problem.code = ExitCode::exists;
-  problem.what = fmt::format("{} exists and {}", output.string(), why);
-  problem.help = fmt::format("--out another name, or delete {}", output.string());
-  return Error(problem);
-}
-
-// whether this very job, on these very recordings, has already made the output; Error 73 when something else did
-bool already_complete(std::filesystem::path const& output, std::string const& inputs_sha256) {
-  std::error_code ignored;
-  auto const status = std::filesystem::symlink_status(output, ignored);
-  if (!std::filesystem::exists(status)) return false;
-  if (std::filesystem::is_directory(status)) throw output_exists(output, "is a folder");
-  std::string made_by;
-  try {
-    made_by = read_summary(output).inputs_sha256;
-  } catch (Error const& error) {
-    throw output_exists(output, "is no complete result file: " + error.problems().front().what);
-  }
-  if (made_by != inputs_sha256)
-    throw output_exists(output, "was made by another job, or from other recordings (sha256 differs)");
-  return true;
-}
 
 void print_results(Session const& session, ResultSummary const& summary) {
   session.note("\n");
@@ -66,24 +39,11 @@ void print_whereabouts(Session const& session, std::string const& word, ResultSu
   session.note(fmt::format("look   torquescope report {}\n", ink.name(file)));
 }
 
-ProgressPrinter::Settings progress_settings(Session const& session) {
-  ProgressPrinter::Settings settings;
-  settings.style = progress_style(session.options().progress, progress_facts(session.options().quiet));
-  settings.write = [&session](std::string const& text) { session.note(text); };
-  settings.width = [] { return terminal_width(STDERR_FILENO); };
-  settings.clock = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
-  settings.utf8 = session.utf8();
-  return settings;
-}
-
 void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
   session.note(session.topic_line("job", experiment.job_line()));
   session.note(session.topic_line("data", experiment.data_line()));
-  session.note(
-      session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason, vector_target(),
-                                                            experiment.seed())));
+  session.note(session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason,
+                                                         vector_target(), experiment.seed())));
   if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
   for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
 }
@@ -93,7 +53,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 
-  if (already_complete(output, experiment.inputs_sha256())) {
+  if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs)) {
     session.note(session.topic_line("job", experiment.job_line()));
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);

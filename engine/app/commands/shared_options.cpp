@@ -46,7 +46,7 @@ void add_progress_option(CLI::App& command, ChosenCommand& chosen) {
 }
 
 void add_quiet_option(CLI::App& command, ChosenCommand& chosen) {
-  command.add_flag("--quiet", chosen.session.quiet, "print nothing but errors")->group("terminal");
+  command.add_flag("--quiet", chosen.session.quiet, "print nothing but errors and verdicts")->group("terminal");
 }
 
 void add_json_option(CLI::App& command, ChosenCommand& chosen) {

@@ -4,17 +4,38 @@
 #include <memory>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
 #include "engine/app/result/result_tables.hpp"
+#include "engine/run/diagnosis_reader.hpp"
 
 namespace torquescope {
 
 namespace {
 
-ExitCode show_result(std::string const& file, Session const& session) {
-  ResultSummary const summary = read_summary(file);
+struct ShowArguments {
+  std::string file;
+  bool all = false;
+};
+
+void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments, Session const& session) {
+  ResultReader const reader(summary.file);
+  Diagnosis const diagnosis = read_diagnosis(reader);
   Ink const& ink = session.result_ink();
+  session.verdict(verdict_text(diagnosis, session.utf8(), ink));
+  session.result(evidence_text(diagnosis, {.all_candidates = arguments.all, .utf8 = session.utf8()}, ink));
+  session.result("\n" + diagnosed_model_text(diagnosis, ink) + "\n" + origin_lines(summary, ink));
+  session.document(read_verdict_json(reader));
+}
+
+ExitCode show_result(ShowArguments const& arguments, Session const& session) {
+  ResultSummary const summary = read_summary(arguments.file);
+  Ink const& ink = session.result_ink();
+  if (summary.has_diagnosis) {
+    show_diagnosis(summary, arguments, session);
+    return ExitCode::ok;
+  }
   session.result(result_table(summary, ink) + paper_tables(summary, ink));
   session.result("\n" + estimator_lines(summary, ink) + "\n" + origin_lines(summary, ink));
   session.document(result_json(summary));
@@ -24,18 +45,20 @@ ExitCode show_result(std::string const& file, Session const& session) {
 }  // namespace
 
 void add_show(CLI::App& app, ChosenCommand& chosen) {
-  auto const file = std::make_shared<std::string>();
+  auto const arguments = std::make_shared<ShowArguments>();
   CLI::App* command = app.add_subcommand("show", "Prints the tables of a result file and how it was made.");
   command->footer(
       "  torquescope show crs_a465_joint.h5\n"
       "  torquescope show lab.h5 --json lab.json\n"
       "  torquescope show lab.h5 --json - | jq .estimators[0].parameters\n");
-  command->add_option("R.h5", *file, "result file of torquescope run, HDF5")->required();
+  command->add_option("R.h5", arguments->file, "result file of torquescope run or diagnose, HDF5")->required();
+  command->add_flag("--all", arguments->all, "of a diagnosis, every effect that was weighed")->group("results");
   add_json_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);
-  command->callback(
-      [file, &chosen] { chosen.work = [file](Session const& session) { return show_result(*file, session); }; });
+  command->callback([arguments, &chosen] {
+    chosen.work = [arguments](Session const& session) { return show_result(*arguments, session); };
+  });
 }
 
 }  // namespace torquescope

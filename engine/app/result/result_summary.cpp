@@ -143,8 +143,11 @@ ResultSummary read_summary(std::filesystem::path const& file) {
   summary.train = read_data(reader, "/data/train");
   summary.has_validation = reader.exists("/data/validate");
   if (summary.has_validation) summary.validation = read_data(reader, "/data/validate");
-  for (auto const& name : reader.attribute<std::vector<std::string>>("/runs", "order"))
-    summary.estimators.push_back(read_estimator(reader, name, summary.names.size()));
+  summary.has_diagnosis = reader.exists("/diagnosis");
+  // a diagnosis has no runs; any other result without them is damaged
+  if (!summary.has_diagnosis || reader.exists("/runs"))
+    for (auto const& name : reader.attribute<std::vector<std::string>>("/runs", "order"))
+      summary.estimators.push_back(read_estimator(reader, name, summary.names.size()));
   summary.provenance = read_provenance(reader);
   return summary;
 }

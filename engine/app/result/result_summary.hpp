@@ -54,7 +54,8 @@ struct ResultSummary {
   DataSummary train;
   bool has_validation = false;
   DataSummary validation;
-  std::vector<EstimatorSummary> estimators;  // in the order of the job
+  std::vector<EstimatorSummary> estimators;  // in the order of the job; none in a diagnosis
+  bool has_diagnosis = false;
   ProvenanceSummary provenance;
 
   std::int64_t runs() const;  // of all estimators

@@ -79,7 +79,7 @@ std::string progress_line(ProgressUpdate const& update) {
 
 std::string progress_bar(ProgressUpdate const& update, int width, bool utf8) {
   std::string const lead = pad_right(printable(update.stage), 8) + " ";
-  std::string tail = fmt::format("  {}/{} runs", update.runs_done, update.runs_total);
+  std::string tail = fmt::format("  {}/{} {}", update.runs_done, update.runs_total, update.counted);
   if (update.seconds > 0.0 && update.evaluations_done > 0)
     tail += fmt::format("   {} eval/s", short_rate(static_cast<double>(update.evaluations_done) / update.seconds));
   if (auto const left = seconds_left(update)) tail += fmt::format("   {} left", clock_text(*left));

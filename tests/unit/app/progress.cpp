@@ -103,6 +103,13 @@ TEST(ProgressBar, IsErasedWithoutEscapeSequences) {
   for (auto const& text : watched.text) EXPECT_THAT(text, Not(HasSubstr("\x1b")));
 }
 
+TEST(ProgressBar, SaysWhatItCounts) {
+  ProgressUpdate now{"twins", 120, 200, 0, 0, 1.0};
+  now.counted = "twins";
+  EXPECT_NE(progress_bar(now, 80, true).find("120/200 twins"), std::string::npos);
+  EXPECT_EQ(progress_line(now), "progress stage=twins runs=120/200 evals=0/0\n");  // keys are for programs: they stay
+}
+
 TEST(ProgressBar, WipesWhatALongerOneLeftBehind) {
   Watched watched(ProgressStyle::bar);
   watched.printer({"a_rather_long_stage_name", 3, 30, 9000, 90000, 60.0});

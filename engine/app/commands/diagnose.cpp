@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/result/diagnosis_text.hpp"
+#include "engine/app/result/finished_result.hpp"
+#include "engine/app/session_progress.hpp"
+#include "engine/app/terminal/interrupt.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/base/quantity_text.hpp"
+#include "engine/run/diagnosis_json.hpp"
+#include "engine/run/diagnosis_reader.hpp"
+
+namespace torquescope {
+
+namespace {
+
+struct DiagnoseArguments {
+  std::string job;
+  std::string out{};
+  int threads = 0;  // 0: not given
+  bool all = false;
+};
+
+// what each stage did in all: twins are made again after every effect that is named, so stages come and go
+class StageTotals {
+ public:
+  void note(ProgressUpdate const& update) {
+    if (update.stage != current_.stage) close();
+    current_ = update;
+  }
+
+  // in the order in which they came first
+  std::vector<ProgressUpdate> const& finish() {
+    close();
+    return totals_;
+  }
+
+ private:
+  void close() {
+    if (current_.stage.empty()) return;
+    auto const known = std::find_if(totals_.begin(), totals_.end(),
+                                    [this](ProgressUpdate const& total) { return total.stage == current_.stage; });
+    if (known == totals_.end()) {
+      totals_.push_back(current_);
+    } else {
+      known->runs_done += current_.runs_done;
+      known->seconds += current_.seconds;
+    }
+    current_ = {};
+  }
+
+  std::vector<ProgressUpdate> totals_;
+  ProgressUpdate current_{};
+};
+
+void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
+  session.note(session.topic_line("job", experiment.diagnose_line()));
+  session.note(session.topic_line("data", experiment.data_line()));
+  session.note(session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason,
+                                                         vector_target(), experiment.seed())));
+  if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
+  for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
+}
+
+void print_baseline(Session const& session, Diagnosis const& diagnosis) {
+  for (auto const& joint : diagnosis.joints) {
+    std::string line =
+        fmt::format("{} parameters; error {} train", joint.baseline.size(), percent_text(joint.train_relerr));
+    if (std::isfinite(joint.validation_relerr))
+      line += fmt::format(", {} unseen", percent_text(joint.validation_relerr));
+    session.note(session.topic_line("baseline", line));
+  }
+}
+
+void print_stages(Session const& session, std::vector<ProgressUpdate> const& stages) {
+  for (auto const& stage : stages)
+    session.note(session.topic_line(stage.stage, fmt::format("{} {}, {}", count_text(stage.runs_done), stage.counted,
+                                                             seconds_text(stage.seconds))));
+}
+
+void print_diagnosis(Session const& session, Diagnosis const& diagnosis, std::string const& json, bool all) {
+  session.note("\n");
+  session.verdict(verdict_text(diagnosis, session.utf8(), session.result_ink()));
+  session.result(evidence_text(diagnosis, {.all_candidates = all, .utf8 = session.utf8()}, session.result_ink()));
+  session.document(json);
+}
+
+void print_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& output) {
+  Ink const& ink = session.note_ink();
+  std::string const file = ink.name(printable(output.string()));
+  std::string line = fmt::format("{}{}  {}", pad_right(word, 7), file, bytes_text(std::filesystem::file_size(output)));
+  std::string const& json = session.options().json;
+  if (!json.empty() && json != "-") line += ", " + ink.name(printable(json));
+  session.note(line + "\n");
+  session.note(fmt::format("look   torquescope report {}\n", file));
+}
+
+ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
+  Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
+  std::filesystem::path const output =
+      arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
+
+  if (already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) {
+    session.note(session.topic_line("job", experiment.diagnose_line()));
+    session.note(session.topic_line("done", "already diagnosed: nothing runs again"));
+    ResultReader const reader(output);
+    print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
+    print_whereabouts(session, "kept", output);
+    return ExitCode::ok;
+  }
+
+  DiagnoseRequest request;
+  request.threads = choose_threads(arguments.threads);
+  request.output = output;
+  request.stop_requested = stop_requested;
+  print_before_start(session, experiment, request.threads);
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  StageTotals totals;
+  Diagnosis diagnosis;
+  {
+    ProgressPrinter print_progress(progress_settings(session));
+    diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
+      totals.note(update);
+      print_progress(update);
+    });
+  }
+  print_baseline(session, diagnosis);
+  print_stages(session, totals.finish());
+  print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
+  print_whereabouts(session, "wrote", output);
+  // whatever the verdict: the diagnosis itself succeeded
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_work) {
+  auto const arguments = std::make_shared<DiagnoseArguments>();
+  CLI::App* command = app.add_subcommand(
+      "diagnose",
+      "Finds the physics that a job's model lacks: where, which, how sure, and what it buys on unseen data.");
+  command->footer(
+      "  torquescope diagnose jobs/lab_joint_3.toml\n"
+      "  torquescope diagnose lab.toml --all --out lab_diagnosis.h5\n"
+      "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n");
+  command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
+  command->add_option("--out", arguments->out, "result file, HDF5 [NAME.h5 in this folder]")
+      ->type_name("R.h5")
+      ->group("results");
+  add_json_option(*command, chosen);
+  command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
+  command->add_option("--threads", arguments->threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
+      ->type_name("N")
+      ->check(whole_number_from_one())
+      ->group("machine");
+  add_progress_option(*command, chosen);
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback([arguments, &chosen, diagnose_work = std::move(diagnose_work)] {
+    chosen.work = [arguments, diagnose_work](Session const& session) {
+      return diagnose_job(*arguments, session, diagnose_work);
+    };
+  });
+}
+
+}  // namespace torquescope

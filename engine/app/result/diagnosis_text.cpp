@@ -1,0 +1,262 @@
+#include "engine/app/result/diagnosis_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/app/terminal/table.hpp"
+#include "engine/base/quantity_text.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr int lead_columns = 7;  // "where  ", "what   ", "next   "
+constexpr std::size_t candidates_shown = 3;
+constexpr std::size_t spark_places = 16;
+constexpr double quiet_z = 4.0;  // a row without a stronger cell stays low
+
+struct VerdictWords {
+  char const* mark;
+  char const* word;
+};
+
+VerdictWords words_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::none:
+      return {"○", "NOTHING MISSING"};
+    case Verdict::named:
+      return {"●", "NAMED"};
+    case Verdict::one_of_class:
+      return {"◍", "ONE OF A CLASS"};
+    case Verdict::unexplained:
+      return {"◌", "UNEXPLAINED"};
+    case Verdict::insufficient:
+      return {"▽", "INSUFFICIENT"};
+    case Verdict::data_fault:
+      return {"✕", "DATA FAULT"};
+  }
+  return {"", ""};
+}
+
+bool needs_care(Verdict verdict) {
+  return verdict == Verdict::unexplained || verdict == Verdict::insufficient || verdict == Verdict::data_fault;
+}
+
+constexpr std::array<std::pair<char const*, char const*>, 3> kept_together{
+    {{" %", "\u00A0%"}, {"p < ", "p\u00A0<\u00A0"}, {"p = ", "p\u00A0=\u00A0"}}};
+
+std::string with_each(std::string text, std::string const& old_words, std::string const& new_words) {
+  for (std::size_t at = 0; (at = text.find(old_words, at)) != std::string::npos; at += new_words.size())
+    text.replace(at, old_words.size(), new_words);
+  return text;
+}
+
+std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
+
+std::string joined(std::vector<std::string> const& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + printable(names[i]);
+  return text;
+}
+
+// the strongest z of each place; NaN where no cell holds a sample
+std::array<double, spark_places> strengths(MapAxis const& axis) {
+  std::array<double, spark_places> strongest;
+  strongest.fill(std::nan(""));
+  for (std::size_t i = 0; i < axis.cells.size(); ++i) {
+    MapCell const& cell = axis.cells[i];
+    if (cell.samples == 0 || !std::isfinite(cell.z)) continue;
+    double const size = axis.is_spectrum ? std::max(0.0, cell.z) : std::abs(cell.z);
+    double& place = strongest[i * spark_places / axis.cells.size()];
+    place = std::isnan(place) ? size : std::max(place, size);
+  }
+  return strongest;
+}
+
+std::string sparkline(MapAxis const& axis, bool utf8) {
+  constexpr std::array<char const*, 8> blocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  constexpr std::array<char const*, 8> letters{"_", ".", "-", "=", "+", "*", "%", "#"};
+  auto const places = strengths(axis);
+  double highest = quiet_z;
+  for (double place : places)
+    if (place > highest) highest = place;
+  std::string text;
+  for (double place : places) {
+    if (std::isnan(place)) {
+      text += " ";
+      continue;
+    }
+    auto const level = std::min<std::size_t>(7, static_cast<std::size_t>(8.0 * place / highest));
+    text += utf8 ? blocks[level] : letters[level];
+  }
+  return text;
+}
+
+std::string axis_title(std::string const& axis) {
+  std::string title = printable(axis);
+  std::replace(title.begin(), title.end(), '_', ' ');
+  // which reversal is the short form's only question
+  return title == "since velocity reversal" ? "since reversal" : title;
+}
+
+std::string where_text(JointDiagnosis const& joint, bool utf8) {
+  if (joint.map.empty()) return "";
+  std::vector<MapAxis const*> found;
+  for (auto const& axis : joint.map)
+    if (!axis.regions.empty() && !axis.cells.empty()) found.push_back(&axis);
+  std::stable_sort(found.begin(), found.end(),
+                   [](MapAxis const* a, MapAxis const* b) { return a->energy_share > b->energy_share; });
+
+  using Align = TextTable::Align;
+  TextTable table({Align::left, Align::right, Align::left, Align::left, Align::right}, std::string(lead_columns, ' '));
+  for (auto const* axis : found)
+    table.row({axis_title(axis->axis), two_digits(axis->cells.front().from), sparkline(*axis, utf8),
+               two_digits(axis->cells.back().to) + " " + printable(axis->unit),
+               std::isfinite(axis->energy_share) ? fmt::format("{:.0f} %", 100.0 * axis->energy_share) : ""});
+  std::string text = table.text(page_width);
+  // what the shares are shares of, where the first line has room for it
+  std::string const of = " of the residual";
+  std::size_t const end = std::min(text.find('\n'), text.size());
+  if (!found.empty() && columns_of(text.substr(0, end)) + columns_of(of) <= page_width) text.insert(end, of);
+
+  std::size_t const quiet = joint.map.size() - found.size();
+  if (quiet > 0)
+    text += fmt::format("{}{}{} {}: nothing beyond the clean twins\n", std::string(lead_columns, ' '), quiet,
+                        found.empty() ? "" : " more", quiet == 1 ? "axis" : "axes");
+  return lead("where") + text.substr(lead_columns);
+}
+
+std::string share_cell(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : ""; }
+
+std::string q_cell(double q) {
+  if (!std::isfinite(q)) return "";
+  return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
+}
+
+bool is_shown(std::vector<Candidate> const& candidates, std::size_t i, bool all) {
+  Decision const decision = candidates[i].decision;
+  return all || i < candidates_shown || (decision != Decision::rejected && decision != Decision::not_tested);
+}
+
+std::string candidate_table(JointDiagnosis const& joint, bool all, bool with_family) {
+  using Align = TextTable::Align;
+  double const least_p = joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
+  std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
+                             Align::right, Align::right, Align::left};
+  if (!with_family) columns.erase(columns.begin() + 1);
+  TextTable table(columns, std::string(lead_columns, ' '));
+  auto const row = [&](std::vector<std::string> cells) {
+    if (!with_family) cells.erase(cells.begin() + 1);
+    table.row(std::move(cells));
+  };
+  row({"effect", "family", "z", "p", "q", "CV gain", ""});
+  for (std::size_t i = 0; i < joint.candidates.size(); ++i) {
+    if (!is_shown(joint.candidates, i, all)) continue;
+    Candidate const& one = joint.candidates[i];
+    bool const tested = one.decision != Decision::not_tested;
+    row({printable(one.name), printable(one.family), tested && std::isfinite(one.z) ? fmt::format("{:.1f}", one.z) : "",
+         tested ? p_cell(one.p, false, least_p) : "", tested ? q_cell(one.q) : "", share_cell(one.cv_gain),
+         word(one.decision)});
+  }
+  // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping
+  return table.text(4 * page_width);
+}
+
+bool fits_page(std::string const& text) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t const end = std::min(text.find('\n', begin), text.size());
+    if (columns_of(text.substr(begin, end - begin)) > page_width) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
+std::string what_text(JointDiagnosis const& joint, bool all) {
+  if (joint.candidates.empty()) return "";
+  std::string text = candidate_table(joint, all, true);
+  if (!fits_page(text)) text = candidate_table(joint, all, false);
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < joint.candidates.size(); ++i) hidden += is_shown(joint.candidates, i, all) ? 0 : 1;
+  if (hidden > 0)
+    text += std::string(lead_columns, ' ') + pad_right(fmt::format("{} more below these", hidden), 48) +
+            "(--all shows them)\n";
+  return lead("what") + text.substr(lead_columns);
+}
+
+std::string next_text(JointDiagnosis const& joint) {
+  std::string text;
+  for (auto const& advice : joint.excitation) {
+    std::string line = printable(advice.lacks);
+    if (advice.would_separate.size() > 1) line += ": would tell " + joined(advice.would_separate) + " apart";
+    text += hanging(lead(text.empty() ? "next" : ""), line);
+  }
+  return text;
+}
+
+std::string interval_text(ParameterEstimate const& one) {
+  bool const known = std::isfinite(one.lower) && std::isfinite(one.upper);
+  return short_number(one.value) + (known ? " +- " + two_digits(0.5 * (one.upper - one.lower)) : "");
+}
+
+ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& parameters, std::string const& name) {
+  auto const found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](ParameterEstimate const& one) { return one.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
+  VerdictWords const words = words_of(diagnosis.verdict);
+  std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
+  std::string const inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
+  // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
+  std::string reason = printable(diagnosis.reason);
+  for (auto const& [loose, tight] : kept_together) reason = with_each(reason, loose, tight);
+  return with_each(hanging(inked + "  ", reason), "\u00A0", " ");
+}
+
+std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
+  std::string text;
+  for (auto const& joint : diagnosis.joints) {
+    std::string const part =
+        where_text(joint, options.utf8) + what_text(joint, options.all_candidates) + next_text(joint);
+    if (part.empty()) continue;
+    text += "\n";
+    if (diagnosis.joints.size() > 1) text += ink.bold(fmt::format("joint {}", joint.joint)) + "\n";
+    text += part;
+  }
+  return text;
+}
+
+std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
+  return verdict_text(diagnosis, options.utf8, ink) + evidence_text(diagnosis, options, ink);
+}
+
+std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
+  using Align = TextTable::Align;
+  std::string text;
+  for (auto const& joint : diagnosis.joints) {
+    if (joint.baseline.empty()) continue;
+    TextTable table({Align::left, Align::left, Align::left, Align::left}, "  ");
+    table.row({"parameter", "unit", "before", "after"});
+    auto const& after = joint.augmented.empty() ? joint.baseline : joint.augmented;
+    for (auto const& one : after) {
+      ParameterEstimate const* before = find_parameter(joint.baseline, one.name);
+      table.row({printable(one.name), printable(one.unit), before ? interval_text(*before) : "", interval_text(one)});
+    }
+    table.row({"error, train", "", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
+    table.row(
+        {"error, unseen", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
+    text += ink.bold(fmt::format("model of joint {} (+- 95 %)", joint.joint)) + "\n" + table.text(page_width);
+  }
+  return text;
+}
+
+}  // namespace torquescope

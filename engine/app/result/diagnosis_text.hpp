@@ -1,0 +1,31 @@
+#pragma once
+// A diagnosis as a page of at most 80 columns: the verdict, where the mismatch is, which effects were weighed, what to
+// record next (UX.md section 4).
+//
+// Marks      one per verdict, a star where the terminal has no UTF-8; the word beside it says the same
+// Sparkline  16 places along an axis, each the strongest |z| of its cells; blank where nothing was recorded
+// Threads    pure functions
+
+#include <string>
+
+#include "engine/app/terminal/colour.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+struct DiagnosisTextOptions {
+  bool all_candidates = false;  // else the three strongest and everything that was not rejected
+  bool utf8 = true;
+};
+
+// mark, word and reason: what `--quiet` leaves
+std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink);
+// where, what, next; begins with an empty line unless there is nothing to show
+std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);
+// both
+std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);
+
+// parameters of every joint before and after, with 95 % intervals
+std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink);
+
+}  // namespace torquescope

@@ -1,0 +1,44 @@
+#include "engine/app/result/finished_result.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "engine/app/result/result_summary.hpp"
+#include "engine/base/error.hpp"
+
+namespace torquescope {
+
+namespace {
+
+Error output_exists(std::filesystem::path const& output, std::string const& why) {
+  Problem problem;
+  problem.code = ExitCode::exists;
+  problem.what = fmt::format("{} exists and {}", output.string(), why);
+  problem.help = fmt::format("--out another name, or delete {}", output.string());
+  return Error(problem);
+}
+
+}  // namespace
+
+bool already_complete(std::filesystem::path const& output, std::string const& inputs_sha256, ResultKind kind) {
+  std::error_code ignored;
+  auto const status = std::filesystem::symlink_status(output, ignored);
+  if (!std::filesystem::exists(status)) return false;
+  if (std::filesystem::is_directory(status)) throw output_exists(output, "is a folder");
+  ResultSummary made;
+  try {
+    made = read_summary(output);
+  } catch (Error const& error) {
+    throw output_exists(output, "is no complete result file: " + error.problems().front().what);
+  }
+  if (made.inputs_sha256 != inputs_sha256)
+    throw output_exists(output, "was made by another job, or from other recordings (sha256 differs)");
+  bool const wants_diagnosis = kind == ResultKind::diagnosis;
+  if (wants_diagnosis != made.has_diagnosis)
+    throw output_exists(output, made.has_diagnosis ? "holds the diagnosis of this job, not its runs"
+                                                   : "holds the runs of this job, not its diagnosis");
+  return true;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,26 @@
+#pragma once
+// Numbers as a sentence or a table cell says them: few digits, never a false precision.
+//
+// Digits     two significant ones, never an exponent between 1e-6 and 1e6; unknown numbers are "?"
+// Threads    free functions
+
+#include <string>
+
+namespace torquescope {
+
+// "0.35", "12", "-0.0038", "150"
+std::string two_digits(double value);
+
+// "0.35 N m"; small lengths, angles and times take a milli: "3.8 ms", "0.2 mrad"
+std::string quantity_text(double value, std::string const& unit);
+
+// "12.1 %" of 0.121; below one percent two digits: "0.56 %"
+std::string percent_text(double share);
+
+// "p < 0.005" where the p-value is only known to lie below (is_bound, or below `least`, what so many twins can show);
+// "p = 0.41" otherwise. Never zero: a bound is rounded up to one digit
+std::string p_text(double p, bool is_bound, double least);
+// the same for a table: "<0.005", "0.41"
+std::string p_cell(double p, bool is_bound, double least);
+
+}  // namespace torquescope

@@ -1,0 +1,39 @@
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace torquescope {
+
+std::string word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::none:
+      return "none";
+    case Verdict::named:
+      return "named";
+    case Verdict::one_of_class:
+      return "class";
+    case Verdict::unexplained:
+      return "unexplained";
+    case Verdict::insufficient:
+      return "insufficient";
+    case Verdict::data_fault:
+      return "data_fault";
+  }
+  return {};
+}
+
+std::string word(Decision decision) {
+  switch (decision) {
+    case Decision::named:
+      return "named";
+    case Decision::equivalent:
+      return "class";
+    case Decision::measurement:
+      return "measurement";
+    case Decision::rejected:
+      return "no";
+    case Decision::not_tested:
+      return "not tested";
+  }
+  return {};
+}
+
+}  // namespace torquescope

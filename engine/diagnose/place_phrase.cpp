@@ -1,0 +1,108 @@
+// Where on an axis something is, in words.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/diagnose/sentences.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// of the axis as the map shows it; without a map nothing is at its end
+struct Extent {
+  double from = -HUGE_VAL, to = HUGE_VAL;
+  double length() const { return to - from; }
+};
+
+Extent extent_of(JointDiagnosis const& joint, std::string const& axis) {
+  for (auto const& row : joint.map)
+    if (row.axis == axis && !row.cells.empty()) return {row.cells.front().from, row.cells.back().to};
+  return {};
+}
+
+// an interval with what it touches: one cell and a bit is the end
+struct Place {
+  AxisInterval const& interval;
+  bool at_start = false, at_end = false;
+
+  Place(AxisInterval const& given, Extent const& extent) : interval(given) {
+    double const slack = std::isfinite(extent.length()) ? 0.03 * extent.length() : 0.0;
+    at_start = given.from <= extent.from + slack;
+    at_end = given.to >= extent.to - slack;
+  }
+  std::string from() const { return quantity_text(interval.from, interval.unit); }
+  std::string to() const { return quantity_text(interval.to, interval.unit); }
+  std::string between() const {
+    std::string const first = from(), last = to();
+    std::string const unit = " " + interval.unit;
+    // "between 0.4 and 0.9 rad": the unit once where both have it
+    bool const same = first.ends_with(unit) && last.ends_with(unit);
+    return fmt::format("between {} and {}", same ? first.substr(0, first.size() - unit.size()) : first, last);
+  }
+};
+
+std::string velocity_phrase(Place const& place) {
+  double const from = place.interval.from, to = place.interval.to;
+  std::string const& unit = place.interval.unit;
+  if (place.at_start && place.at_end) return "at all speeds";
+  if (from < 0.0 && to > 0.0 && std::abs(from + to) <= 0.3 * std::max(-from, to))
+    return fmt::format("below {} in both directions", quantity_text(std::max(-from, to), unit));
+  if (from >= 0.0 && place.at_end) return fmt::format("above {} in the positive direction", place.from());
+  if (to <= 0.0 && place.at_start) return fmt::format("above {} in the negative direction", quantity_text(-to, unit));
+  return "at speeds " + place.between();
+}
+
+std::string distance_phrase(Place const& place, std::string const& event) {
+  if (place.at_start && place.at_end) return "at all distances after " + event;
+  if (place.at_start || place.interval.from <= 0.0) return fmt::format("within {} after {}", place.to(), event);
+  return fmt::format("{} after {}", place.between(), event);
+}
+
+std::string time_phrase(Place const& place) {
+  if (place.at_start && place.at_end) return "all the time";
+  if (place.at_end) return "after " + place.from();
+  if (place.at_start) return "before " + place.to();
+  return place.between();
+}
+
+std::string spectrum_phrase(Place const& place) {
+  double const from = place.interval.from, to = place.interval.to;
+  double const middle = 0.5 * (from + to);
+  bool const narrow = to - from <= 0.3 * middle;
+  std::string const& unit = place.interval.unit;
+  if (unit == "1/m") {
+    // k waves per 2 pi metres mean nothing to anybody: a wavelength does
+    if (narrow) return fmt::format("with a wavelength around {}", quantity_text(2.0 * pi / middle, "m"));
+    return fmt::format("with wavelengths between {} and {}", quantity_text(2.0 * pi / to, "m"),
+                       quantity_text(2.0 * pi / std::max(from, 1e-9), "m"));
+  }
+  std::string const words = unit == "1/rad" ? "waves per turn" : unit;
+  if (narrow) return fmt::format("around {} {}", two_digits(middle), words);
+  return fmt::format("between {} and {} {}", two_digits(from), two_digits(to), words);
+}
+
+}  // namespace
+
+std::string place_phrase(JointDiagnosis const& joint, AxisInterval const& interval) {
+  if (!std::isfinite(interval.from) || !std::isfinite(interval.to)) return "";
+  Place const place(interval, extent_of(joint, interval.axis));
+  bool const everywhere = place.at_start && place.at_end;
+  if (interval.axis == "velocity") return velocity_phrase(place);
+  if (interval.axis == "since_velocity_reversal") return distance_phrase(place, "a reversal");
+  if (interval.axis == "since_torque_reversal") return distance_phrase(place, "the torque changes its sign");
+  if (interval.axis == "time") return time_phrase(place);
+  if (interval.axis == "frequency" || interval.axis == "order") return spectrum_phrase(place);
+  if (interval.axis == "position") return everywhere ? "all along the travel" : place.between();
+  if (interval.axis == "load") return everywhere ? "at all loads" : "at loads " + place.between();
+  if (interval.axis == "acceleration")
+    return everywhere ? "at all accelerations" : "at accelerations " + place.between();
+  return "";
+}
+
+}  // namespace torquescope

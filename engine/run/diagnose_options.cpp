@@ -1,0 +1,83 @@
+#include "engine/run/diagnose_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace torquescope {
+
+namespace {
+
+bool contains(std::vector<std::string> const& names, std::string const& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> catalogue_names() {
+  std::vector<std::string> names;
+  for (Effect const* effect : effect_choices()) names.push_back(effect->name());
+  return names;
+}
+
+// why a name cannot be looked for; a Problem without `what` when it can
+Problem refusal(std::string const& name, Effect const* effect, JointKind joint,
+                std::vector<std::string> const& model_terms, Section const& section) {
+  auto const problem = [&](std::string const& what, std::string const& help) {
+    return problem_at(section, "effects", what, help);
+  };
+  if (name == "all")
+    return problem("\"all\" stands beside names of effects", "write effects = \"all\", or the names alone");
+  if (!effect) {
+    std::string const close = closest_name(name, catalogue_names());
+    Problem unknown = problem(fmt::format("unknown effect \"{}\"", name), "torquescope list effects shows every name");
+    if (!close.empty()) unknown.caret_note = fmt::format("did you mean \"{}\"?", close);
+    return unknown;
+  }
+  if (!effect->exists_on(joint))
+    return problem(
+        fmt::format("effect \"{}\" needs an angle, but model.joint = \"prismatic\" moves along a line", name),
+        "remove it");
+  if (contains(model_terms, name))
+    return problem(fmt::format("effect \"{}\" is a term of the model already", name),
+                   "remove it from diagnose.effects, or from model.terms to let the diagnosis look for it");
+  return {};
+}
+
+}  // namespace
+
+OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
+  static OptionTable<DiagnoseOptions> const table(
+      "diagnose", "what a diagnosis looks for and how sure it must be",
+      {{"effects", &DiagnoseOptions::effects, "effects to look for: \"all\", or names (torquescope list effects)"},
+       {"twins", &DiagnoseOptions::twins, "1", 60.0, 100000.0,
+        "clean twins that say what chance does; p-values reach down to 1 / (twins + 1)"},
+       {"q", &DiagnoseOptions::q, "1", 1e-6, 0.5, "share of false names that is put up with among the names given"},
+       {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"}});
+  return table;
+}
+
+std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,
+                                          std::vector<std::string> const& model_terms, Section const& section,
+                                          std::vector<Problem>& problems) {
+  std::vector<Effect const*> chosen;
+  if (options.effects == std::vector<std::string>{"all"}) {
+    for (Effect const* effect : effect_choices())
+      if (effect->exists_on(joint) && !contains(model_terms, effect->name())) chosen.push_back(effect);
+    return chosen;
+  }
+  if (options.effects.empty())
+    problems.push_back(
+        problem_at(section, "effects", "diagnose.effects is empty", "write effects = \"all\", or names"));
+  for (auto const& name : options.effects) {
+    Effect const* effect = find_effect(name);
+    Problem problem = refusal(name, effect, joint, model_terms, section);
+    if (problem.what.empty() && std::find(chosen.begin(), chosen.end(), effect) != chosen.end())
+      problem = problem_at(section, "effects", fmt::format("effect \"{}\" stands twice", name), "remove one of them");
+    if (problem.what.empty())
+      chosen.push_back(effect);
+    else
+      problems.push_back(std::move(problem));
+  }
+  return chosen;
+}
+
+}  // namespace torquescope

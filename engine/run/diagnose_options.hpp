@@ -1,0 +1,30 @@
+#pragma once
+// Options of a diagnosis: the job's [diagnose] section, and the effects it looks for.
+//
+// Errors     problems are appended (78): unknown or repeated effects, an angle's effect on a slide, "all" beside names
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/options.hpp"
+#include "engine/effects/effect.hpp"
+
+namespace torquescope {
+
+struct DiagnoseOptions {
+  std::vector<std::string> effects{"all"};
+  std::int64_t twins = 200;
+  double q = 0.05;
+  std::int64_t max_effects = 5;
+
+  static OptionTable<DiagnoseOptions> const& table();
+};
+
+// the effects to look for: those named, in that order, or the whole catalogue as far as the joint can have it, without
+// the terms that the model has already. `section`: [diagnose], for the places in messages
+std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,
+                                          std::vector<std::string> const& model_terms, Section const& section,
+                                          std::vector<Problem>& problems);
+
+}  // namespace torquescope

@@ -1,0 +1,103 @@
+#include "engine/run/diagnosis_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace torquescope {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// a list of one object per element
+template <class Elements, class Make>
+Json list(Elements const& elements, Make&& make) {
+  Json made = Json::array();
+  for (auto const& element : elements) made.push_back(make(element));
+  return made;
+}
+
+Json parameter_json(ParameterEstimate const& parameter) {
+  return {{"name", parameter.name},
+          {"value", number(parameter.value)},
+          {"unit", parameter.unit},
+          {"ci95", Json::array({number(parameter.lower), number(parameter.upper)})}};
+}
+
+Json region_json(MismatchRegion const& region) {
+  return {{"axis", region.where.axis},
+          {"from", number(region.where.from)},
+          {"to", number(region.where.to)},
+          {"unit", region.where.unit},
+          {"time_share", number(region.time_share)},
+          {"energy_share", number(region.energy_share)},
+          {"repeatable_share", number(region.repeatable_share)}};
+}
+
+Json effect_json(NamedEffect const& effect) {
+  return {{"name", effect.name},
+          {"family", effect.family},
+          {"equivalent", effect.equivalent},
+          {"p", number(effect.p)},
+          {"q", number(effect.q)},
+          {"z", number(effect.z)},
+          {"gain",
+           {{"train", number(effect.gain.train)},
+            {"cv", number(effect.gain.cv)},
+            {"validation", number(effect.gain.validation)}}},
+          {"region",
+           {{"axis", effect.region.axis}, {"from", number(effect.region.from)}, {"to", number(effect.region.to)}}},
+          {"parameters", list(effect.parameters, parameter_json)},
+          {"sentence", effect.sentence}};
+}
+
+Json unexplained_json(UnexplainedPart const& part) {
+  return {{"axis", part.where.axis},
+          {"from", number(part.where.from)},
+          {"to", number(part.where.to)},
+          {"energy_share", number(part.energy_share)}};
+}
+
+Json advice_json(ExcitationAdvice const& advice) {
+  return {{"lacks", advice.lacks}, {"would_separate", advice.would_separate}};
+}
+
+Json joint_json(JointDiagnosis const& joint) {
+  Json mismatch = Json::array();
+  for (auto const& axis : joint.map)
+    for (auto const& region : axis.regions) mismatch.push_back(region_json(region));
+  return {{"joint", joint.joint},
+          {"baseline",
+           {{"parameters", list(joint.baseline, parameter_json)},
+            {"train_relerr", number(joint.train_relerr)},
+            {"validation_relerr", number(joint.validation_relerr)}}},
+          {"mismatch", mismatch},
+          {"effects", list(joint.effects, effect_json)},
+          {"augmented",
+           {{"train_relerr", number(joint.augmented_train_relerr)},
+            {"validation_relerr", number(joint.augmented_validation_relerr)},
+            {"floor_relerr", number(joint.floor_relerr)},
+            {"parameters", list(joint.augmented, parameter_json)}}},
+          {"budget",
+           {{"parameter_error", number(joint.budget.parameter_error)},
+            {"missing_physics", number(joint.budget.missing_physics)},
+            {"unexplained", number(joint.budget.unexplained)},
+            {"noise", number(joint.budget.noise)}}},
+          {"unexplained", list(joint.unexplained, unexplained_json)},
+          {"excitation", list(joint.excitation, advice_json)}};
+}
+
+}  // namespace
+
+std::string diagnosis_json(Diagnosis const& diagnosis) {
+  Json const document = {{"schema", 1},
+                         {"verdict", word(diagnosis.verdict)},
+                         {"reason", diagnosis.reason},
+                         {"joints", list(diagnosis.joints, joint_json)}};
+  // texts of a job may hold anything: broken UTF-8 is replaced, not refused
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace torquescope

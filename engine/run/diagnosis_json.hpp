@@ -1,0 +1,16 @@
+#pragma once
+// A diagnosis as the JSON document that programs read: {"schema": 1, ...}, exactly the keys of DESIGN.md section 1.
+//
+// Numbers    unrounded; unknown and infinite ones are null
+// Stable     keys never change their meaning within a schema; a new key is a new schema
+// Threads    free function
+
+#include <string>
+
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace torquescope {
+
+std::string diagnosis_json(Diagnosis const& diagnosis);
+
+}  // namespace torquescope

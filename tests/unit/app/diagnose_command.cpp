@@ -1,0 +1,207 @@
+// `diagnose` as people and scripts meet it, with an invented diagnosis in place of the science: what goes to which stream,
+// what is kept in the file, and that a finished job is not diagnosed twice.
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/run/diagnosis_json.hpp"
+#include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/diagnosis_result.hpp"
+#include "support/example_diagnosis.hpp"
+#include "unit/store/example_result.hpp"
+
+namespace torquescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using ::testing::internal::CaptureStderr;
+using ::testing::internal::CaptureStdout;
+using ::testing::internal::GetCapturedStderr;
+using ::testing::internal::GetCapturedStdout;
+
+std::string const job_text = R"(
+[model]
+terms = ["inertia", "viscous", "coulomb", "offset"]
+[simulate]
+mode = "inverse_dynamics"
+rate_hz = 200
+duration_s = 5
+[simulate.plant]
+inertia = 0.5
+viscous = 0.2
+coulomb = 0.1
+)";
+
+struct Outcome {
+  ExitCode code = ExitCode::ok;
+  std::string out, err;
+};
+
+class DiagnoseCommand : public ::testing::Test {
+ protected:
+  DiagnoseCommand() { write_job(job_text); }
+
+  void write_job(std::string const& text) const { std::ofstream(folder / "job.toml") << text; }
+
+  // torquescope diagnose job.toml --out R.h5 ...
+  Outcome run(std::vector<std::string> const& more = {}) {
+    CLI::App app("", "torquescope");
+    ChosenCommand chosen;
+    add_diagnose(app, chosen, [this](auto const& experiment, auto const& request, auto const& progress) {
+      ++diagnosed;
+      progress({"twins", 100, 200, 0, 0, 7.0, "twins"});
+      progress({"twins", 200, 200, 0, 0, 14.0, "twins"});
+      progress({"search", 34, 34, 0, 0, 8.8, "effects"});
+      progress({"twins", 200, 200, 0, 0, 7.4, "twins"});  // again, with what was named
+      return diagnose_into_file(experiment, request, [this] { return found; });
+    });
+    std::vector<std::string> words{"diagnose", (folder / "job.toml").string(), "--out", result().string()};
+    words.insert(words.end(), more.begin(), more.end());
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    app.parse(reversed);
+    CaptureStdout();
+    CaptureStderr();
+    Outcome outcome;
+    try {
+      outcome.code = chosen.work(Session(chosen.session));
+    } catch (Error const& error) {
+      outcome.code = error.code();
+      std::fputs(error.what(), stderr);
+    }
+    outcome.out = GetCapturedStdout();
+    outcome.err = GetCapturedStderr();
+    return outcome;
+  }
+
+  std::filesystem::path result() const { return folder / "R.h5"; }
+
+  example::Folder folder{};
+  Diagnosis found = example::invented_diagnosis();
+  int diagnosed = 0;
+};
+
+TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
+  Outcome const outcome = run({"--progress", "none"});
+  EXPECT_EQ(outcome.code, ExitCode::ok);
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1 loses 0.35 N m extra"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nwhere  velocity"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nwhat   effect"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
+  EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
+  EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % unseen\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("twins    400 twins, 21.4 s\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("search   34 effects, 8.8 s\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
+}
+
+TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
+  for (auto const& diagnosis : {example::invented_none(), example::invented_unexplained(),
+                                example::invented_insufficient(), example::invented_data_fault()}) {
+    found = diagnosis;
+    std::filesystem::remove(result());
+    EXPECT_EQ(run().code, ExitCode::ok) << word(diagnosis.verdict);
+  }
+}
+
+TEST_F(DiagnoseCommand, QuietLeavesTheVerdictAlone) {
+  Outcome const outcome = run({"--quiet"});
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("where")));
+  EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+TEST_F(DiagnoseCommand, JsonOnStdoutIsThatDocumentOnly) {
+  Outcome const outcome = run({"--json", "-"});
+  EXPECT_EQ(outcome.out, diagnosis_json(found));
+}
+
+TEST_F(DiagnoseCommand, JsonFileIsWrittenAndNamed) {
+  std::string const file = (folder / "V.json").string();
+  Outcome const outcome = run({"--json", file});
+  EXPECT_EQ(example::bytes_of(file), diagnosis_json(found));
+  EXPECT_THAT(outcome.err, HasSubstr("V.json"));
+}
+
+TEST_F(DiagnoseCommand, AFinishedJobIsShownAgainFromItsFile) {
+  Outcome const first = run({"--json", "-"});
+  Outcome const again = run({"--json", "-"});
+  EXPECT_EQ(diagnosed, 1);
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_THAT(again.err, HasSubstr("already diagnosed: nothing runs again"));
+  EXPECT_THAT(again.err, HasSubstr("\nkept   "));
+  EXPECT_THAT(run({"--all"}).out, Not(HasSubstr("more below these")));
+}
+
+TEST_F(DiagnoseCommand, AnotherJobDoesNotOverwriteTheFile) {
+  run();
+  write_job(job_text + "friction_is_other = 1\n");
+  EXPECT_NE(run().code, ExitCode::ok);  // 78: the job is wrong
+  write_job("# another job\n" + job_text);
+  Outcome const outcome = run();
+  EXPECT_EQ(outcome.code, ExitCode::exists);
+  EXPECT_EQ(diagnosed, 1);
+}
+
+TEST_F(DiagnoseCommand, DoesNotTakeTheRunsOfAJobForItsDiagnosis) {
+  write_job(job_text + "[[estimator]]\nname = \"ols\"\n");
+  IdentifyOptions options;
+  options.threads = choose_threads(1);
+  options.output = result();
+  identify(Experiment::load(folder / "job.toml"), options, ProgressSink{});
+  Outcome const outcome = run();
+  EXPECT_EQ(outcome.code, ExitCode::exists);
+  EXPECT_THAT(outcome.err, HasSubstr("holds the runs of this job, not its diagnosis"));
+}
+
+TEST_F(DiagnoseCommand, TheFileHoldsJobDataOptionsAndProvenance) {
+  run();
+  ResultReader const reader(result());
+  EXPECT_EQ(reader.verify(), reader.content_sha256());
+  EXPECT_EQ(reader.texts("/job/text"), std::vector<std::string>{job_text});
+  EXPECT_EQ(reader.attribute<std::int64_t>("/diagnosis/options", "twins"), 200);
+  EXPECT_TRUE(reader.exists("/data/train/torque"));
+  EXPECT_FALSE(reader.exists("/runs"));
+  EXPECT_GT(reader.attribute<double>("/provenance", "seconds"), 0.0);
+  EXPECT_EQ(read_verdict_json(reader), diagnosis_json(found));
+}
+
+TEST_F(DiagnoseCommand, NothingIsLeftBehindWhenTheWorkFails) {
+  CLI::App app("", "torquescope");
+  ChosenCommand chosen;
+  add_diagnose(app, chosen, [](auto const& experiment, auto const& request, auto const&) {
+    return diagnose_into_file(
+        experiment, request, []() -> Diagnosis { throw Error(Problem{.code = ExitCode::stopped, .what = "stopped"}); });
+  });
+  std::vector<std::string> reversed{"--quiet", result().string(), "--out", (folder / "job.toml").string(), "diagnose"};
+  app.parse(reversed);
+  EXPECT_THROW(chosen.work(Session(chosen.session)), Error);
+  EXPECT_EQ(folder.n_files(), 1u);  // the job alone
+}
+
+TEST_F(DiagnoseCommand, ShowPrintsTheSamePageFromTheFile) {
+  Outcome const made = run();
+  CLI::App app("", "torquescope");
+  ChosenCommand chosen;
+  add_show(app, chosen);
+  std::vector<std::string> reversed{result().string(), "show"};
+  app.parse(reversed);
+  CaptureStdout();
+  chosen.work(Session(chosen.session));
+  std::string const shown = GetCapturedStdout();
+  EXPECT_THAT(shown, StartsWith(made.out));
+  EXPECT_THAT(shown, HasSubstr("model of joint 1"));
+  EXPECT_THAT(shown, HasSubstr("\nmade\n"));
+}
+
+}  // namespace
+}  // namespace torquescope

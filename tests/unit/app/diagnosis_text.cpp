@@ -1,0 +1,135 @@
+// The page of a diagnosis in a terminal: the picture of UX.md section 4, at most 80 columns, also without UTF-8.
+
+#include "engine/app/result/diagnosis_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "engine/app/terminal/plain_text.hpp"
+#include "support/example_diagnosis.hpp"
+
+namespace torquescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::vector<std::string> lines_of(std::string const& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Diagnosis> all_verdicts() {
+  return {example::invented_diagnosis(),   example::invented_class(),        example::invented_none(),
+          example::invented_unexplained(), example::invented_insufficient(), example::invented_data_fault()};
+}
+
+TEST(DiagnosisText, IsThePictureOfTheSpecification) {
+  EXPECT_EQ(diagnosis_text(example::invented_class(), {}, Ink()),
+            R"(◍ ONE OF A CLASS  Joint 1 loses 0.35 N m extra below 0.12 rad/s in both
+                  directions: stribeck or presliding (p < 0.005; this motion
+                  cannot tell which). Unseen relerr 12.1 % to 6.2 %, floor
+                  6.0 %.
+
+where  velocity  -1.1  ▄▃▃▃▂▂▁▃█▁▂▂▂▂▃▃  1.0 rad/s  46 % of the residual
+       order      1.0  ▁▁▁▁▁▁█▁▁▁▁▁▁▁▁▁  28 1/rad   12 %
+       load      -1.5  ▂▂▂▂▁▂▁▂▂▂▂▂▂███  1.4 N m     9 %
+       6 more axes: nothing beyond the clean twins
+what   effect      family           z       p      q  CV gain
+       stribeck    reversal      11.8  <0.005  0.004   28.4 %  named
+       presliding  reversal      10.9  <0.005  0.004   27.6 %  class
+       cogging     order_locked   7.4  <0.005  0.004    6.1 %  no
+       31 more below these                             (--all shows them)
+next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
+       presliding apart
+)");
+}
+
+TEST(DiagnosisText, EveryVerdictHasItsMarkAndWord) {
+  std::vector<std::string> const beginnings{"● NAMED  ",       "◍ ONE OF A CLASS  ", "○ NOTHING MISSING  ",
+                                            "◌ UNEXPLAINED  ", "▽ INSUFFICIENT  ",   "✕ DATA FAULT  "};
+  auto const diagnoses = all_verdicts();
+  for (std::size_t i = 0; i < diagnoses.size(); ++i) {
+    EXPECT_THAT(diagnosis_text(diagnoses[i], {}, Ink()), StartsWith(beginnings[i]));
+    // the word stays where the mark cannot be shown
+    std::string const ascii = diagnosis_text(diagnoses[i], {.utf8 = false}, Ink());
+    EXPECT_THAT(ascii, StartsWith("* " + beginnings[i].substr(beginnings[i].find(' ') + 1)));
+    for (char const letter : ascii) EXPECT_GE(letter, 0) << ascii;
+  }
+}
+
+TEST(DiagnosisText, NoLineIsWiderThanThePage) {
+  for (auto diagnosis : all_verdicts())
+    for (bool all : {false, true})
+      for (auto const& line : lines_of(diagnosis_text(diagnosis, {.all_candidates = all}, Ink(true)) +
+                                       diagnosed_model_text(diagnosis, Ink(true))))
+        EXPECT_LE(columns_of(line), page_width) << line;
+}
+
+TEST(DiagnosisText, NumbersStayWithWhatBelongsToThem) {
+  Diagnosis diagnosis = example::invented_none();
+  for (int words = 0; words < 40; ++words) {
+    diagnosis.reason =
+        std::string(static_cast<std::size_t>(words), 'x') + " clean twins (p = 0.41) have 6.0 % (p < 0.005) left";
+    for (auto const& line : lines_of(verdict_text(diagnosis, true, Ink()))) {
+      EXPECT_THAT(line, Not(::testing::MatchesRegex(".*(p|p =|p <|6\\.0)"))) << line;
+      EXPECT_THAT(line, Not(HasSubstr("\u00A0")));
+    }
+  }
+}
+
+TEST(DiagnosisText, ColourNeverCarriesTheMeaning) {
+  for (auto const& diagnosis : all_verdicts()) {
+    std::string inked = diagnosis_text(diagnosis, {}, Ink(true));
+    EXPECT_THAT(inked, HasSubstr("\x1b["));
+    for (std::size_t at; (at = inked.find('\x1b')) != std::string::npos;) inked.erase(at, inked.find('m', at) - at + 1);
+    EXPECT_EQ(inked, diagnosis_text(diagnosis, {}, Ink()));
+  }
+}
+
+TEST(DiagnosisText, AllShowsEveryCandidate) {
+  Diagnosis const diagnosis = example::invented_diagnosis();
+  std::string const some = diagnosis_text(diagnosis, {}, Ink());
+  std::string const all = diagnosis_text(diagnosis, {.all_candidates = true}, Ink());
+  EXPECT_THAT(some, HasSubstr("31 more below these"));
+  EXPECT_THAT(all, Not(HasSubstr("more below these")));
+  for (auto const& candidate : diagnosis.joints[0].candidates)
+    EXPECT_THAT(all, HasSubstr("\n       " + candidate.name + " ")) << candidate.name;
+}
+
+TEST(DiagnosisText, WhatIsNamedIsShownHoweverWeakItLooked) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].candidates[20].decision = Decision::named;
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), HasSubstr("\n       " + diagnosis.joints[0].candidates[20].name));
+}
+
+TEST(DiagnosisText, QuietAxesAreCountedAndUnrecordedPlacesAreBlank) {
+  EXPECT_THAT(diagnosis_text(example::invented_none(), {}, Ink()),
+              HasSubstr("where  9 axes: nothing beyond the clean twins\n"));
+  Diagnosis diagnosis = example::invented_diagnosis();
+  for (std::size_t i = 0; i < 27; ++i) diagnosis.joints[0].map[0].cells[i].samples = 0;
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), HasSubstr("velocity  -1.1          "));
+}
+
+TEST(DiagnosisText, NamesFromAJobCannotSteerTheTerminal) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.reason = "evil \x1b[2J";
+  diagnosis.joints[0].candidates[0].name = "evil\x1b[2J";
+  diagnosis.joints[0].excitation[0].lacks = "evil\x1b[2J";
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), Not(HasSubstr("\x1b")));
+}
+
+TEST(DiagnosedModelText, ShowsEveryParameterBeforeAndAfter) {
+  std::string const text = diagnosed_model_text(example::invented_diagnosis(), Ink());
+  EXPECT_THAT(text, HasSubstr("0.52 +- 0.0090"));
+  EXPECT_THAT(text, HasSubstr("stribeck_speed"));
+  EXPECT_THAT(text, HasSubstr("12.1 %"));
+}
+
+}  // namespace
+}  // namespace torquescope

@@ -1,0 +1,52 @@
+// Numbers in sentences: few digits, no exponent in everyday sizes, and a p-value is never zero.
+
+#include "engine/base/quantity_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace torquescope {
+namespace {
+
+TEST(QuantityText, HasTwoDigitsAndNoExponentInEverydaySizes) {
+  EXPECT_EQ(two_digits(0.3541), "0.35");
+  EXPECT_EQ(two_digits(-12.4), "-12");
+  EXPECT_EQ(two_digits(152.0), "150");
+  EXPECT_EQ(two_digits(0.0), "0");
+  EXPECT_EQ(two_digits(0.0996), "0.10");
+  EXPECT_EQ(two_digits(99.7), "100");
+  EXPECT_EQ(two_digits(3.2e-9), "3.2e-09");
+  EXPECT_EQ(two_digits(std::numeric_limits<double>::quiet_NaN()), "?");
+}
+
+TEST(QuantityText, SmallLengthsAnglesAndTimesTakeAMilli) {
+  EXPECT_EQ(quantity_text(0.0038, "s"), "3.8 ms");
+  EXPECT_EQ(quantity_text(0.0002, "rad"), "0.20 mrad");
+  EXPECT_EQ(quantity_text(0.12, "rad/s"), "0.12 rad/s");
+  EXPECT_EQ(quantity_text(0.002, "N m"), "0.0020 N m");
+  EXPECT_EQ(quantity_text(0.5, "1"), "0.50");
+}
+
+TEST(QuantityText, SharesAreSaidInPercent) {
+  EXPECT_EQ(percent_text(0.1213), "12.1 %");
+  EXPECT_EQ(percent_text(0.00562), "0.56 %");
+  EXPECT_EQ(percent_text(0.0), "0.0 %");
+  EXPECT_EQ(percent_text(std::nan("")), "?");
+}
+
+TEST(QuantityText, ProbabilitiesAreNeverZeroNorMoreExactThanTheTwins) {
+  double const least = 1.0 / 201.0;
+  EXPECT_EQ(p_text(least, true, least), "p < 0.005");
+  EXPECT_EQ(p_text(1e-9, false, least), "p < 0.005");  // a tail that was continued beyond the twins
+  EXPECT_EQ(p_text(0.0, true, 0.0), "p < 0.000001");
+  EXPECT_EQ(p_text(0.4129, false, least), "p = 0.41");
+  EXPECT_EQ(p_text(0.0149, false, least), "p = 0.015");
+  EXPECT_EQ(p_text(1.0 / 61.0, true, 1.0 / 61.0), "p < 0.02");
+  EXPECT_EQ(p_cell(0.0149, false, least), "0.015");
+  EXPECT_EQ(p_cell(least, false, least), "<0.005");  // no twin reached it: at most this
+}
+
+}  // namespace
+}  // namespace torquescope

@@ -1,0 +1,117 @@
+// [diagnose] and which jobs it makes complete: effects by name or all, refusals with suggestions.
+
+#include "engine/run/diagnose_options.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "engine/run/experiment_parts.hpp"
+
+namespace torquescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using Purpose = Experiment::Purpose;
+
+std::string const simulated_joint = R"(
+[model]
+terms = ["inertia", "viscous", "coulomb", "offset"]
+[simulate]
+mode = "inverse_dynamics"
+rate_hz = 200
+duration_s = 5
+[simulate.plant]
+inertia = 0.5
+viscous = 0.2
+coulomb = 0.1
+)";
+
+Experiment load(std::string const& more, Purpose purpose) {
+  auto const path = std::filesystem::temp_directory_path() / ("diagnose_options_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(path) << more << simulated_joint;
+  auto experiment = Experiment::load(path, purpose);
+  std::filesystem::remove(path);
+  return experiment;
+}
+
+std::vector<Problem> problems_of(std::string const& more, Purpose purpose) {
+  try {
+    load(more, purpose);
+  } catch (Error const& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+std::vector<std::string> names_of(std::vector<Effect const*> const& effects) {
+  std::vector<std::string> names;
+  for (Effect const* effect : effects) names.push_back(effect->name());
+  return names;
+}
+
+TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
+  Experiment const experiment = load("", Purpose::diagnose);
+  DiagnoseOptions const& options = experiment.parts().diagnose;
+  EXPECT_EQ(options.effects, std::vector<std::string>{"all"});
+  EXPECT_EQ(options.twins, 200);
+  EXPECT_EQ(options.q, 0.05);
+  EXPECT_EQ(options.max_effects, 5);
+  EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
+  EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 clean twins"));
+}
+
+TEST(DiagnoseOptions, ARunStillNeedsAnEstimatorAndSaysWhoCanDoWithoutOne) {
+  auto const problems = problems_of("[diagnose]\n", Purpose::identify);
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].what, "the job has no [[estimator]]");
+  EXPECT_THAT(problems[0].help, HasSubstr("torquescope diagnose"));
+  EXPECT_THAT(problems_of("[diagnose]\n", Purpose::check), SizeIs(0));
+  EXPECT_THAT(problems_of("", Purpose::check), SizeIs(1));
+}
+
+TEST(DiagnoseOptions, AllLeavesOutTheTermsOfTheModelAndWhatTheJointCannotHave) {
+  Experiment const experiment = load("", Purpose::diagnose);
+  auto const names = names_of(experiment.parts().effects);
+  EXPECT_THAT(names, ::testing::Contains("stribeck"));
+  EXPECT_THAT(names, ::testing::Contains("encoder_eccentricity"));
+  EXPECT_THAT(names, ::testing::Not(::testing::Contains("viscous")));
+  std::vector<Problem> problems;
+  auto const slide = names_of(chosen_effects({}, JointKind::prismatic, {"viscous"}, {}, problems));
+  EXPECT_THAT(slide, ::testing::Not(::testing::Contains("encoder_eccentricity")));
+  EXPECT_TRUE(problems.empty());
+}
+
+TEST(DiagnoseOptions, AllIsAWordNotAList) {
+  EXPECT_EQ(load("[diagnose]\neffects = \"all\"\n", Purpose::diagnose).parts().effects,
+            load("", Purpose::diagnose).parts().effects);
+}
+
+TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
+  Experiment const experiment =
+      load("[diagnose]\neffects = [\"presliding\", \"stribeck\"]\ntwins = 60\n", Purpose::diagnose);
+  EXPECT_EQ(names_of(experiment.parts().effects), (std::vector<std::string>{"presliding", "stribeck"}));
+  EXPECT_EQ(experiment.parts().diagnose.twins, 60);
+}
+
+TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {
+  auto const unknown = problems_of("[diagnose]\neffects = [\"stribek\"]\n", Purpose::diagnose);
+  ASSERT_THAT(unknown, SizeIs(1));
+  EXPECT_EQ(unknown[0].what, "unknown effect \"stribek\"");
+  EXPECT_EQ(unknown[0].caret_note, "did you mean \"stribeck\"?");
+  EXPECT_EQ(unknown[0].place.line, 2);
+  EXPECT_THAT(problems_of("[diagnose]\neffects = [\"all\", \"stribeck\"]\n", Purpose::diagnose), SizeIs(1));
+  EXPECT_THAT(problems_of("[diagnose]\neffects = [\"stribeck\", \"stribeck\"]\n", Purpose::diagnose), SizeIs(1));
+  EXPECT_THAT(problems_of("[diagnose]\neffects = [\"viscous\"]\n", Purpose::diagnose), SizeIs(1));
+  EXPECT_THAT(problems_of("[diagnose]\neffects = []\n", Purpose::diagnose), SizeIs(1));
+  EXPECT_THAT(problems_of("[diagnose]\ntwins = 59\nq = 0.6\n", Purpose::diagnose), SizeIs(2));
+  // told by every command, also where nothing is diagnosed
+  EXPECT_THAT(problems_of("[diagnose]\ntwinz = 100\n[[estimator]]\nname = \"ols\"\n", Purpose::identify), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace torquescope
