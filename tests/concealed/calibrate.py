@@ -3,8 +3,9 @@
     run_suite.py torquescope make_case OUT --clean 1..120
     calibrate.py OUT [--json CALIBRATION.json]
 
-Reads of every clean record in OUT: the candidate table of its result (/diagnosis/.../candidates: name, p; effects that were
-not tested left out), its verdict, and from the scorer's side which rig it was made with.
+Reads of every clean record in OUT: the p-values in its result (engine/store/RESULT_FORMAT.md, /diagnosis: candidates, effects
+that were not tested left out; axes of the map; the whole mismatch), its verdict, and from the scorer's side which rig it was
+made with. The pooled figures are those of the candidates.
 
 Effects of one record share its noise, so only p-values of different records are independent: the distance of Kolmogorov and
 Smirnov stands beside its 5 % critical value effect by effect, over records. The pooled rates have their spread from the
@@ -30,21 +31,20 @@ LEVELS = (0.01, 0.05, 0.10)
 FEWEST_RECORDS = 20  # an effect tested on fewer says nothing about its distribution
 
 
-def candidates_of(path):
-    """-> {effect: p}; first joint, the step at which nothing was named yet."""
-    tables = []
+def p_values_of(path):
+    """-> {statistic: p} of the first joint: candidates while nothing was named yet, the axes of the map, the whole mismatch."""
+    text = lambda word: word.decode() if isinstance(word, bytes) else str(word)
     with h5py.File(path, "r") as file:
-        if "diagnosis" not in file:
-            raise ValueError(f"{path} holds no diagnosis")
-        file["diagnosis"].visititems(
-            lambda name, item: tables.append(item) if name.split("/")[-1] == "candidates" else None)
-        if not tables:
-            raise ValueError(f"{path}: no table of candidates under /diagnosis")
-        columns = {name: tables[0][name][()] for name in ("name", "p", "decision") if name in tables[0]}
-        text = lambda word: word.decode() if isinstance(word, bytes) else word
-        names = [text(name) for name in columns["name"]]
-        decisions = [text(word) for word in columns.get("decision", [""] * len(names))]
-    return {name: float(p) for name, p, decision in zip(names, columns["p"], decisions) if decision != "not tested"}
+        joint = file["diagnosis/joint_1"]
+        found = {"(whole mismatch)": float(joint.attrs["omnibus_p"])}
+        for axis, group in joint["map"].items() if "map" in joint else ():
+            found[f"(map, {axis})"] = float(group.attrs["p"])
+        if "candidates" in joint:
+            table = joint["candidates"]
+            for name, p, decision in zip(table["names"][()], table["p"][()], table["decisions"][()]):
+                if text(decision) != "not tested":
+                    found[text(name)] = float(p)
+    return {name: p for name, p in found.items() if math.isfinite(p)}
 
 
 def distances(values):
@@ -64,7 +64,7 @@ def pooled_rate(records, level):
     """Share of p-values at most `level`, and its standard error from the spread between records."""
     shares = [sum(p <= level for p in record.values()) / len(record) for record in records if record]
     error = statistics.stdev(shares) / math.sqrt(len(shares)) if len(shares) > 1 else None
-    return {"level": level, "rate": statistics.fmean(shares), "standard_error": error}
+    return {"level": level, "rate": statistics.fmean(shares) if shares else math.nan, "standard_error": error}
 
 
 def effect_row(values):
@@ -85,7 +85,8 @@ def by_effect(records):
 
 def calibration(records):
     """records: list of {"rig": {...}, "p": {effect: p}, "named": [...], "verdict": "none"}."""
-    tables = [record["p"] for record in records]
+    candidates = lambda record: {name: p for name, p in record["p"].items() if not name.startswith("(")}
+    tables = [candidates(record) for record in records]
     false = sum(1 for record in records if record["named"])
     other = sum(1 for record in records if record["verdict"] != "none")
     groups = {}
@@ -97,8 +98,8 @@ def calibration(records):
         "records": len(records),
         "pooled": {"p_values": sum(map(len, tables)), "D": distance, "D_plus": above,
                    "rates": [pooled_rate(tables, level) for level in LEVELS]},
-        "effects": by_effect(tables),
-        "groups": {name: {"records": len(group), "rate_5": pooled_rate([r["p"] for r in group], 0.05)["rate"],
+        "effects": by_effect([record["p"] for record in records]),
+        "groups": {name: {"records": len(group), "rate_5": pooled_rate([candidates(r) for r in group], 0.05)["rate"],
                           "false_names": sum(1 for r in group if r["named"])} for name, group in sorted(groups.items())},
         "false_name": {"hits": false, "of": len(records), "upper_95": binomial.upper(false, len(records))},
         "not_none": {"hits": other, "of": len(records)},
@@ -116,7 +117,7 @@ def read_records(out):
             verdict = json.loads((out / "verdicts" / f"{name}.json").read_text())
             named = [effect["name"] for joint in verdict["joints"] for effect in joint["effects"]]
             records.append({"case": name, "rig": truth["rig"], "verdict": verdict["verdict"], "named": named,
-                            "p": candidates_of(out / "results" / f"{name}.h5")})
+                            "p": p_values_of(out / "results" / f"{name}.h5")})
         except (OSError, ValueError, KeyError) as problem:
             lost.append(f"{name}: {problem}")
     return records, lost
@@ -132,7 +133,7 @@ def page(found):
                  f"verdict other than none in {found['not_none']['hits']}")
     if found["names"]:
         lines.append(f"  named: {', '.join(found['names'])}")
-    lines += ["", f"{'effect':28} {'records':>7} {'D':>6} {'D+':>6} {'5 %':>6}   p<=1 %  p<=5 %  p<=10 %"]
+    lines += ["", f"{'statistic':28} {'records':>7} {'D':>6} {'D+':>6} {'5 %':>6}   p<=1 %  p<=5 %  p<=10 %"]
     for name, row in sorted(found["effects"].items(), key=lambda item: -item[1]["D_plus"] / item[1]["critical_5"]):
         remark = "" if row["D"] <= row["critical_5"] else "  not uniform"
         remark += "" if row["chance_of_5"] else "  not 5 %"

@@ -1,4 +1,4 @@
-"""One verdict against one truth: what was found, at which level, what was invented.
+"""One verdict against one truth: what was found, at which level, what was invented. A number of the verdict may be null: unknown.
 
 A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family (its
 family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
@@ -57,7 +57,7 @@ def check_truth(truth):
 
 def region_iou(region, truth_regions):
     """Shared over joint occupancy of the reported interval and the true region, on the axis of the report."""
-    if not region:
+    if not region or region.get("from") is None or region.get("to") is None:
         return None
     for true in truth_regions:
         if true["axis"] != region.get("axis"):
@@ -85,10 +85,10 @@ def _parameter_score(reported, true):
     errors, inside = [], []
     for parameter in true["parameters"]:
         estimate = values.get(parameter["name"])
-        if estimate is None or parameter["value"] == 0.0:
+        if estimate is None or estimate["value"] is None or parameter["value"] == 0.0:
             continue
         errors.append(abs(estimate["value"] / parameter["value"] - 1.0))
-        if estimate.get("ci95"):
+        if estimate.get("ci95") and None not in estimate["ci95"]:
             inside.append(estimate["ci95"][0] <= parameter["value"] <= estimate["ci95"][1])
     return (max(errors) if errors else None), tuple(inside)
 
@@ -130,7 +130,7 @@ def _is_right(judgement, truth):
 def _gap_closed(joint, oracle):
     before = joint["baseline"]["validation_relerr"]
     after = (joint.get("augmented") or {}).get("validation_relerr")
-    if after is None or before <= oracle:
+    if before is None or after is None or before <= oracle:
         return None
     return (before - after) / (before - oracle)
 

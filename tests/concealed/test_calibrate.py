@@ -80,8 +80,12 @@ class Files(unittest.TestCase):
         verdict = {"schema": 1, "verdict": "none", "joints": [{"joint": 1, "effects": []}]}
         (self.out / "verdicts" / f"{name}.json").write_text(json.dumps(verdict))
         with h5py.File(self.out / "results" / f"{name}.h5", "w") as file:
-            table = file.create_group("diagnosis/joint_1/candidates")
-            table["name"], table["p"], table["decision"] = names, values, decisions
+            joint = file.create_group("diagnosis/joint_1")
+            joint.attrs["omnibus_p"] = 0.4
+            joint.create_group("map/velocity").attrs["p"] = 0.3
+            as_texts = lambda words: [word.encode() for word in words]
+            table = joint.create_group("candidates")
+            table["names"], table["p"], table["decisions"] = as_texts(names), values, as_texts(decisions)
 
     def run_calibrate(self):
         out, err = io.StringIO(), io.StringIO()
@@ -99,6 +103,8 @@ class Files(unittest.TestCase):
         self.assertIn("left out 1 records", error)
         pooled = json.loads((self.out / "calibration.json").read_text())["pooled"]
         self.assertEqual((pooled["p_values"], pooled["D"]), (1, 0.75))
+        self.assertEqual(calibrate.p_values_of(self.out / "results" / "clean_1.h5"),
+                         {"(whole mismatch)": 0.4, "(map, velocity)": 0.3, "spring": 0.25})
 
     def test_nothing_to_read(self):
         self.assertEqual(self.run_calibrate()[0], 66)

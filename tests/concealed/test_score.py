@@ -162,6 +162,16 @@ class Judge(unittest.TestCase):
             self.assertEqual(judge.judge(clean(), broken).verdict, "invalid")
             self.assertFalse(judge.judge(clean(), broken).right)
 
+    def test_unknown_numbers_are_no_broken_verdict(self):
+        vague = effect(low=None, high=None)
+        vague["parameters"][0]["ci95"] = [None, None]
+        answer = verdict("named", [vague])
+        answer["joints"][0]["baseline"]["validation_relerr"] = answer["joints"][0]["augmented"]["validation_relerr"] = None
+        j = judge.judge(truth(), answer)
+        self.assertEqual((j.verdict, j.right, j.gap_closed, j.found[0].iou, j.found[0].intervals), ("named", True, None, None, ()))
+        vague["parameters"][0]["value"] = None
+        self.assertIsNone(judge.judge(truth(), verdict("named", [vague])).found[0].parameter_error)
+
     def test_refuses_a_coarse_truth(self):
         coarse = clean()
         coarse["step_error"]["torque"] = 0.02
