@@ -59,7 +59,7 @@ SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& 
 
   gap.recording = recording;
   gap.recording.simulated_torque.resize(0);
-  gap.recording.torque -= beyond_terms(recording, of_simulator, pipeline.regressor());
+  gap.recording.torque -= beyond_terms(recording, of_simulator, pipeline.model().regressor());
   return gap;
 }
 
