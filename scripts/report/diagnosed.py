@@ -54,12 +54,21 @@ def rows_drawn(joint):
 
 
 def is_quiet(row):
-    return not row.regions and not row.is_spectrum
+    """Nothing was located on it, and the twins show as much."""
+    return not row.regions and not row.is_spectrum and not row.p < 0.05
 
 
 def strongest_rows(joint):
     """Rows that are no spectra, the one with most residual beyond the twins first."""
     return sorted((row for row in rows_drawn(joint) if not row.is_spectrum), key=lambda row: -np.nan_to_num(row.energy_share))
+
+
+def rows_without_effects(joint):
+    """[(row, region or None)]: where something is unexplained, else the two axes that hold most."""
+    parts = {where.axis: (where.start, where.stop) for where, _ in reversed(joint.unexplained)}
+    rows = [(joint.map[axis], region) for axis, region in parts.items() if axis in joint.map and len(joint.map[axis].z)]
+    others = [(row, None) for row in strongest_rows(joint) if row.axis not in parts]
+    return (rows + others)[:2]
 
 
 def effect_row(joint, effect):
@@ -92,7 +101,7 @@ def p_cell(p, joint, is_bound=False):
         return "–"
     if is_bound or p <= least_p(joint) * (1 + 1e-9):
         return f"<{q.number(max(p, least_p(joint)), 1)}"
-    return q.number(p, 1 if p < 0.1 else 2)
+    return q.number(p, 2)
 
 
 def twins_as_far(joint):
@@ -100,6 +109,10 @@ def twins_as_far(joint):
     if not joint.twins or not math.isfinite(joint.omnibus_p):
         return None
     return max(round(joint.omnibus_p * (joint.twins + 1)) - 1, 0)
+
+
+def has_floor(joint):
+    return math.isfinite(joint.floor_relerr) or math.isfinite(joint.train_floor_relerr)
 
 
 def share_closed(joint):

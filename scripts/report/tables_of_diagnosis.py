@@ -38,7 +38,7 @@ def forward(joint):
     changed = diagnosed.has_after(joint)
     head = ["recording", f"motion, rms {unit}", f"error before {unit}"] + ([f"error after {unit}"] if changed else []) + [f"encoder step {unit}"]
     rows = [[one.recording, q.number(one.motion_rms), q.number(one.before_rms)] + ([q.number(one.after_rms)] if changed else [])
-            + [q.number(one.encoder_step, 2) if one.encoder_step else "–"] for one in joint.forward]
+            + [q.number(one.encoder_step) if one.encoder_step else "–"] for one in joint.forward]
     return {"head": head, "rows": rows}
 
 

@@ -22,7 +22,7 @@ def verdict(study):
     else:
         mark, word, tone = "●", "Identified", "ink"
     sentence = _search_sentence(study.searches, late) if study.searches else _fit_sentence(study)
-    return {"mark": mark, "word": word, "tone": tone, "sentence": sentence, "evidence": _evidence(study, words)}
+    return {"mark": mark, "word": word, "tone": tone, "sentence": sentence, "headlines": [sentence], "evidence": _evidence(study, words)}
 
 
 def _arrived(e):

@@ -29,7 +29,14 @@ def verdict(study):
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
     headlines, evidence = _set(found)
     return {"mark": mark, "word": word.format(count=q.count_word(several[0]) if several else "several"), "tone": tone,
-            "sentence": " ".join(headlines), "evidence": " ".join(evidence)}
+            "sentence": " ".join(headlines), "headlines": [kept_together(line) for line in headlines],
+            "evidence": kept_together(" ".join(evidence))}
+
+
+def kept_together(text):
+    """A number stays on one line with its unit, a p with its value."""
+    text = re.sub(r"(?<=\d) (?=%|[kmµ]?(?:N|rad|s|m|Hz|A|V|kg|K)\b)", "\u00a0", text)
+    return re.sub(r"\bp ([<=]) ", "p\u00a0\\1\u00a0", text.replace("N m", "N\u00a0m"))
 
 
 def _set(found):
@@ -67,7 +74,7 @@ def big_numbers(joint):
     """[(number, unit, caption)]: at most four, without what was not measured."""
     before, after, floor = diagnosed.unseen_errors(joint)
     unseen = math.isfinite(joint.validation_relerr)
-    where = "on the unseen recording" if unseen else "in training; nothing unseen was given"
+    where = "on the unseen recording" if unseen else "in training"
     found = []
     if diagnosed.has_after(joint) and math.isfinite(after):
         found.append((f"{q.number(100 * before, 2)} → {q.percent(after)}", "", f"error {where}"))
@@ -95,7 +102,7 @@ def map_answer(joint):
     where = q.listed(diagnosed.axis_title(row.axis) for row in located[:3])
     most = q.percent(located[0].energy_share)
     others = len(rows) - len(located)
-    quiet = f"; {q.count_word(others)} {'axis is' if others == 1 else 'axes are'} quiet" if others else ""
+    quiet = f"; nothing is located on the other {q.count_word(others) if others > 1 else 'one'}" if others else ""
     return f"Located on {where}, where up to {most} of the residual's energy is beyond the clean twins{quiet}."
 
 
@@ -108,9 +115,10 @@ def candidates_answer(joint):
     return f"{said}. Grey: what 95 % of the clean twins stay below."
 
 
-def fit_answer(joint):
+def fit_answer(study, joint):
     if not math.isfinite(joint.validation_relerr):
-        return "No unseen recording was given: whether the model holds on another motion, this file cannot say."
+        given = "was not judged" if study.validate is not None else "was not given"
+        return f"An unseen recording {given}: whether the model holds on another motion, this file cannot say."
     refitted = f" Refitted on the head of the unseen recording: {q.listed(joint.nuisances)}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
         return f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}." + refitted
@@ -119,14 +127,18 @@ def fit_answer(joint):
     return f"Unseen error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
 
 
+def title(effect):
+    return _capital(effect.title or diagnosed.plain(effect.name))
+
+
 def effect_line(joint, effect):
     """The evidence for one effect in one line."""
     p = diagnosed.p_cell(effect.p, joint, effect.p_is_bound)
-    said = [f"z {q.number(effect.z)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
+    said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
     gains = [(effect.gain_train, "in training"), (effect.gain_cv, "cross-validated"), (effect.gain_validation, "unseen")]
     gains = [f"{q.percent(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
-        said.append(f"takes {', '.join(gains)} of the residual's energy")
+        said.append(f"of the residual's energy it takes {q.listed(gains)}")
     if math.isfinite(effect.peak):
         said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
     if effect.equivalent:

@@ -14,9 +14,9 @@ def draw(rows, width=style.WIDE):
     """rows: [(label, before, after, floor)] as fractions, NaN where not measured."""
     narrow = width < style.WIDE
     left, right = (96 if narrow else 150), width - (14 if narrow else 170)
-    bottom = 34 + ROW * len(rows)
+    bottom = 8 + ROW * len(rows)
     canvas = style.Canvas(width, bottom + 46)
-    axes = canvas.axes(left, 26, right, bottom)
+    axes = canvas.axes(left, 4, right, bottom)
     for index, (label, before, after, floor) in enumerate(rows):
         y = -index
         if np.isfinite(floor):
@@ -25,7 +25,7 @@ def draw(rows, width=style.WIDE):
             axes.plot([100 * before, 100 * after], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
             axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4)
         axes.plot(100 * before, y, marker="o", markersize=9, color=style.LIGHT["baseline"], zorder=3)
-        line = 26 + (bottom - 26) * (index + 0.5) / len(rows) + 4
+        line = 4 + (bottom - 4) * (index + 0.5) / len(rows) + 4
         canvas.text(0, line, label, color=style.LIGHT["ink"])
         if not narrow:
             words = quantities.percent(before, 3) + (f" → {quantities.percent(after, 3)}" if np.isfinite(after) else "")
@@ -48,7 +48,13 @@ def rows_of(joint):
 
 
 def cases(study):
-    sentence = "Norm of the residual over norm of the measured signal; grey bar: the floor, which a complete model would reach."
-    return {diagnosed.figure_name(study, joint, "error_before_after"):
-            Case(draw, {"rows": rows_of(joint)}, "Error in training and unseen", sentence, wide=True)
+    return {diagnosed.figure_name(study, joint, "error_before_after"): _case(rows_of(joint))
             for joint in study.diagnosis.joints if rows_of(joint)}
+
+
+def _case(rows):
+    unseen = any(label == "unseen" for label, *_ in rows)
+    sentence = "Norm of the residual over norm of the measured signal"
+    if any(np.isfinite(floor) for *_, floor in rows):
+        sentence += "; grey bar: the floor, which a complete model would reach"
+    return Case(draw, {"rows": rows}, "Error in training and unseen" if unseen else "Error in training", f"{sentence}.", wide=True)

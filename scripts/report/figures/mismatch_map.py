@@ -20,14 +20,14 @@ def draw(rows, width=style.WIDE):
     narrow = width < style.WIDE
     left, right = (2, width - 2) if narrow else (300, 920)
     lines = [_Line(row, narrow) for row in rows]
-    canvas = style.Canvas(width, 26 + sum(line.height for line in lines) + (74 if narrow else 50))
+    canvas = style.Canvas(width, 26 + sum(line.height for line in lines) + (76 if narrow else 40))
     if not narrow:
-        canvas.text(width, 14, "share of the residual", ha="right")
+        canvas.text(width, 14, "residual beyond the twins", ha="right")
     top, longest = 26, max([0.01] + [line.share for line in lines if np.isfinite(line.share)])
     for line in lines:
         top += line.height
         _draw_row(canvas, line, left, right, top - 8, narrow)
-        _draw_share(canvas, line.share, longest, top - 8, narrow)
+        _draw_share(canvas, line, longest, top - 8, narrow)
     _legend(canvas, top + 4, narrow)
     return canvas.figure
 
@@ -40,8 +40,11 @@ class _Line:
         self.level = _levels(self.z)
         if self.is_spectrum:
             self.level = np.where(np.isnan(self.level), np.nan, np.maximum(self.level, 0))
+        self.bounds = np.arange(len(self.level) + 1)
         if narrow:
-            self.level = np.array([_strongest(part) for part in np.array_split(self.level, min(NARROW_CELLS, len(self.level)))])
+            # each cell of the phone shows the strongest of those it stands for, at their place
+            self.bounds = np.unique(np.linspace(0, len(self.level), min(NARROW_CELLS, len(self.level)) + 1).round().astype(int))
+            self.level = np.array([_strongest(self.level[a:b]) for a, b in zip(self.bounds[:-1], self.bounds[1:])])
 
 
 def _levels(z):
@@ -63,10 +66,9 @@ def _colour(level, is_spectrum):
 def _draw_row(canvas, line, left, right, bottom, narrow):
     axes = canvas.axes(left, bottom - ROW, right, bottom)
     axes.set_axis_off()
-    n = len(line.level)
-    axes.set(xlim=(0, n), ylim=(0, 1))
+    axes.set(xlim=(0, line.bounds[-1]), ylim=(0, 1))
     for level in range(-4, 5):
-        cells(axes, (line.level == level)[:, None], np.arange(n + 1), np.array([0, 1]), _colour(level, line.is_spectrum))
+        cells(axes, (line.level == level)[:, None], line.bounds, np.array([0, 1]), _colour(level, line.is_spectrum))
     place = lambda x: np.interp(x, line.edges, np.linspace(left, right, len(line.edges)))  # noqa: E731
     for start, stop, _, kind in sorted(line.frames, key=lambda frame: frame[3] == "effect"):
         _frame(canvas, place(start), place(stop), bottom, kind)
@@ -109,39 +111,34 @@ def _labels(canvas, frames, left, right, baseline):
                     color=style.LIGHT["ink"])
 
 
-def _draw_share(canvas, share, longest, bottom, narrow):
-    if not np.isfinite(share):
+def _draw_share(canvas, line, longest, bottom, narrow):
+    if not np.isfinite(line.share):
         return
-    line = bottom - 6 if not narrow else bottom - ROW - 6
-    if narrow:
-        # above the cells, at the right of the name; rows with a label keep it on the name's line
-        return
-    bar = canvas.axes(940, bottom - ROW + 5, 1020, bottom - 5)
-    bar.set_axis_off()
-    bar.set(xlim=(0, longest), ylim=(0, 1))
-    bar.barh(0.5, share, 1, color=style.LIGHT["ink"])
-    canvas.text(canvas.width, line, quantities.percent(share), ha="right", color=style.LIGHT["ink"], fontweight="bold")
+    baseline = bottom - ROW - (LABEL if line.labels else 0) - 6 if narrow else bottom - 6
+    canvas.text(canvas.width, baseline, quantities.percent(line.share), ha="right", color=style.LIGHT["ink"], fontweight="bold")
+    if not narrow:
+        bar = canvas.axes(940, bottom - ROW + 5, 1020, bottom - 5)
+        bar.set_axis_off()
+        bar.set(xlim=(0, longest), ylim=(0, 1))
+        bar.barh(0.5, line.share, 1, color=style.LIGHT["ink"])
 
 
 def _legend(canvas, top, narrow):
-    swatch = 18
-    steps = [-4, -3, -2, -1, 0, 1, 2, 3, 4]
-    at, first = (0, "too much") if narrow else (300, "model asks too much")
-    words_width = style.EM * len(first)
-    canvas.text(at, top + 12, first)
-    _swatches(canvas, at + words_width, top + 1, [(_colour(step, False)) for step in steps], swatch)
-    canvas.text(at + words_width + 9 * swatch + 8, top + 12, "too little" if narrow else "too little")
-    numbers = ["20", "10", "5", "2.5", "2.5", "5", "10", "20"]
-    for k, number in enumerate(numbers, start=1):
-        canvas.text(at + words_width + k * swatch, top + 28, number, ha="center", fontsize=10.5)
-    if narrow:
-        at, line = 0, top + 40
-    else:
-        canvas.text(at + words_width + 9 * swatch + 8, top + 28, "spreads of the clean twins")
-        at, line = at + words_width + 9 * swatch + 8 + 30 * style.EM, top
-    words = "spectra: more than the twins"
-    canvas.text(at, line + 12, words)
-    _swatches(canvas, at + style.EM * len(words) - 6, line + 1, [_colour(step, True) for step in range(5)], swatch)
+    step = 22 if narrow else 28
+    left = 76 if narrow else 430
+    canvas.text(left - 8, top + 12, "too much" if narrow else "model asks too much", ha="right")
+    _swatches(canvas, left, top + 1, [_colour(level, False) for level in range(-4, 5)], step)
+    canvas.text(left + 9 * step + 8, top + 12, "too little")
+    limits = [quantities.tick(limit) for limit in LIMITS]
+    for k, limit in enumerate([*reversed(limits), *limits], start=1):
+        canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
+    canvas.text(left - 8, top + 28, "spreads" if narrow else "spreads of the twins", ha="right")
+    # spectra have one side only: more than the twins
+    left, top = (174, top + 38) if narrow else (938, top)
+    canvas.text(left - 8, top + 12, "spectra: beyond the twins", ha="right")
+    _swatches(canvas, left, top + 1, [_colour(level, True) for level in range(5)], step)
+    for k, limit in enumerate(limits, start=1):
+        canvas.text(left + k * step, top + 28, limit, ha="center", fontsize=10.5)
 
 
 def _swatches(canvas, left, top, colours, size):

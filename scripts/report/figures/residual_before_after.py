@@ -17,7 +17,7 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
     axes = canvas.axes(54, 30, width - 14, 178)
     time = canvas.axes(54, 182, width - 14, 208)
     span = (centre[0], centre[-1])
-    if region:
+    if region and (region[0] > span[0] or region[1] < span[1]):
         axes.axvspan(max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
     axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
@@ -70,7 +70,7 @@ def cases(study):
         if not joint.effects:
             found.update({name(f"residual_{row.axis}"): Case(draw, arguments(study, joint, row, region),
                                                              f"Residual over {diagnosed.axis_title(row.axis)}", _sentence(joint, unit))
-                          for row, region in _rows_without_effects(joint)})
+                          for row, region in diagnosed.rows_without_effects(joint)})
     return found
 
 
@@ -91,11 +91,3 @@ def _not_here(study, joint, row, rival, unit):
 
 def _equals(cell):
     return f"< {cell[1:]}" if cell.startswith("<") else f"= {cell}"
-
-
-def _rows_without_effects(joint):
-    """[(row, region)]: where something is unexplained, else the two axes that hold most."""
-    parts = {where.axis: (where.start, where.stop) for where, _ in reversed(joint.unexplained)}
-    rows = [(joint.map[axis], region) for axis, region in parts.items() if axis in joint.map and len(joint.map[axis].z)]
-    others = [(row, None) for row in diagnosed.strongest_rows(joint) if row.axis not in parts]
-    return (rows + others)[:2]
