@@ -12,6 +12,7 @@ from figures.decision_surface import cells
 LIMITS = (2.5, 5.0, 10.0, 20.0)  # spreads of the twins from which on a step is drawn; below the first lies chance
 NARROW_CELLS = 22
 ROW, LABEL = 20, 16
+BOLD_EM = 1.15 * style.EM
 
 
 def draw(rows, width=style.WIDE):
@@ -96,19 +97,28 @@ def _labels(canvas, frames, left, right, baseline):
     """Names above their frames; neighbours without room share one line of text."""
     groups = []
     for start, stop, label in sorted(frames):
-        half = style.EM * len(label) / 2 + 8
-        centre = min(max((start + stop) / 2, left + half), right - half)
-        if groups and centre - half < groups[-1][1]:
-            first, _, words = groups.pop()
-            words = words if label in words else [*words, label]
-            half = style.EM * len(", ".join(words)) / 2 + 8
-            centre = min(max((first + centre + half) / 2, left + half), right - half)
-            groups.append((centre - half, centre + half, words))
-        else:
-            groups.append((centre - half, centre + half, [label]))
+        group = _label((start + stop) / 2, [label], left, right)
+        if groups and group[0] < groups[-1][1]:
+            first, last, words = groups.pop()
+            group = _label((first + max(last, group[1])) / 2, list(dict.fromkeys([*words, label])), left, right)
+        groups.append(group)
     for start, stop, words in groups:
-        canvas.text((start + stop) / 2, baseline, style.fit(", ".join(words), right - left), ha="center", fontweight="bold",
-                    color=style.LIGHT["ink"])
+        canvas.text((start + stop) / 2, baseline, _written(words, right - left), ha="center", fontweight="bold", color=style.LIGHT["ink"])
+
+
+def _label(centre, words, left, right):
+    """(left edge, right edge, words) of a label about a place, moved inside [left, right]."""
+    half = BOLD_EM * len(_written(words, right - left)) / 2 + 6
+    centre = min(max(centre, left + half), right - half)
+    return centre - half, centre + half, words
+
+
+def _written(words, room):
+    """All the names, or the first one and how many more."""
+    everything = ", ".join(words)
+    if BOLD_EM * len(everything) + 12 <= room or len(words) == 1:
+        return style.fit(everything, room - 12)
+    return f"{style.fit(words[0], room - 100)} and {len(words) - 1} more"
 
 
 def _draw_share(canvas, line, longest, bottom, narrow):

@@ -10,8 +10,8 @@ from figures import Case
 
 def draw(axis_words, unit, at, partial, modelled, spread, region, width=style.SMALL):
     """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; region: (from, to) or None."""
-    canvas = style.Canvas(width, 258)
-    axes = canvas.axes(54, 30, width - 14, 208)
+    canvas = style.Canvas(width, 238)
+    axes = canvas.axes(54, 8, width - 14, 188)
     if region and (region[0] > at[0] or region[1] < at[-1]):
         axes.axvspan(max(region[0], at[0]), min(region[1], at[-1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
     axes.fill_between(at, modelled - diagnosed.Z95 * spread, modelled + diagnosed.Z95 * spread, color=style.LIGHT["floor"],

@@ -13,9 +13,9 @@ from figures import Case
 def draw(axis_words, unit, centre, before, after, low, high, samples, outside, region, is_spectrum, width=style.SMALL):
     """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside: cells beyond
     it; region: (from, to) or None."""
-    canvas = style.Canvas(width, 258)
-    axes = canvas.axes(54, 30, width - 14, 178)
-    time = canvas.axes(54, 182, width - 14, 208)
+    canvas = style.Canvas(width, 238)
+    axes = canvas.axes(54, 8, width - 14, 158)
+    time = canvas.axes(54, 162, width - 14, 188)
     span = (centre[0], centre[-1])
     if region and (region[0] > span[0] or region[1] < span[1]):
         axes.axvspan(max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
@@ -36,7 +36,7 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
     time.set_xlabel(f"{axis_words} ({unit})" if unit else axis_words, labelpad=3)
     for one in (axes, time):
         style.few_ticks(one.xaxis, 4)
-    canvas.text(0, 206, "rows")
+    canvas.text(0, 186, "rows")
     return canvas.figure
 
 

@@ -10,8 +10,8 @@ from figures import Case
 
 def draw(energies, width=style.SMALL):
     """energies [twin]: residual energy of each twin over that of the recording."""
-    canvas = style.Canvas(width, 258)
-    axes = canvas.axes(54, 30, width - 14, 208)
+    canvas = style.Canvas(width, 238)
+    axes = canvas.axes(54, 24, width - 14, 188)
     energies = energies[np.isfinite(energies)]
     last = 1.12 * max(1.0, float(energies.max()))
     axes.hist(energies, bins=np.linspace(0, last, 41), color=style.LIGHT["measured"])
@@ -20,7 +20,7 @@ def draw(energies, width=style.SMALL):
     axes.set_xlabel("residual energy (recording = 1)", labelpad=3)
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 4)
-    canvas.text(0, 16, "clean twins")
+    canvas.text(0, 12, "clean twins")
     return canvas.figure
 
 

@@ -206,15 +206,14 @@ class Page(unittest.TestCase):
 
     @support.needs_diagnoses
     def test_the_residual_has_a_gap_wherever_the_joint_turns_round(self):
-        """20 reversals in [0.5, 30.5] s: 21 pieces, before any zoom and after, and no line through zero between them."""
+        """20 reversals in 30 s: 21 pieces, and no line through zero between them."""
+        self.assertNotRegex(support.page("minute").read_text(encoding="utf-8"), r'(?i)\bd="[^"]*nan')
         self.open("minute")
         for window in ((0.5, 30.5), (0.5, 15.5)):
             self.zoom("trace_1", *window)
             reversals = len([at for at in np.arange(0.75, 60, 1.5) if window[0] < at < window[1]])
             for part in ("before", "after"):
                 self.assertEqual(self.drawn(part, "trace_1").count("M"), reversals + 1)
-        first = support.page("minute").read_text(encoding="utf-8")
-        self.assertNotIn("NaN", first)
 
     @support.needs_diagnoses
     def test_located_regions_stay_with_the_motion_when_zoomed(self):

@@ -185,6 +185,11 @@ class Map(unittest.TestCase):
         self.assertEqual(line.level[where], -4)
         self.assertTrue(line.bounds[where] <= 30 < line.bounds[where + 1])
 
+    def test_names_that_do_not_fit_are_counted(self):
+        self.assertEqual(mismatch_map._written(["stribeck", "presliding"], 348), "stribeck, presliding")
+        self.assertEqual(mismatch_map._written(["stribeck", "position dependent friction", "load dependent friction"], 348),
+                         "stribeck and 2 more")
+
     def test_the_region_of_an_effect_is_framed_with_its_name(self):
         frames = self.rows()["velocity"][6]
         self.assertIn((-0.12, 0.12, "stribeck", "effect"), frames)

@@ -1,4 +1,4 @@
-"""Diagnoses the invented ones do not show: a minute at 1 kHz, two joints, hardly anything measured."""
+"""Diagnoses the invented ones do not show: a minute at 1 kHz, two joints, hardly anything measured, effects side by side."""
 
 import numpy as np
 
@@ -65,5 +65,26 @@ def hardly_measured(file):
     del file["data/validate"]
 
 
+def crowded(file):
+    """Four effects with long names close together on one axis, one at its very end; numbers far from one."""
+    joint = file["diagnosis/joint_1"]
+    regions = ((-0.12, 0.12), (-0.1, 0.02), (0.05, 0.2), (0.98, 1.0))
+    names = ("stribeck", "position_dependent_friction", "load_dependent_friction", "directional_efficiency")
+    for number, (name, (start, stop)) in enumerate(zip(names, regions), start=1):
+        path = f"effects/effect_{number}"
+        if number > 1:
+            if path in joint:
+                del joint[path]
+            joint.copy("effects/effect_1", path)
+        effect = joint[path]
+        effect.attrs["name"], effect.attrs["region_from"], effect.attrs["region_to"] = np.bytes_(name), start, stop
+    for axis in joint["map"].values():
+        for name in ("z", "after_z", "mean_residual", "after_residual", "twin_mean", "twin_std"):
+            axis[name][...] *= 1.7e4
+    joint["map/velocity"].attrs["energy_share"] = np.nan
+    joint["candidates/z"][0] = 4711.0
+
+
 # name: (the kind it is made of, how)
-KINDS = {"minute": ("named", a_minute_at_1_khz), "two_joints": ("named", two_joints), "hardly_measured": ("named", hardly_measured)}
+KINDS = {"minute": ("named", a_minute_at_1_khz), "two_joints": ("named", two_joints), "hardly_measured": ("named", hardly_measured),
+         "crowded": ("named", crowded)}
