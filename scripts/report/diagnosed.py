@@ -55,7 +55,7 @@ def rows_drawn(joint):
 
 def is_quiet(row):
     """Nothing was located on it, and the twins show as much."""
-    return not row.regions and not row.is_spectrum and not row.p < 0.05
+    return not row.regions and not row.is_spectrum and row.p >= 0.05
 
 
 def strongest_rows(joint):
@@ -79,10 +79,12 @@ def effect_row(joint, effect):
     return row if row is not None and len(row.z) else None
 
 
-def quiet_rival(joint, effect):
-    """(row, candidate or None): a quiet row, that of the strongest candidate which was not named when its row is quiet."""
+def quiet_rival(joint, effect, shown=()):
+    """(row, candidate or None): a quiet row, that of the strongest candidate which was not named when its row is quiet;
+    rows whose axis is in `shown` only when there is no other."""
     own = {effect.region.axis, effect.curve.range.axis if effect.curve else ""}
     quiet = {row.axis: row for row in rows_drawn(joint) if is_quiet(row) and row.axis not in own}
+    quiet = {axis: row for axis, row in quiet.items() if axis not in shown} or quiet
     for candidate in joint.candidates:
         row = quiet.get(FAMILY_AXES.get(candidate.family))
         if candidate.decision == "no" and row is not None:

@@ -22,7 +22,8 @@ def _candidate(one, joint, scale):
     tested = one.decision != "not tested" and math.isfinite(one.z)
     pixels = lambda value: round(6 + max(value, 0.0) * scale, 1)  # noqa: E731
     return {"name": one.name, "family": diagnosed.plain(one.family), "mark": MARKS.get(one.decision, "○"), "decision": one.decision,
-            "reason": one.reason or diagnosed.plain(one.decision), "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
+            "reason": one.reason or diagnosed.plain(one.decision),
+            "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
             "z_pixel": pixels(one.z) if tested else None, "z": q.fixed(one.z, 1) if tested else "–",
             "p": diagnosed.p_cell(one.p, joint) if tested else "–", "q": _q(one.q) if tested else "–",
             "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if math.isfinite(one.cv_gain) else "–"}
@@ -56,5 +57,5 @@ def signs(text):
 def unexplained(joint):
     """[sentence] about what no candidate explains."""
     return [f"{q.percent(share)} of the residual's energy lies at {diagnosed.axis_title(where.axis)} "
-            f"{diagnosed.range_words(where.start, where.stop, diagnosed.axis_unit(where))} and is not explained." for where, share in joint.unexplained
-            if math.isfinite(share)]
+            f"{diagnosed.range_words(where.start, where.stop, diagnosed.axis_unit(where))} and is not explained."
+            for where, share in joint.unexplained if math.isfinite(share)]

@@ -99,7 +99,7 @@ def map_answer(joint):
     if not located:
         return f"Nowhere: no stretch of the {q.count_word(len(rows))} axes holds more than the clean twins do."
     located.sort(key=lambda row: -row.energy_share if math.isfinite(row.energy_share) else 0.0)
-    where = q.listed(diagnosed.axis_title(row.axis) for row in located[:3])
+    where = q.listed(diagnosed.axis_title(row.axis) for row in located)
     most = q.percent(located[0].energy_share)
     others = len(rows) - len(located)
     quiet = f"; nothing is located on the other {q.count_word(others) if others > 1 else 'one'}" if others else ""

@@ -87,10 +87,12 @@ def _frame(canvas, left, right, bottom, kind):
     thickness = 2.2 if kind == "effect" else 1.2
     # wide enough to be seen, however narrow the region
     left, right = (left, right) if right - left >= 8 else ((left + right) / 2 - 4, (left + right) / 2 + 4)
-    box = Rectangle((left / canvas.width, 1 - (bottom + 2) / canvas.height), (right - left) / canvas.width, (ROW + 4) / canvas.height,
-                    fill=False, edgecolor=style.LIGHT["ink"], linewidth=thickness,
-                    linestyle=(0, (4, 2)) if kind == "unexplained" else "solid", transform=canvas.figure.transFigure)
-    canvas.figure.add_artist(box)
+    # a light line under the dark one: seen on every step
+    for colour, width, dashes in (("background", thickness + 2, "solid"),
+                                  ("ink", thickness, (0, (4, 2)) if kind == "unexplained" else "solid")):
+        canvas.figure.add_artist(Rectangle((left / canvas.width, 1 - (bottom + 2) / canvas.height), (right - left) / canvas.width,
+                                           (ROW + 4) / canvas.height, fill=False, edgecolor=style.LIGHT[colour], linewidth=width,
+                                           linestyle=dashes, transform=canvas.figure.transFigure))
 
 
 def _labels(canvas, frames, left, right, baseline):

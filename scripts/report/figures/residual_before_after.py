@@ -58,27 +58,26 @@ def cases(study):
     for joint in study.diagnosis.joints:
         unit = quantities.unit(joint.unit_torque)
         name = lambda base: diagnosed.figure_name(study, joint, base)  # noqa: B023,E731
+        shown = set()
         for number, effect in enumerate(joint.effects, start=1):
             row = diagnosed.effect_row(joint, effect)
             if row is not None:
                 region = (effect.region.start, effect.region.stop) if effect.region.axis == row.axis else None
-                found[name(f"effect_{number}_residual")] = Case(draw, arguments(study, joint, row, region), _title(joint),
-                                                               _sentence(joint, unit))
-            quiet, rival = diagnosed.quiet_rival(joint, effect)
+                given = arguments(study, joint, row, region)
+                title = "Residual of the baseline" if given["after"] is None else "Residual before and after"
+                found[name(f"effect_{number}_residual")] = Case(draw, given, title, _sentence(unit))
+            quiet, rival = diagnosed.quiet_rival(joint, effect, shown)
             if quiet is not None:
+                shown.add(quiet.axis)
                 found[name(f"effect_{number}_not_here")] = _not_here(study, joint, quiet, rival, unit)
         if not joint.effects:
             found.update({name(f"residual_{row.axis}"): Case(draw, arguments(study, joint, row, region),
-                                                             f"Residual over {diagnosed.axis_title(row.axis)}", _sentence(joint, unit))
+                                                             f"Residual over {diagnosed.axis_title(row.axis)}", _sentence(unit))
                           for row, region in diagnosed.rows_without_effects(joint)})
     return found
 
 
-def _title(joint):
-    return "Residual before and after" if diagnosed.has_after(joint) else "Residual of the baseline"
-
-
-def _sentence(joint, unit):
+def _sentence(unit):
     return f"Mean residual in {unit}; dots: outside what 95 % of the clean twins show."
 
 

@@ -221,7 +221,8 @@ class Page(unittest.TestCase):
         self.open("minute")
         self.zoom("trace_1", 1.0, 4.0)
         layout = self.script("return JSON.parse(document.querySelector('#trace_1 svg.wide').dataset.layout)")
-        shades = self.script("return [...document.querySelectorAll('#trace_1 svg.wide [data-part=regions] path')].map((p) => p.getAttribute('d'))")
+        shades = self.script("return [...document.querySelectorAll('#trace_1 svg.wide [data-part=regions] path')]"
+                             ".map((p) => p.getAttribute('d'))")
         self.assertEqual(len(shades), 3)
         per_second = (layout["right"] - layout["left"]) / 3.0
         for shade in shades:
@@ -305,6 +306,17 @@ class Page(unittest.TestCase):
         pdf = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True})["data"])
         self.assertEqual(pdf[:5], b"%PDF-")
         self.assertGreater(pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page "), 2)
+
+    @support.needs_diagnoses
+    def test_no_table_is_cut_off_on_paper(self):
+        """A4 less its margins is 688 px wide."""
+        for kind in ("named", "none"):
+            self.open(kind, width=688)
+            self.media("light", "print")
+            cut = self.script("return [...document.querySelectorAll('table')].map((t) => t.getBoundingClientRect())"
+                              ".filter((b) => b.width > 0 && b.right > innerWidth + 0.5).map((b) => b.right)")
+            self.assertEqual(cut, [], kind)
+        self.media("light")
 
     def test_every_picture_has_a_title_and_a_description(self):
         for kind in KINDS:

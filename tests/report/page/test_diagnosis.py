@@ -208,11 +208,17 @@ class Figures(unittest.TestCase):
     def test_an_effect_located_in_a_spectrum_is_drawn_over_its_curve(self):
         self.assertEqual(diagnosed.effect_row(joint("named"), joint("named").effects[1]).axis, "position")
 
+    def test_not_here_is_another_axis_for_every_effect(self):
+        cases = all_cases(support.study("named"))
+        self.assertNotEqual(cases["effect_1_not_here"].title, cases["effect_2_not_here"].title)
+
     def test_not_here_is_quiet(self):
         for effect in joint("named").effects:
             row, _ = diagnosed.quiet_rival(joint("named"), effect)
             self.assertEqual(row.regions, [])
             self.assertGreaterEqual(row.p, 0.05)
+        # what was not measured is not called quiet
+        self.assertNotIn("effect_1_not_here", all_cases(support.study("hardly_measured")))
 
     def test_no_after_is_drawn_where_nothing_was_put_in(self):
         cases = all_cases(support.study("none"))

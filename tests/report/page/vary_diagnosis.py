@@ -2,8 +2,8 @@
 
 import numpy as np
 
-NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "floor_relerr", "train_floor_relerr",
-                "torque_noise", "disturbance")
+NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "floor_relerr",
+                "train_floor_relerr", "torque_noise", "disturbance")
 
 
 def replace(group, name, values):
