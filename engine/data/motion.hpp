@@ -51,6 +51,8 @@ class ParallelFilter {
   Eigen::Index kept_samples() const;  // after decimation and edge cut
   double kept_rate_hz() const;
   Eigen::VectorXd apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // n_samples -> kept_samples()
+  // every column of n_samples x k
+  Eigen::MatrixXd apply_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals) const;
   Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;   // the same samples, not low-passed
 
  private:

@@ -62,9 +62,7 @@ Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double
   }
   Eigen::MatrixXd full_rate(common.motion.q.size(), linear);
   effect.columns(baseline_.input(comparison_->rows.motion), shape, full_rate);
-  Eigen::MatrixXd out(common.torque.size(), linear);
-  for (Eigen::Index k = 0; k < linear; ++k) out.col(k) = pipeline_->filtered(full_rate.col(k), common);
-  return out;
+  return pipeline_->filtered_columns(full_rate, common);
 }
 
 OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double const> shape) const {

@@ -95,7 +95,7 @@ class Search {
     if (progress_) progress_(what, step, options_.max_effects + 1);
   }
 
-  double whole() const { return std::max(selection_.first_energy.excess, std::numeric_limits<double>::min()); }
+  double whole() const { return std::max(selection_.first_excess, std::numeric_limits<double>::min()); }
 
   void reject(Effect const* effect, std::string reason) {
     selection_.rejected.push_back({effect, selection_.accepted.size(), std::move(reason)});
@@ -105,19 +105,25 @@ class Search {
   bool take_one() {
     std::size_t const step = selection_.accepted.size();
     bool const is_first = step == 0;
-    if (!is_first && (step >= options_.max_effects || !is_significant(stage_))) return false;
+    if (step >= options_.max_effects) return false;
     tell("search", step);
     CandidateColumns const columns(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters());
     auto scans = scan_candidates(columns, options_.candidates, setting_.threads);
     std::vector<double> const q = hierarchical_q(scans);
-    bool const found = std::any_of(q.begin(), q.end(), [&](double one) { return one <= options_.q; });
+    double found = 0.0;  // most that a candidate beyond chance explains
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      if (q[i] <= options_.q) found = std::max(found, scans[i].gain);
+    remaining_ = std::max(stage_.energy.excess, found);
+    bool const is_open =
+        found > 0.0 && (is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share);
     if (is_first) {
       selection_.first_scan = scans;
       selection_.first_q = q;
       selection_.first_cv_gain.assign(scans.size(), std::numeric_limits<double>::quiet_NaN());
-      selection_.is_gate_open = is_significant(stage_);
+      selection_.first_excess = remaining_;
+      selection_.is_gate_open = is_open || is_significant(stage_);
     }
-    if (!found || !is_significant(stage_)) return false;
+    if (!is_open) return false;
     for (Trial& trial : refined_trials(columns, scans, q, is_first))
       if (accept(columns, trial)) return true;
     return false;
@@ -171,9 +177,9 @@ class Search {
   bool accept(CandidateColumns const& columns, Trial const& trial) {
     auto const* effect = trial.refined.effect;
     double const gain = trial.refined.gain;
-    if (gain < least_share_of_rest * stage_.energy.excess || gain < least_share_of_whole * whole()) {
-      reject(effect, fmt::format("explains {:.0f} % of what is left (a quarter is asked for)",
-                                 100.0 * gain / stage_.energy.excess));
+    if (gain < least_share_of_rest * remaining_ || gain < least_share_of_whole * whole()) {
+      reject(effect,
+             fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_));
       return false;
     }
     if (std::string why = implausible(trial.refined, columns.scales()); !why.empty()) {
@@ -194,7 +200,7 @@ class Search {
     }
     // the twins must confirm at least half of what the projection promised
     constexpr double confirmed = 0.5;
-    if (next->energy.excess > stage_.energy.excess - confirmed * gain) {
+    if (next->mismatch().squaredNorm() > stage_.mismatch().squaredNorm() - confirmed * gain) {
       reject(effect, "twins with it leave as much as twins without it");
       return false;
     }
@@ -252,15 +258,17 @@ class Search {
   StageSink const& progress_;
   ModelStage stage_;
   Selection selection_;
+  double remaining_ = 0.0;  // energy that this round looks for
 };
 
 }  // namespace
 
-double mismatch_share(ModelStage const& stage) {
-  auto const& torque = stage.comparison.rows.torque;
-  double const rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
-  return rms > 0.0 ? stage.energy.excess_rms() / rms : 0.0;
+double energy_share(ModelStage const& stage, double energy) {
+  double const whole = stage.comparison.rows.torque.squaredNorm();
+  return whole > 0.0 ? std::sqrt(std::max(0.0, energy) / whole) : 0.0;
 }
+
+double mismatch_share(ModelStage const& stage) { return energy_share(stage, stage.energy.excess); }
 
 bool is_significant(ModelStage const& stage) {
   return stage.energy.z > smallest_omnibus_z && mismatch_share(stage) > smallest_mismatch_share;

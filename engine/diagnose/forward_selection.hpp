@@ -2,12 +2,15 @@
 // Which effects, one after the other: the mismatch is searched, the effect that explains most of it is put into the model,
 // twins are made anew, and what is left is searched again.
 //
-// Gate       the family test of the scans at level q, the omnibus z above 4, and more than 0.25 % of the torque's rms
-//            beyond the twins; without it nothing is named
+// Gate       the family test of the scans at level q, and more than 0.25 % of the torque's rms beyond the twins: of the whole
+//            mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is there
+//            because a disturbance was fitted to the energy of the residual: where physics is missing it takes part of it
+//            for noise, so that the whole looks like noise while one direction of it does not
 // Choice     the candidates with most gain are refined in shape; the largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, keep its
 //            plausible bounds, and improve blocks of time it was not fitted to (t >= 2)
-// Accepted   when twins with it follow the reference and leave less mismatch than before
+// Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least half of what
+//            the projection promised
 // End        backward: an effect whose own share is below 0.2 % of the whole is taken out again
 // Threads    as the stages
 // Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
@@ -50,6 +53,7 @@ struct Selection {
   std::vector<double> first_q{};         // of each
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
+  double first_excess = 0.0;               // of it, or what one candidate explains if that is more; energy
   bool is_gate_open = false;               // something is missing
   std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
@@ -61,8 +65,9 @@ struct Selection {
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
 inline constexpr double smallest_omnibus_z = 4.0;
 
-// share of the torque's rms that the mismatch makes up
+// share of the torque's rms that the mismatch makes up; of any energy
 double mismatch_share(ModelStage const& stage);
+double energy_share(ModelStage const& stage, double energy);
 bool is_significant(ModelStage const& stage);
 
 // told before every piece of work: "twins", "search"; steps done of those that are surely to come

@@ -149,7 +149,7 @@ class JointWork {
   }
 
   void list_candidates() {
-    double const excess = std::max(selection_.first_energy.excess, std::numeric_limits<double>::min());
+    double const excess = std::max(selection_.first_excess, std::numeric_limits<double>::min());
     for (std::size_t i = 0; i < selection_.first_scan.size(); ++i) {
       auto const& scan = selection_.first_scan[i];
       Candidate candidate;
@@ -283,7 +283,7 @@ class JointWork {
 
   void budget(Remainder const& remainder) {
     double const residual = selection_.first_energy.residual;
-    double const excess = std::max(0.0, selection_.first_energy.excess);
+    double const excess = std::max(0.0, selection_.first_excess);
     double const mismatch = std::min(1.0, excess / residual);
     double const left = selection_.is_gate_open ? std::min(1.0, remainder.share) : 1.0;
     double const of_model = 1.0 - parameter_share_;

@@ -60,7 +60,7 @@ std::optional<ModelStage> refined_stage(StageSetting const& setting, BaselineRef
     ShapeSteps steps = stepped(*best);
     if (steps.is_small) break;
     auto next = make_stage(setting, JointModel(setting.regressor, best->reference(), std::move(steps.effects)));
-    if (!next || next->energy.excess >= best->energy.excess) break;
+    if (!next || next->mismatch().squaredNorm() >= best->mismatch().squaredNorm()) break;
     best = std::move(next);
   }
   return best;

@@ -46,8 +46,7 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   RegressionData data;
   data.columns = model_.column_owners();
   data.recording_names = {recording.name};
-  data.phi.resize(static_cast<Eigen::Index>(record.kept_rows.size()), full_rate.cols());
-  for (Eigen::Index r = 0; r < full_rate.cols(); ++r) data.phi.col(r) = filtered(full_rate.col(r), record);
+  data.phi = filtered_columns(full_rate, record);
   data.tau = filtered(record.motion.torque, record);
 
   record.parameters = solve_weighted(data, {});
@@ -60,6 +59,11 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
 Eigen::VectorXd RecordPipeline::filtered(Eigen::Ref<Eigen::VectorXd const> const& signal,
                                          ProcessedRecord const& record) const {
   return filter_.apply(signal)(record.kept_rows);
+}
+
+Eigen::MatrixXd RecordPipeline::filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,
+                                                 ProcessedRecord const& record) const {
+  return filter_.apply_columns(signals)(record.kept_rows, Eigen::all);
 }
 
 Eigen::VectorXd RecordPipeline::picked(Eigen::Ref<Eigen::VectorXd const> const& signal,

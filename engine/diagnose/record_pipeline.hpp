@@ -50,6 +50,8 @@ class RecordPipeline {
   ProcessedRecord process(Recording const& recording) const;
   // any signal of the full rate, filtered like a column, on the rows of that record
   Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
+  Eigen::MatrixXd filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,
+                                   ProcessedRecord const& record) const;
   // the rows' own samples of a signal of the full rate, not filtered: time, velocity
   Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
 

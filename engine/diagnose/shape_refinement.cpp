@@ -25,6 +25,7 @@ class Refinement {
       double const unit = to_unit(ranges_[k], best_.shape[k]);
       best_.at_bound = best_.at_bound || unit < close || unit > 1.0 - close;
     }
+    best_.gain -= noise_at(best_.shape);
     return std::move(best_);
   }
 
@@ -68,6 +69,14 @@ class Refinement {
   BoundedGain gain_at(std::vector<double> const& shape) const {
     OrthonormalGroup const group = columns_.group(effect_, shape);
     return bounded_gain(group, group.q.transpose() * mismatch_);
+  }
+
+  double noise_at(std::vector<double> const& shape) const {
+    auto const& rows = columns_.comparison().rows;
+    auto const m = static_cast<double>(rows.n_twins());
+    OrthonormalGroup const group = columns_.group(effect_, shape);
+    Eigen::MatrixXd const apart = group.q.transpose() * (rows.twins.colwise() - rows.twin_mean);
+    return apart.squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m);
   }
 
   void keep(std::vector<double> const& shape, BoundedGain const& gain) {

@@ -154,6 +154,16 @@ void foresee(LaneInstant& at) {
   }
 }
 
+// held: torque that acts during the tick
+void load_lanes(TwinJoint const& joint, double const* held, LaneDemand const& demand, LaneTorques& torques) {
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    torques.held[lane] = held[lane] - demand.smooth[lane];
+    torques.forward[lane] = joint.coulomb_forward + demand.forward[lane];
+    // friction that an effect turned into a drive is none at all
+    torques.backward[lane] = std::min(joint.coulomb_backward + demand.backward[lane], torques.forward[lane]);
+  }
+}
+
 }  // namespace
 
 CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
@@ -202,8 +212,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   draw_starts(address, group, loop_, track_, state.q);
   std::fill_n(state.dq, twin_lanes, track_.start_velocity);
   LaneTorques torques;
-  std::fill_n(torques.forward, twin_lanes, joint_.coulomb_forward);
-  std::fill_n(torques.backward, twin_lanes, joint_.coulomb_backward);
+  bool const any_follows_steps =
+      std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
   alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
   double const tick_s = 1.0 / track_.rate_hz;
   for (Eigen::Index k = 0; k < samples(); ++k) {
@@ -231,22 +241,23 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     disturbance.next(noise);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       noise[lane] = command[lane] + disturbance_level[lane] * noise[lane] - joint_.offset;
-    if (effects.empty()) {
-      std::copy_n(noise, twin_lanes, torques.held);
+    LaneDemand of_tick;
+    LaneInstant middle = instant_of(state, time_s, tick_s, command);
+    foresee(middle);
+    for (auto const& effect : effects)
+      if (!effect->follows_steps()) effect->add(middle, of_tick);
+    if (!any_follows_steps) {
+      load_lanes(joint_, noise, of_tick, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
     for (std::size_t step = 0; step < steps_per_tick_; ++step) {
       LaneInstant at = instant_of(state, time_s + static_cast<double>(step) * step_s_, step_s_, command);
       foresee(at);
-      LaneDemand demand;
-      for (auto const& effect : effects) effect->add(at, demand);
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-        torques.held[lane] = noise[lane] - demand.smooth[lane];
-        torques.forward[lane] = joint_.coulomb_forward + demand.forward[lane];
-        // friction that an effect turned into a drive is none at all
-        torques.backward[lane] = std::min(joint_.coulomb_backward + demand.backward[lane], torques.forward[lane]);
-      }
+      LaneDemand demand = of_tick;
+      for (auto const& effect : effects)
+        if (effect->follows_steps()) effect->add(at, demand);
+      load_lanes(joint_, noise, demand, torques);
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }
   }

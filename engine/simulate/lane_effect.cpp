@@ -15,9 +15,15 @@ class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
                   LaneJoint const& baseline)
-      : acts_on_(effect.acts_on()), is_dry_friction_(effect.is_dry_friction()), baseline_(baseline) {
+      : acts_on_(effect.acts_on()),
+        is_dry_friction_(effect.is_dry_friction()),
+        has_memory_(effect.has_memory()),
+        baseline_(baseline) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
+
+  // a memory may be stiff: what has none is smooth within a tick
+  bool follows_steps() const override { return has_memory_; }
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;
@@ -62,7 +68,7 @@ class CatalogueEffect final : public LaneEffect {
   }
 
   ActsOn acts_on_;
-  bool is_dry_friction_;
+  bool is_dry_friction_, has_memory_;
   LaneJoint baseline_;
   std::vector<std::unique_ptr<EffectRunner>> runners_;
 };

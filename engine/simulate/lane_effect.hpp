@@ -2,7 +2,7 @@
 // A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the twin.
 //
 // Joint      add(): the joint needs smooth + (forward while dq > 0, backward while dq < 0, anything between them at rest);
-//            called once per integration step, in the order of time, so that a memory can advance by step_s
+//            called once per integration step or tick, in the order of time, so that a memory can advance by step_s
 // Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
 //            controller sees it) and to the torque that is logged (nobody else does); called once per tick
 // Shapes     twin_lanes numbers each; every function adds to what is there
@@ -36,6 +36,9 @@ struct LaneDemand {
 class LaneEffect {
  public:
   virtual ~LaneEffect() = default;
+  // true: add() is called at every integration step; false: once per tick, for its middle (second order in the tick, and
+  // the torque is held between ticks anyway)
+  virtual bool follows_steps() const { return true; }
   virtual void add(LaneInstant const&, LaneDemand&) {}
   virtual void shift_position(LaneInstant const&, double*) {}
   virtual void shift_torque(LaneInstant const&, double*) {}

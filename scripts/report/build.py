@@ -12,12 +12,15 @@ from pathlib import Path
 
 import jinja2
 
+import diagnosed
 import quantities
 import style
 import svg
 import tables
+import tables_of_diagnosis
 import traces
 import words
+import words_of_diagnosis
 from figures import all_cases
 from read_result import ResultError
 from study import Study
@@ -37,11 +40,25 @@ def page(study):
             samples[name] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"], most)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    verdict = words.verdict(study)
     return environment.get_template("page.html").render(
-        study=study, words=words, tables=tables, q=quantities, verdict=verdict, figures=figures, samples=samples,
+        study=study, words=words, tables=tables, q=quantities, figures=figures, samples=samples,
         css=(HERE / "page.css").read_text(), js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1),
-        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators])
+        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators],
+        **(_of_diagnosis(study) if study.diagnosis else _of_study(study)))
+
+
+def _of_study(study):
+    return {"body": "study.html", "verdict": words.verdict(study), "head": words.head(study), "numbers": words.big_numbers(study),
+            "verdict_json": ""}
+
+
+def _of_diagnosis(study):
+    joints = study.diagnosis.joints
+    return {"body": "diagnosis.html", "verdict": words_of_diagnosis.verdict(study), "head": words_of_diagnosis.head(study),
+            "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
+            "lists": tables_of_diagnosis, "diagnosed": diagnosed,
+            # a script element ends at the first "</", wherever it stands
+            "verdict_json": study.diagnosis.verdict_json.replace("</", "<\\/")}
 
 
 def _figure(name, case, most):

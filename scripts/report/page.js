@@ -11,6 +11,8 @@
   });
 
   // ---- samples
+  const ABSENT = -32768;  // what traces.py writes for "not measured": the line has a gap there
+
   async function inflate(text, Kind) {
     const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -25,7 +27,7 @@
     const time = Float64Array.from(ticks, (tick) => packed.t.origin + tick * packed.t.scale);
     const series = {};
     for (const [part, { scale, data }] of Object.entries(packed.series)) {
-      series[part] = Float32Array.from(await inflate(data, Int16Array), (value) => value * scale);
+      series[part] = Float32Array.from(await inflate(data, Int16Array), (value) => (value === ABSENT ? NaN : value * scale));
     }
     // "measured-e0" is what e0 leaves of the measured
     const line = (part) => {
@@ -46,7 +48,7 @@
     return low;
   }
 
-  // M4: first, lowest, highest, last of each pixel column draw the same picture as all samples
+  // M4: first, lowest, highest, last of each pixel column draw the same picture as all samples; a gap where values are NaN
   function path(time, values, view, box) {
     const begin = Math.max(firstAtOrAfter(time, view.start) - 1, 0);
     const end = Math.min(firstAtOrAfter(time, view.stop) + 1, time.length);
@@ -55,21 +57,31 @@
     const x = (i) => (box.left + (time[i] - view.start) * perSecond).toFixed(1);
     const y = (i) => (box.bottom - (values[i] - box.low) * perUnit).toFixed(1);
     const points = [];
-    let last = -1;
-    const put = (i) => { if (i !== last) points.push(x((last = i)) + " " + y(i)); };
-    const keep = (first, low, high, end) => { put(first); put(Math.min(low, high)); put(Math.max(low, high)); put(end); };
-    let column = NaN, first = begin, low = begin, high = begin;
+    let last = -1, pen = "M";
+    const put = (i) => {
+      if (i === last) return;
+      points.push(pen + x((last = i)) + " " + y(i));
+      pen = "L";
+    };
+    let column = NaN, first = begin, low = begin, high = begin, open = false;
+    const keep = (end) => { put(first); put(Math.min(low, high)); put(Math.max(low, high)); put(end); open = false; };
     for (let i = begin; i < end; i++) {
+      if (Number.isNaN(values[i])) {
+        if (open) keep(i - 1);
+        pen = "M";
+        continue;
+      }
       const here = Math.floor((time[i] - view.start) * perSecond);
-      if (here !== column) {
-        if (i > begin) keep(first, low, high, i - 1);
+      if (!open || here !== column) {
+        if (open) keep(i - 1);
         column = here;
         first = low = high = i;
+        open = true;
       } else if (values[i] < values[low]) low = i;
       else if (values[i] > values[high]) high = i;
     }
-    keep(first, low, high, end - 1);
-    return "M" + points.join("L");
+    if (open) keep(end - 1);
+    return points.join("");
   }
 
   function niceStep(span, most) {
@@ -109,8 +121,17 @@
           line.setAttribute("d", path(samples.time, samples.line(part), view, { left, right, ...row }));
         }
       }
+      this.shade(view);
       this.ticks(view);
       this.window(view, samples.time);
+    }
+    shade(view) {
+      const { left, right, rows, regions = [] } = this.layout;
+      const x = (at) => (left + ((at - view.start) / (view.stop - view.start)) * (right - left)).toFixed(1);
+      const seen = regions.filter(([begin, end]) => end > view.start && begin < view.stop)
+        .map(([begin, end]) => [x(Math.max(begin, view.start)), x(Math.min(end, view.stop))]);
+      this.parts("regions").forEach((part, i) => part.querySelector("path").setAttribute("d",
+        seen.map(([begin, end]) => `M${begin} ${rows[i].top}H${end}V${rows[i].bottom}H${begin}Z`).join("")));
     }
     ticks(view) {
       const { left, right, rows } = this.layout;
@@ -255,6 +276,22 @@
       return `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${(value(to.y) - value(at.y)).toPrecision(3)} ${box.unit}`.replace(/-/g, "\u2212");
     }
     figure.zoomTo = show;
+  }
+
+  const copy = document.getElementById("copy-verdict");
+  if (copy) {
+    copy.addEventListener("click", async () => {
+      const text = document.getElementById("verdict-json").textContent;
+      const told = copy.nextElementSibling;
+      try {
+        await navigator.clipboard.writeText(text);
+        told.textContent = "copied";
+      } catch {
+        // no clipboard for this page: show the text, to be copied by hand
+        told.textContent = "";
+        copy.parentElement.nextElementSibling.open = true;
+      }
+    });
   }
 
   document.querySelectorAll("figure").forEach((figure) => {

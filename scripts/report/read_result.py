@@ -11,6 +11,7 @@
     fade.gap_history                                   all runs: array [run][generation]
     fade["population"][3, -1]                          of the last generation of run 3 only
     fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
+    result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found, read_diagnosis.py
 
 On the command line, `read_result.py R.h5` prints a summary.
 """
@@ -20,6 +21,8 @@ import sys
 
 import h5py
 import numpy as np
+
+from read_diagnosis import read_diagnosis
 
 NEWEST_FORMAT = 1
 
@@ -109,8 +112,9 @@ class Group:
 class Result(Group):
     """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
 
-    `estimators` is a dict in the order of the job. Whatever else the file has is there under its own name:
-    `result.data.regressor_health`, `result.diagnosis`. Use it in a `with` block, or close() it.
+    `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the records
+    of read_diagnosis.py. Whatever else the file has is there under its own name: `result.data.regressor_health`.
+    Use it in a `with` block, or close() it.
     """
 
     def __init__(self, name):
@@ -150,6 +154,11 @@ class Result(Group):
         """Unseen data, laid out as `train`; None when the job has none."""
         return Group(self._file["data/validate"]) if "data/validate" in self._file else None
 
+    @property
+    def diagnosis(self):
+        """What `torquescope diagnose` found; None when the file holds none. Read anew each time it is asked for."""
+        return read_diagnosis(Group(self._file["diagnosis"])) if "diagnosis" in self._file else None
+
     def close(self):
         self._file.close()
 
@@ -185,6 +194,18 @@ def _parameter_table(result):
     return rows
 
 
+def _diagnosis_summary(diagnosis):
+    """The verdict, and the parameters of each joint before and after."""
+    yield f"{diagnosis.verdict}: {diagnosis.reason}"
+    for joint in diagnosis.joints:
+        yield ""
+        rows = [[f"joint {joint.joint}", "unit", "before", "after"]]
+        for name, one in {**joint.baseline, **joint.augmented}.items():
+            before, after = (known[name].value if name in known else None for known in (joint.baseline, joint.augmented))
+            rows.append([name, one.unit, _number(before), _number(after)])
+        yield from _table(rows)
+
+
 def summary(result):
     """The summary as lines of text."""
     job = result.job
@@ -193,6 +214,10 @@ def summary(result):
         if data is not None:
             yield f"{name:9} {len(data.torque)} samples of {', '.join(data.get('recordings', []))}"
     yield ""
+    if result.diagnosis is not None:
+        yield from _diagnosis_summary(result.diagnosis)
+    if not result.estimators:
+        return
     yield from _table(_parameter_table(result))
     yield ""
     columns = ["mse_median", "gap_median", "relerr_median", "validation_relerr_median"]

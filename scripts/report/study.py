@@ -1,4 +1,4 @@
-"""What the page and the figures need from a result file, in plain arrays. The only file here that knows the layout.
+"""What the page and the figures need from a result file, in plain arrays. Beside the readers the only file that knows the layout.
 
 Source     engine/store/RESULT_FORMAT.md
 """
@@ -98,7 +98,7 @@ class Estimator(View):
 
 
 class Study:
-    """One result file. Estimators in the order of the job."""
+    """One result file. Estimators in the order of the job; none in the file of a diagnosis."""
 
     def __init__(self, path):
         self._result = Result(path)
@@ -107,6 +107,7 @@ class Study:
         self.job, self.model = View(self._result.job), View(self._result.model)
         self.job_text = str(np.atleast_1d(self.job.text)[0])
         self.provenance = View(self._result.provenance)
+        self.diagnosis = self._result.diagnosis  # read_diagnosis.py; None for an identification
         self.train = Recording(self._result.train)
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
         self.health = View(self._result.data.regressor_health)

@@ -31,6 +31,11 @@ PALETTE = {
     "irls": ("#662211", "#dd6655"),
     "de": ("#8a6a00", "#d8b23f"),
     "fade": ("#5a48b8", "#a99cf7"),
+    # of a diagnosis: before is always orange, after always blue, and nothing else is
+    "baseline": ("#c2500a", "#ff9b57"),
+    "augmented": ("#0067a8", "#63b8f5"),
+    "region": ("#fdf0dc", "#33291a"),
+    "quiet": ("#f2f3f5", "#1d2125"),
 }
 KIND_COLOUR = {"ols": "ink", "wls": "wls", "irls": "irls", "de": "de", "fade": "fade"}
 COMPARED = ("measured", *KIND_COLOUR.values())
@@ -41,6 +46,13 @@ RAMP = (
     ("#8275c8", "#6758b2"), ("#6757b4", "#8276c9"), ("#4a3a94", "#a59bde"), ("#2f2169", "#d0caf3"),
 )
 PALETTE.update({f"ramp{step}": pair for step, pair in enumerate(RAMP)})
+
+# the mismatch map, from just beyond chance to far beyond it: the model asks too little, too much; of a spectrum: too weak
+TOO_LITTLE = (("#efe3f1", "#372a40"), ("#d3b6dc", "#65407c"), ("#9f72b0", "#a36fc2"), ("#762a83", "#dcb6ee"))
+TOO_MUCH = (("#dff1dc", "#1c3822"), ("#a6dba0", "#27683a"), ("#5aae61", "#4fa863"), ("#1b7837", "#a9e8ac"))
+TOO_WEAK = (("#dcdfe3", "#33393f"), ("#b3b9c0", "#5a626a"), ("#737b84", "#949ca5"), ("#2c3237", "#d8dde2"))
+for words, steps in (("little", TOO_LITTLE), ("much", TOO_MUCH), ("weak", TOO_WEAK)):
+    PALETTE.update({f"{words}{step}": pair for step, pair in enumerate(steps, start=1)})
 
 LIGHT = {name: light for name, (light, _) in PALETTE.items()}
 

@@ -10,6 +10,8 @@ import zlib
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
 import style
 import thin
@@ -18,6 +20,7 @@ MOST_SAMPLES = 50000  # per trace, in the page
 ALL_SAMPLES = 700000  # of all traces of a page together: it stays below 3 MB
 OPENED_S = 6.0
 LEFT, RIGHT = 50, 12
+ABSENT = -32768  # the int16 that stands for NaN: the line has a gap there
 
 
 @dataclass
@@ -42,18 +45,23 @@ class Row:
     band: float = 0.0  # half height of a shaded band about zero
 
 
-def draw(time, rows, window, overview, width):
-    """rows: [Row]; window: (start, stop) in s; overview: the Line drawn whole in the strip below."""
+def draw(time, rows, window, overview, width, regions=()):
+    """rows: [Row]; window: (start, stop) in s; overview: the Line drawn whole in the strip below; regions: [(start, stop)]
+    in s, shaded in every row."""
     heading = 24
     height = sum(heading + row.height for row in rows) + 34 + (44 if overview else 0)
     canvas = style.Canvas(width, height)
     right = width - RIGHT
     start, stop = window
     layout = {"left": LEFT, "right": right, "start": round(float(start), 6), "stop": round(float(stop), 6), "rows": []}
+    if len(regions):
+        layout["regions"] = [[round(begin, 3), round(end, 3)] for begin, end in regions]
     top = 0
     for index, row in enumerate(rows):
         top += heading
         axes = canvas.axes(LEFT, top, right, top + row.height)
+        if len(regions):
+            _shade(axes, regions, (start, stop))
         if row.band:
             axes.axhspan(-row.band, row.band, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
         for line in row.lines:
@@ -74,6 +82,19 @@ def draw(time, rows, window, overview, width):
         _strip(canvas, time, overview, window, top + 44, right, layout)
     canvas.figure.trace_layout = json.dumps(layout, separators=(",", ":"))
     return canvas.figure
+
+
+def _shade(axes, regions, window):
+    vertices, codes = [], []
+    for begin, end in regions:
+        if end > window[0] and begin < window[1]:
+            begin, end = max(begin, window[0]), min(end, window[1])
+            vertices += [(begin, 0), (end, 0), (end, 1), (begin, 1), (begin, 0)]
+            codes += [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
+    # an empty first view keeps a point, so that zooming has a path to rewrite
+    shape = Path(vertices or [(window[0], 0)], codes or [Path.MOVETO])
+    shaded = axes.add_patch(PathPatch(shape, color=style.LIGHT["region"], linewidth=0, zorder=0.3, transform=axes.get_xaxis_transform()))
+    shaded.set_gid("part:regions")
 
 
 def _line(axes, time, line, window, columns):
@@ -117,7 +138,7 @@ def window_with_most(events, time, length=OPENED_S):
 
 
 def packed(time, series, guide, most):
-    """Samples as JSON for the page: int16 (time int32), differences, deflate, base64.
+    """Samples as JSON for the page: int16 (time int32), differences, deflate, base64; ABSENT where a value is NaN.
 
     Above `most` samples those stay that are lowest or highest in `guide` [n] over a short stretch: its spikes survive.
     """
@@ -127,9 +148,11 @@ def packed(time, series, guide, most):
     document = {"t": {"origin": float(shown[0]), "scale": tick,
                       "data": _deflated(np.rint((shown - shown[0]) / tick).astype(np.int64), np.int32)}, "series": {}}
     for name, values in series.items():
-        values = np.nan_to_num(np.asarray(values)[kept])
-        step = float(np.abs(values).max()) / 32767 or 1.0
-        document["series"][name] = {"scale": step, "data": _deflated(np.rint(values / step).astype(np.int64), np.int16)}
+        values = np.asarray(values, dtype=float)[kept]
+        absent = ~np.isfinite(values)
+        step = float(np.abs(values[~absent]).max(initial=0.0)) / 32767 or 1.0
+        steps = np.where(absent, ABSENT, np.rint(np.where(absent, 0.0, values) / step)).astype(np.int64)
+        document["series"][name] = {"scale": step, "data": _deflated(steps, np.int16)}
     return json.dumps(document, separators=(",", ":"))
 
 

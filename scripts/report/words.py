@@ -22,7 +22,7 @@ def verdict(study):
     else:
         mark, word, tone = "●", "Identified", "ink"
     sentence = _search_sentence(study.searches, late) if study.searches else _fit_sentence(study)
-    return {"mark": mark, "word": word, "tone": tone, "sentence": sentence, "evidence": _evidence(study, words)}
+    return {"mark": mark, "word": word, "tone": tone, "sentence": sentence, "headlines": [sentence], "evidence": _evidence(study, words)}
 
 
 def _arrived(e):
@@ -163,7 +163,12 @@ def warnings(study):
 
 
 def head(study):
-    parts = [study.job.name, f"{study.model.joint} joint",
+    return head_of_recordings(study, f"{study.model.joint} joint")
+
+
+def head_of_recordings(study, kind):
+    """The one line at the top: job, kind of joint, lengths and rate of the recordings, date."""
+    parts = [study.job.name, kind,
              f"train {q.seconds(study.train.duration_s)}" + (f", unseen {q.seconds(study.validate.duration_s)}"
                                                              if study.validate is not None else "")
              + f", {q.tick(study.train.kept_rate_hz)} Hz"]

@@ -3,15 +3,18 @@
 A figure module has  TITLE     a heading of a few words
                      draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080)
                      cases()   Study -> {name: Case}: what of this file it can draw; empty when there is nothing to draw
-Adding one is a file here, its name in MODULES, and a place in page.html.
+Adding one is a file here, its name in one of the lists below, and a place in the template of its kind of result.
 """
 
 import importlib
 from dataclasses import dataclass, field
 
-MODULES = ("parameters", "relative_error", "torque_trace", "residual_autocorrelation", "residual_by_speed",
+STUDY_MODULES = ("parameters", "relative_error", "torque_trace", "residual_autocorrelation", "residual_by_speed",
            "residual_distribution", "convergence", "control_parameters", "population_changes", "membership_functions",
-           "decision_surface", "recording_trace", "speed_histogram", "torque_by_speed")
+           "decision_surface")
+DIAGNOSIS_MODULES = ("mismatch_map", "residual_before_after", "missing_torque", "twin_energy", "error_before_after",
+                     "diagnosed_trace", "residual_budget", "parameters_before_after")
+RECORDING_MODULES = ("recording_trace", "speed_histogram", "torque_by_speed")
 
 
 @dataclass
@@ -31,7 +34,8 @@ class Case:
 
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
+    modules = (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
     cases = {}
-    for module in MODULES:
+    for module in modules:
         cases.update(importlib.import_module(f"figures.{module}").cases(study))
     return cases

@@ -1,7 +1,9 @@
 """Where the page's own modules are, and result files made once per process in a folder that goes away."""
 
 import atexit
+import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -20,17 +22,32 @@ except ImportError as error:
     sys.exit(77)
 
 import make_result  # noqa: E402
+import vary_diagnosis  # noqa: E402
 
 FOLDER = Path(tempfile.mkdtemp(prefix="torquescope_page_"))
 atexit.register(shutil.rmtree, FOLDER, True)
 KINDS = tuple(make_result.KINDS)
+# the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
+EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
+VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
+VARIED = tuple(vary_diagnosis.KINDS) if EXAMPLE_WRITER else ()
+DIAGNOSES = VERDICTS + VARIED
+needs_diagnoses = unittest.skipUnless(EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis")
 
 
 @lru_cache(maxsize=None)
 def result(kind):
-    """Path of the result file of this kind (make_result.py)."""
+    """Path of the result file of this kind (make_result.py, write_example_diagnosis.cpp, vary_diagnosis.py)."""
     path = FOLDER / f"{kind}.h5"
-    make_result.KINDS[kind](path)
+    if kind in VERDICTS:
+        subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
+    elif kind in VARIED:
+        source, vary = vary_diagnosis.KINDS[kind]
+        shutil.copy(result(source), path)
+        with h5py.File(path, "r+") as file:
+            vary(file)
+    else:
+        make_result.KINDS[kind](path)
     return path
 
 

@@ -8,14 +8,15 @@ from pathlib import Path
 import support
 import build
 import style
-from figures import MODULES, all_cases
+from figures import DIAGNOSIS_MODULES, RECORDING_MODULES, STUDY_MODULES, all_cases
 
 SCRIPT = Path(build.__file__).with_name("figure.py")
 
 
 class Figures(unittest.TestCase):
     def test_every_figure_writes_pdf_and_png(self):
-        for name, case in all_cases(support.study("crs")).items():
+        kinds = ("crs", "named", "none") if support.DIAGNOSES else ("crs",)
+        for name, case in [one for kind in kinds for one in all_cases(support.study(kind)).items()]:
             with self.subTest(name=name):
                 figure = case.figure(style.SMALL)
                 for ending, magic in ((".pdf", b"%PDF"), (".png", b"\x89PNG")):
@@ -26,7 +27,19 @@ class Figures(unittest.TestCase):
 
     def test_the_seed_study_uses_every_figure_module(self):
         used = {case.draw.__module__ for case in all_cases(support.study("crs")).values()}
-        self.assertEqual(used, {f"figures.{module}" for module in MODULES})
+        self.assertEqual(used, {f"figures.{module}" for module in STUDY_MODULES + RECORDING_MODULES})
+
+    @support.needs_diagnoses
+    def test_a_diagnosis_uses_every_figure_module(self):
+        used = {case.draw.__module__ for kind in ("named", "none") for case in all_cases(support.study(kind)).values()}
+        self.assertEqual(used, {f"figures.{module}" for module in DIAGNOSIS_MODULES + RECORDING_MODULES})
+
+    @support.needs_diagnoses
+    def test_the_command_writes_the_map_of_a_diagnosis(self):
+        for ending, magic in ((".pdf", b"%PDF"), (".png", b"\x89PNG")):
+            out = support.FOLDER / f"map{ending}"
+            subprocess.run([sys.executable, "-B", SCRIPT, "mismatch_map", support.result("named"), out], check=True)
+            self.assertEqual(out.read_bytes()[:4], magic)
 
     def test_the_command_lists_and_writes_a_figure(self):
         result = support.result("de_only")

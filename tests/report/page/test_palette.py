@@ -19,7 +19,10 @@ SEEN_BY = {
 LEAST_DISTANCE = 25  # Lab units (UX.md section 2)
 LEAST_TEXT_CONTRAST = 4.5  # WCAG AA
 LEAST_LINE_CONTRAST = 2.2  # the measured trace is meant to stand back, but not to vanish
-RESERVED = ("#c2500a", "#ff9b57", "#0067a8", "#63b8f5")  # before and after, light and dark: for the diagnosis only
+RESERVED = {"baseline": ("#c2500a", "#ff9b57"), "augmented": ("#0067a8", "#63b8f5")}  # before and after, light and dark
+DIAGNOSIS_COMPARED = ("baseline", "augmented", "measured", "ink")
+# the palest step of a map says only "a little beyond chance"; from the next one on its sign must be seen
+SIGNED_STEPS = (2, 3, 4)
 
 
 def linear(colour):
@@ -49,13 +52,15 @@ class Palette(unittest.TestCase):
 
     def test_compared_colours_differ_for_every_kind_of_eye(self):
         for theme, colour in self.each_theme():
-            for (who, seen), (a, b) in itertools.product(SEEN_BY.items(), itertools.combinations(style.COMPARED, 2)):
+            pairs = [*itertools.combinations(style.COMPARED, 2), *itertools.combinations(DIAGNOSIS_COMPARED, 2),
+                     *((f"little{step}", f"much{step}") for step in SIGNED_STEPS)]
+            for (who, seen), (a, b) in itertools.product(SEEN_BY.items(), pairs):
                 with self.subTest(theme=theme, who=who, a=a, b=b):
                     self.assertGreaterEqual(distance(colour[a], colour[b], seen), LEAST_DISTANCE)
 
     def test_text_can_be_read(self):
         for theme, colour in self.each_theme():
-            for name in ("ink", "muted", *style.KIND_COLOUR.values()):
+            for name in ("ink", "muted", "baseline", "augmented", *style.KIND_COLOUR.values()):
                 with self.subTest(theme=theme, name=name):
                     self.assertGreaterEqual(contrast(colour[name], colour["background"]), LEAST_TEXT_CONTRAST)
 
@@ -75,7 +80,21 @@ class Palette(unittest.TestCase):
         self.assertEqual(len(light), len(set(light)))
 
     def test_before_and_after_stay_reserved(self):
-        self.assertFalse({colour for pair in style.PALETTE.values() for colour in pair} & set(RESERVED))
+        """Nothing else wears the two colours, and no estimator is drawn in them."""
+        for name, pair in style.PALETTE.items():
+            if name in RESERVED:
+                self.assertEqual(pair, RESERVED[name])
+            else:
+                self.assertFalse(set(pair) & {colour for kept in RESERVED.values() for colour in kept}, name)
+        self.assertFalse(set(style.KIND_COLOUR.values()) & set(RESERVED))
+
+    def test_the_map_gets_stronger_with_every_step_in_both_themes(self):
+        for theme, colour in self.each_theme():
+            for words in ("little", "much", "weak"):
+                steps = [contrast(colour[name], colour["background"]) for name in ("quiet", *(f"{words}{k}" for k in range(1, 5)))]
+                with self.subTest(theme=theme, words=words):
+                    self.assertEqual(steps, sorted(steps))
+                    self.assertGreaterEqual(min(b / a for a, b in zip(steps, steps[1:])), 1.05)
 
 
 if __name__ == "__main__":

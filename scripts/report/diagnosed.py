@@ -1,0 +1,130 @@
+"""What the figures, the tables and the sentences of a diagnosis share: names of axes, of figures, and what there is to compare."""
+
+import math
+
+import numpy as np
+
+import quantities as q
+
+AXES = {
+    "velocity": "velocity", "position": "position", "acceleration": "acceleration", "load": "load",
+    "since_velocity_reversal": "since reversal of motion", "since_torque_reversal": "since reversal of torque",
+    "time": "time", "frequency": "frequency", "order": "order of angle",
+}
+# the axis on which candidates of a family would show first
+FAMILY_AXES = {"velocity_law": "velocity", "reversal": "since_velocity_reversal", "static_position": "position", "load": "load",
+               "time": "time", "acceleration": "acceleration", "order_locked": "position"}
+Z95 = 1.96  # of a normal spread: 95 % of the clean twins
+
+
+def plain(name):
+    """'power_law_viscous' for a person."""
+    return name.replace("_", " ")
+
+
+def axis_title(axis):
+    return AXES.get(axis, plain(axis))
+
+
+def axis_unit(row_or_interval):
+    """The unit in words people use: cos(12 q) has 12 waves per turn."""
+    if row_or_interval.axis == "order" and row_or_interval.unit == "1/rad":
+        return "waves per turn"
+    return q.unit(row_or_interval.unit)
+
+
+def range_words(start, stop, unit):
+    return f"{q.tick(float(f'{start:.2g}'))} … {q.tick(float(f'{stop:.2g}'))} {unit}".strip()
+
+
+def figure_name(study, joint, base):
+    """Name of a figure: with the joint's number where there are several."""
+    return base if len(study.diagnosis.joints) == 1 else f"{base}_joint_{joint.joint}"
+
+
+def has_after(joint):
+    """Something was put into the model: there is an after to set beside the before."""
+    after = joint.augmented_train_relerr
+    return math.isfinite(after) and after != joint.train_relerr
+
+
+def rows_drawn(joint):
+    """Rows of the map that hold cells."""
+    return [row for row in joint.map.values() if len(row.z)]
+
+
+def is_quiet(row):
+    """Nothing was located on it, and the twins show as much."""
+    return not row.regions and not row.is_spectrum and row.p >= 0.05
+
+
+def strongest_rows(joint):
+    """Rows that are no spectra, the one with most residual beyond the twins first."""
+    return sorted((row for row in rows_drawn(joint) if not row.is_spectrum), key=lambda row: -np.nan_to_num(row.energy_share))
+
+
+def rows_without_effects(joint):
+    """[(row, region or None)]: where something is unexplained, else the two axes that hold most."""
+    parts = {where.axis: (where.start, where.stop) for where, _ in reversed(joint.unexplained)}
+    rows = [(joint.map[axis], region) for axis, region in parts.items() if axis in joint.map and len(joint.map[axis].z)]
+    others = [(row, None) for row in strongest_rows(joint) if row.axis not in parts]
+    return (rows + others)[:2]
+
+
+def effect_row(joint, effect):
+    """The row on which an effect is drawn before and after: its region's, or its curve's when the region is in a spectrum."""
+    row = joint.map.get(effect.region.axis)
+    if row is not None and row.is_spectrum and effect.curve is not None:
+        row = joint.map.get(effect.curve.range.axis, row)
+    return row if row is not None and len(row.z) else None
+
+
+def quiet_rival(joint, effect, shown=()):
+    """(row, candidate or None): a quiet row, that of the strongest candidate which was not named when its row is quiet;
+    rows whose axis is in `shown` only when there is no other."""
+    own = {effect.region.axis, effect.curve.range.axis if effect.curve else ""}
+    quiet = {row.axis: row for row in rows_drawn(joint) if is_quiet(row) and row.axis not in own}
+    quiet = {axis: row for axis, row in quiet.items() if axis not in shown} or quiet
+    for candidate in joint.candidates:
+        row = quiet.get(FAMILY_AXES.get(candidate.family))
+        if candidate.decision == "no" and row is not None:
+            return row, candidate
+    return (max(quiet.values(), key=lambda row: np.nan_to_num(row.p)), None) if quiet else (None, None)
+
+
+def least_p(joint):
+    """The smallest p that this many twins can show."""
+    return 1 / (joint.twins + 1) if joint.twins else 0.0
+
+
+def p_cell(p, joint, is_bound=False):
+    """At most two digits; never zero."""
+    if not math.isfinite(p):
+        return "–"
+    if is_bound or p <= least_p(joint) * (1 + 1e-9):
+        return f"<{q.number(max(p, least_p(joint)), 1)}"
+    return q.number(p, 2)
+
+
+def twins_as_far(joint):
+    """How many of the twins have at least this recording's mismatch; None without twins."""
+    if not joint.twins or not math.isfinite(joint.omnibus_p):
+        return None
+    return max(round(joint.omnibus_p * (joint.twins + 1)) - 1, 0)
+
+
+def has_floor(joint):
+    return math.isfinite(joint.floor_relerr) or math.isfinite(joint.train_floor_relerr)
+
+
+def share_closed(joint):
+    """Of the error that a complete model would take away on the unseen recording (or in training); NaN when there is none."""
+    before, after, floor = unseen_errors(joint)
+    return (before - after) / (before - floor) if has_after(joint) and before > floor else math.nan
+
+
+def unseen_errors(joint):
+    """(before, after, floor) on the unseen recording, or in training without one."""
+    if math.isfinite(joint.validation_relerr):
+        return joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr
+    return joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr

@@ -1,0 +1,267 @@
+"""Python reads the diagnosis the C++ store wrote, and the page says of it what the file says: no more, no less."""
+
+import json
+import math
+import re
+import unittest
+
+import support
+import diagnosed
+import numpy as np
+import tables_of_diagnosis
+import words_of_diagnosis
+from figures import all_cases, diagnosed_trace, mismatch_map, parameters_before_after
+from read_result import Result, summary
+
+LEAST_P = 1 / 201
+
+
+def diagnosis(kind):
+    return support.study(kind).diagnosis
+
+
+def joint(kind):
+    return diagnosis(kind).joints[0]
+
+
+def read_by_a_person(kind):
+    """The text of the page outside tags, scripts and files that are shown verbatim."""
+    body = support.page(kind).read_text(encoding="utf-8").split("<body>")[1]
+    return re.sub(r"<[^>]*>", " ", re.sub(r"<(script|pre)\b.*?</\1>", " ", body, flags=re.S))
+
+
+@support.needs_diagnoses
+class Reader(unittest.TestCase):
+    def test_every_verdict_is_read(self):
+        self.assertEqual([diagnosis(kind).verdict for kind in support.VERDICTS], list(support.VERDICTS))
+
+    def test_a_file_without_runs_has_no_estimators(self):
+        with Result(support.result("named")) as result:
+            self.assertEqual(result.estimators, {})
+            self.assertIsNotNone(result.diagnosis)
+
+    def test_an_identification_has_no_diagnosis(self):
+        with Result(support.result("crs")) as result:
+            self.assertIsNone(result.diagnosis)
+
+    def test_parameters_come_by_name_with_their_intervals(self):
+        viscous = joint("named").augmented["viscous"]
+        self.assertEqual((viscous.unit, viscous.value, viscous.lower, viscous.upper), ("N m s/rad", 0.64, 0.628, 0.652))
+        self.assertAlmostEqual(viscous.half_interval, 0.012)
+        self.assertEqual(list(joint("named").baseline), ["inertia", "viscous", "coulomb", "offset"])
+
+    def test_the_map_keeps_its_order_though_one_row_is_called_order(self):
+        rows = joint("named").map
+        self.assertEqual(list(rows), ["velocity", "since_velocity_reversal", "since_torque_reversal", "load", "position", "acceleration",
+                                      "time", "order", "frequency"])
+        self.assertEqual([axis for axis, row in rows.items() if row.is_spectrum], ["order", "frequency"])
+        self.assertEqual(rows["velocity"].unit, "rad/s")
+        self.assertEqual(rows["velocity"].z.shape, (54,))
+        region, = rows["velocity"].regions
+        self.assertEqual((region.where.start, region.where.stop, region.energy_share), (-0.12, 0.12, 0.46))
+        self.assertEqual(rows["time"].regions, [])
+
+    def test_effects_are_in_the_order_of_acceptance(self):
+        stribeck, cogging = joint("named").effects
+        self.assertEqual((stribeck.name, stribeck.equivalent, stribeck.p_is_bound), ("stribeck", ["presliding"], True))
+        self.assertEqual((cogging.name, cogging.region.axis, cogging.curve.range.axis), ("cogging", "order", "position"))
+        self.assertEqual(stribeck.parameters["stribeck"].value, 0.354)
+        self.assertEqual(stribeck.curve.at.shape, (40,))
+
+    def test_lists_without_entries_are_empty(self):
+        poor = joint("insufficient")
+        self.assertEqual((poor.map, poor.candidates, poor.effects, poor.traces, poor.forward, poor.augmented), ({}, [], [], [], [], {}))
+        self.assertTrue(math.isnan(poor.validation_relerr))
+        self.assertEqual(poor.advice[0].would_separate, ["viscous", "coulomb"])
+
+    def test_residuals_are_nan_where_the_joint_turns_round(self):
+        trace = joint("named").traces[0]
+        masked = np.abs(trace.velocity) < 0.02
+        self.assertGreater(masked.sum(), 10)
+        np.testing.assert_array_equal(np.isnan(trace.before), masked)
+
+    def test_the_records_agree_with_the_json_beside_them(self):
+        found = diagnosis("named")
+        told = json.loads(found.verdict_json)
+        self.assertEqual((told["verdict"], told["reason"]), (found.verdict, found.reason))
+        for one, effect in zip(told["joints"][0]["effects"], found.joints[0].effects):
+            self.assertEqual((one["name"], one["z"], one["gain"]["cv"]), (effect.name, effect.z, effect.gain_cv))
+
+    def test_the_summary_has_the_verdict_and_both_models(self):
+        with Result(support.result("named")) as result:
+            text = "\n".join(summary(result))
+        for word in ("named: Joint 1 loses 0.35 N m", "stribeck_speed", "before", "after"):
+            self.assertIn(word, text)
+
+
+@support.needs_diagnoses
+class Verdict(unittest.TestCase):
+    def test_each_verdict_has_its_mark(self):
+        marks = [words_of_diagnosis.verdict(support.study(kind))["mark"] for kind in support.VERDICTS]
+        self.assertEqual(marks, ["●", "◍", "○", "◌", "▽", "✕"])
+
+    def test_what_comes_first_and_how_sure_below(self):
+        verdict = words_of_diagnosis.verdict(support.study("named"))
+        self.assertEqual(verdict["sentence"], "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction. "
+                                              "Joint 1 deviates by up to 0.060 N m from the model around 12 waves per turn: "
+                                              "cogging torque of the motor.")
+        evidence = verdict["evidence"].replace("\u00a0", " ")
+        for words in ("Stribeck: p < 0.005; presliding cannot be excluded.", "Cogging: p < 0.005.", "floor 6.0 %.", "200 clean twins"):
+            self.assertIn(words, evidence)
+
+    def test_nothing_of_the_reason_is_lost(self):
+        for kind in support.DIAGNOSES:
+            verdict = words_of_diagnosis.verdict(support.study(kind))
+            shown = (verdict["sentence"] + verdict["evidence"]).replace("\u00a0", " ").lower()
+            for word in diagnosis(kind).reason.lower().replace("(", " ").replace(")", " ").replace(".", " ").split():
+                self.assertIn(word, shown, kind)
+
+    def test_the_class_is_counted(self):
+        self.assertEqual(words_of_diagnosis.verdict(support.study("class"))["word"], "Missing physics: one of two")
+
+    def test_numbers_are_those_of_the_file(self):
+        shown = [(number, unit) for number, unit, _ in words_of_diagnosis.big_numbers(joint("named"))]
+        self.assertEqual(shown, [("12 → 6.2 %", ""), ("6.0 %", ""), ("96 %", ""), ("0", "of 200")])
+        self.assertAlmostEqual(diagnosed.share_closed(joint("named")), (0.1213 - 0.0623) / (0.1213 - 0.0601))
+
+    def test_a_recording_like_its_twins_says_how_many_are_like_it(self):
+        self.assertEqual(diagnosed.twins_as_far(joint("none")), round(0.4129 * 201) - 1)
+
+    def test_what_was_not_measured_is_left_out(self):
+        self.assertEqual(words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error of the baseline in training")])
+        for kind in support.DIAGNOSES:
+            found = re.findall(r"\b[nN][aA][nN]\b|\bNone\b|\binf\b", read_by_a_person(kind))
+            self.assertEqual(found, [], kind)
+
+    def test_never_p_equals_zero(self):
+        for kind in support.VERDICTS:
+            for row in tables_of_diagnosis.candidates(joint(kind)):
+                self.assertNotIn(row["p"], ("0", "0.0", "0.00"))
+        self.assertEqual(diagnosed.p_cell(LEAST_P, joint("named")), "<0.005")
+        self.assertEqual(diagnosed.p_cell(0.0, joint("named")), "<0.005")
+        self.assertEqual(diagnosed.p_cell(0.4129, joint("named")), "0.41")
+
+    def test_forbidden_words_are_not_ours(self):
+        for kind in support.VERDICTS:
+            self.assertEqual(re.findall(r"\bsignificant|\blikely|\bAI\b", read_by_a_person(kind)), [], kind)
+
+    def test_two_joints_have_two_of_everything(self):
+        text = support.page("two_joints").read_text(encoding="utf-8")
+        self.assertEqual(text.count('id="mismatch_map_joint_'), 2)
+        self.assertIn('id="trace_2_joint_2"', text)
+        self.assertEqual(text.count('id="copy-verdict"'), 1)
+
+
+@support.needs_diagnoses
+class Map(unittest.TestCase):
+    def rows(self, kind="named"):
+        return {name: row for row in all_cases(support.study(kind))["mismatch_map"].arguments["rows"] for name in [row[0]]}
+
+    def test_quiet_rows_stay(self):
+        for kind in ("named", "none", "unexplained"):
+            self.assertEqual(len(self.rows(kind)), 9)
+
+    def test_a_cell_without_samples_has_no_colour(self):
+        line = mismatch_map._Line(self.rows()["velocity"], narrow=False)
+        self.assertTrue(np.isnan(line.level[40]))
+        self.assertEqual(np.isnan(line.level).sum(), 1)
+
+    def test_levels_follow_the_limits_of_the_legend(self):
+        z = np.array([0.0, 2.4, 2.6, -2.6, 5.1, -11.0, 21.0, -300.0, np.nan])
+        np.testing.assert_array_equal(mismatch_map._levels(z), [0, 0, 1, -1, 2, -3, 4, -4, np.nan])
+
+    def test_spectra_have_one_side(self):
+        row = list(self.rows()["frequency"])
+        row[4] = np.where(np.arange(54) < 20, -9.0, 9.0)
+        np.testing.assert_array_equal(mismatch_map._Line(row, narrow=False).level, np.where(np.arange(54) < 20, 0, 2))
+
+    def test_a_phone_sees_the_strongest_of_the_cells_in_its_place(self):
+        row = list(self.rows()["velocity"])
+        row[4] = np.zeros(54)
+        row[4][30] = -25.0
+        line = mismatch_map._Line(row, narrow=True)
+        self.assertEqual(len(line.level), 22)
+        where, = np.flatnonzero(line.level)
+        self.assertEqual(line.level[where], -4)
+        self.assertTrue(line.bounds[where] <= 30 < line.bounds[where + 1])
+
+    def test_names_that_do_not_fit_are_counted(self):
+        self.assertEqual(mismatch_map._written(["stribeck", "presliding"], 348), "stribeck, presliding")
+        self.assertEqual(mismatch_map._written(["stribeck", "position dependent friction", "load dependent friction"], 348),
+                         "stribeck and 2 more")
+
+    def test_the_region_of_an_effect_is_framed_with_its_name(self):
+        frames = self.rows()["velocity"][6]
+        self.assertIn((-0.12, 0.12, "stribeck", "effect"), frames)
+        self.assertIn((0.95, 1.29, "unexplained", "unexplained"), self.rows()["load"][6])
+        self.assertEqual(self.rows("none")["velocity"][6], [])
+
+
+@support.needs_diagnoses
+class Figures(unittest.TestCase):
+    def test_three_figures_per_effect(self):
+        names = all_cases(support.study("named"))
+        for effect in (1, 2):
+            for part in ("residual", "missing", "not_here"):
+                self.assertIn(f"effect_{effect}_{part}", names)
+
+    def test_an_effect_located_in_a_spectrum_is_drawn_over_its_curve(self):
+        self.assertEqual(diagnosed.effect_row(joint("named"), joint("named").effects[1]).axis, "position")
+
+    def test_not_here_is_another_axis_for_every_effect(self):
+        cases = all_cases(support.study("named"))
+        self.assertNotEqual(cases["effect_1_not_here"].title, cases["effect_2_not_here"].title)
+
+    def test_not_here_is_quiet(self):
+        for effect in joint("named").effects:
+            row, _ = diagnosed.quiet_rival(joint("named"), effect)
+            self.assertEqual(row.regions, [])
+            self.assertGreaterEqual(row.p, 0.05)
+        # what was not measured is not called quiet
+        self.assertNotIn("effect_1_not_here", all_cases(support.study("hardly_measured")))
+
+    def test_no_after_is_drawn_where_nothing_was_put_in(self):
+        cases = all_cases(support.study("none"))
+        self.assertIsNone(cases["trace_1"].arguments["after"])
+        self.assertTrue(all(np.isnan(after) for _, _, after, _ in cases["error_before_after"].arguments["rows"]))
+        self.assertTrue(all(np.isnan(at) for at, _ in cases["parameters_before_after"].arguments["after"]))
+
+    def test_dots_are_what_lies_outside_the_band_of_the_twins(self):
+        given = all_cases(support.study("named"))["effect_1_residual"].arguments
+        row = joint("named").map["velocity"]
+        expected = (np.abs(row.mean_residual - row.twin_mean) > 1.96 * row.twin_std) & (row.samples > 0)
+        np.testing.assert_array_equal(given["outside"], expected)
+
+    def test_a_trace_opens_on_the_six_seconds_that_gain_most(self):
+        time = np.arange(6000) / 100
+        before = np.where((time > 31) & (time < 36), 1.0, 0.1)
+        before[2000:2050] = np.nan
+        start, stop = diagnosed_trace.window_of_most_gain(time, before, 0.1 * np.ones(6000))
+        self.assertTrue(start <= 31 and stop >= 36)
+        self.assertAlmostEqual(stop - start, 6.0)
+
+    def test_the_band_of_the_trace_is_the_floor_of_the_file(self):
+        trace = joint("named").traces[0]
+        rows = np.isfinite(trace.before)
+        expected = 2 * 0.0601 * np.sqrt(np.mean(trace.torque[rows] ** 2))
+        self.assertAlmostEqual(all_cases(support.study("named"))["trace_1"].arguments["floor"], expected)
+
+    def test_parameters_are_differences_from_the_truth_where_it_is_known(self):
+        names, before, after = parameters_before_after.differences(joint("named"), {})
+        self.assertAlmostEqual(after[names.index("viscous")][0], 100 * (0.64 / 0.41 - 1))
+        self.assertEqual(before[names.index("viscous")][0], 0.0)
+        self.assertTrue(math.isnan(before[names.index("stribeck")][0]))
+        names, before, after = parameters_before_after.differences(joint("named"), {"viscous": 0.5})
+        self.assertAlmostEqual(before[names.index("viscous")][0], -18.0)
+        self.assertAlmostEqual(after[names.index("viscous")][0], 28.0)
+
+    def test_what_was_not_measured_has_no_figure(self):
+        names = all_cases(support.study("hardly_measured"))
+        for absent in ("trace_1", "twin_energy", "effect_1_missing"):
+            self.assertNotIn(absent, names)
+        self.assertNotIn("mismatch_map", all_cases(support.study("insufficient")))
+        self.assertNotIn("residual_budget", all_cases(support.study("insufficient")))
+
+
+if __name__ == "__main__":
+    support.main()
