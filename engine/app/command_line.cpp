@@ -62,6 +62,7 @@ void parse_command_line(std::vector<std::string> const& words, ParsedCommandLine
   app.formatter(std::make_shared<HelpPage>());
   add_check(app, parsed.chosen);
   add_run(app, parsed.chosen);
+  add_diagnose(app, parsed.chosen, diagnose);
   add_show(app, parsed.chosen);
   add_report(app, parsed.chosen);
   add_simulate(app, parsed.chosen);

@@ -15,6 +15,7 @@ std::string program_help() {
 
   torquescope check    JOB.toml      is everything there?       (seconds)
   torquescope run      JOB.toml      identify; a finished job is shown again
+  torquescope diagnose JOB.toml      find the physics the model lacks
   torquescope show     R.h5          tables here
   torquescope report   R.h5          one page with pictures
   torquescope simulate JOB.toml --out REC.csv     recordings from a model

@@ -19,7 +19,9 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
         "added to the torque's time stamps; negative when the torque comes late"},
        {"gaps", &Options::gaps, {"error", "fill"}, "missing values: refuse them, or fill up to 5 in a row linearly"},
        {"simulated_torque", &Options::simulated_torque,
-        "column with the torque (N m or N) of your own simulator on the same motion; neither scaled nor delayed"}});
+        "column with the torque (N m or N) of your own simulator on the same motion, neither scaled nor delayed; "
+        "diagnose "
+        "then explains what is left of the recording beside it"}});
   return table;
 }
 

@@ -25,8 +25,8 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   };
   correct();
   if (result.baseline.ran_away) return result;
-  CleanTwin const twin(pipeline.model().twin_joint(result.baseline.parameters), result.loop.loop,
-                       result.loop.track, options.step_s);
+  CleanTwin const twin(pipeline.model().twin_joint(result.baseline.parameters), result.loop.loop, result.loop.track,
+                       options.step_s);
   result.disturbance = disturbance_level(record, twin, pipeline, options.step_s, level_set, options.twins, threads);
   if (result.disturbance.ran_away || result.disturbance.std == 0.0) return result;
   result.loop.loop.disturbance_std = result.disturbance.std;

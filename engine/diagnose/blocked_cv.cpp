@@ -31,6 +31,15 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
 
 }  // namespace
 
+double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows) {
+  TORQUESCOPE_EXPECT(signal.size() >= 100 && columns.rows() == signal.size());
+  double sum = 0.0;
+  for (Eigen::Index block = 0; block < n_blocks; ++block)
+    sum += left_inside(signal, columns, signal.size() * block / n_blocks, signal.size() * (block + 1) / n_blocks,
+                       guard_rows);
+  return sum;
+}
+
 BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
                          Eigen::Index guard_rows) {
   TORQUESCOPE_EXPECT(mismatch.size() >= 100 && model.rows() == mismatch.size() && effect.rows() == mismatch.size());
@@ -39,8 +48,8 @@ BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const&
   BlockedGain result;
   for (Eigen::Index block = 0; block < n_blocks; ++block) {
     Eigen::Index const from = mismatch.size() * block / n_blocks, to = mismatch.size() * (block + 1) / n_blocks;
-    double const gain = left_inside(mismatch, model, from, to, guard_rows) -
-                        left_inside(mismatch, both, from, to, guard_rows);
+    double const gain =
+        left_inside(mismatch, model, from, to, guard_rows) - left_inside(mismatch, both, from, to, guard_rows);
     result.per_block.push_back(gain);
     result.gain += gain;
   }

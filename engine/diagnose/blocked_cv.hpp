@@ -21,6 +21,9 @@ struct BlockedGain {
   std::vector<double> per_block{};
 };
 
+// energy left in all blocks, each predicted by the fit outside it
+double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows);
+
 BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
                          Eigen::Index guard_rows);
 

@@ -15,9 +15,9 @@ namespace torquescope {
 
 // an orthonormal basis of a group of columns, without what other columns explain already
 struct OrthonormalGroup {
-  Eigen::MatrixXd q;                  // n x rank
-  Eigen::MatrixXd r;                  // rank x L: columns (less the nuisance) = q r
-  std::vector<bool> non_negative{};   // L
+  Eigen::MatrixXd q;                 // n x rank
+  Eigen::MatrixXd r;                 // rank x L: columns (less the nuisance) = q r
+  std::vector<bool> non_negative{};  // L
 
   Eigen::Index rank() const { return q.cols(); }
 };

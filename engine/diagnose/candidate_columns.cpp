@@ -11,8 +11,7 @@ namespace {
 
 // a wave of fixed time frequency: the zero-phase filter changes its size alone, which a linear parameter takes up
 bool is_fixed_frequency(Effect const& effect) {
-  return effect.n_shape() == 1 &&
-         effect.parameters()[effect.n_linear()].lower.to == RelativeTo::slowest_frequency;
+  return effect.n_shape() == 1 && effect.parameters()[effect.n_linear()].lower.to == RelativeTo::slowest_frequency;
 }
 
 std::vector<bool> signs(Effect const& effect) {
@@ -31,8 +30,7 @@ double shape_step(ParameterRange const& range, double value) {
 }
 
 CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison,
-                                   BaselineReference reference, Eigen::VectorXd const& parameters,
-                                   std::size_t without)
+                                   BaselineReference reference, Eigen::VectorXd const& parameters, std::size_t without)
     : pipeline_(&pipeline),
       comparison_(&comparison),
       reference_(std::move(reference)),

@@ -28,8 +28,8 @@ struct EffectScan {
   bool p_is_bound = false;   // no twin came near: p is the smallest that this many twins can give
   double gain = 0.0;         // largest over the grid
   std::size_t best_point = 0;
-  std::vector<double> shape{};     // there
-  Eigen::VectorXd parameters{};    // linear ones there
+  std::vector<double> shape{};   // there
+  Eigen::VectorXd parameters{};  // linear ones there
   ShapeGrid grid{};
 };
 

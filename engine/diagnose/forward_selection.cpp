@@ -135,8 +135,7 @@ class Search {
 
     Eigen::VectorXd const mismatch = stage_.mismatch();
     ShapeSearch const search = shape_search(options_.shape_optimiser, setting_.seed);
-    auto const guard = static_cast<Eigen::Index>(
-        std::ceil(3.0 * stage_.pipeline->kept_rate_hz() / std::max(stage_.pipeline->cutoff_hz(), 1.0)));
+    Eigen::Index const guard = guard_rows(*stage_.pipeline);
     std::vector<Trial> trials;
     for (std::size_t i : order) {
       Trial trial{scans[i], q[i], refine_shape(columns, scans[i], mismatch, search, setting_.threads), {}};
@@ -155,8 +154,8 @@ class Search {
   static void prefer_fewer_parameters(std::vector<Trial>& trials) {
     if (trials.empty()) return;
     double const enough = nearly_all * trials.front().refined.gain;
-    auto const last = std::find_if(trials.begin(), trials.end(),
-                                   [&](Trial const& trial) { return trial.refined.gain < enough; });
+    auto const last =
+        std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) { return trial.refined.gain < enough; });
     std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
       return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
     });

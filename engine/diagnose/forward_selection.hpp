@@ -31,11 +31,11 @@ struct SelectionOptions {
 
 struct AcceptedEffect {
   Effect const* effect = nullptr;
-  EffectScan scan{};           // of the step at which it was accepted
-  double q = 1.0;              // hierarchical, there
-  double gain = 0.0;           // energy of the mismatch it explained there
-  double cv_t = 0.0;           // of the improvement on blocks it was not fitted to
-  double cv_gain = 0.0;        // energy
+  EffectScan scan{};     // of the step at which it was accepted
+  double q = 1.0;        // hierarchical, there
+  double gain = 0.0;     // energy of the mismatch it explained there
+  double cv_t = 0.0;     // of the improvement on blocks it was not fitted to
+  double cv_gain = 0.0;  // energy
 };
 
 // why a refined candidate was not taken
@@ -50,12 +50,12 @@ struct Selection {
   std::vector<double> first_q{};         // of each
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
-  bool is_gate_open = false;             // something is missing
+  bool is_gate_open = false;               // something is missing
   std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
-  ModelStage baseline;                   // without effects
-  ModelStage final;                      // with all of them; a second copy of the baseline's when there are none
-  std::int64_t evaluations = 0;          // of shapes
+  ModelStage baseline;           // without effects
+  ModelStage final;              // with all of them; a second copy of the baseline's when there are none
+  std::int64_t evaluations = 0;  // of shapes
 };
 
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms

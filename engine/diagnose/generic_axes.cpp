@@ -32,7 +32,8 @@ Eigen::MatrixXd hats(Eigen::VectorXd const& x, Eigen::Index count) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     auto const above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x[i]);
     auto const right = static_cast<Eigen::Index>(above - knots.begin());
-    double const left_knot = knots[static_cast<std::size_t>(right - 1)], right_knot = knots[static_cast<std::size_t>(right)];
+    double const left_knot = knots[static_cast<std::size_t>(right - 1)],
+                 right_knot = knots[static_cast<std::size_t>(right)];
     double const part = (x[i] - left_knot) / (right_knot - left_knot);
     out(i, right - 1) = 1.0 - part;
     out(i, right) = part;

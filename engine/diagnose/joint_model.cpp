@@ -62,9 +62,8 @@ TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
 
 FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion) {
   FittedBaseline baseline =
-      fitted_baseline(regressor,
-                      {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())}, motion,
-                      reference.scales.cutoff_hz, reference.scales.encoder_step);
+      fitted_baseline(regressor, {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())},
+                      motion, reference.scales.cutoff_hz, reference.scales.encoder_step);
   baseline.scales = reference.scales;
   return baseline;
 }

@@ -26,8 +26,7 @@ ShapeSteps stepped(ModelStage const& stage) {
   all << columns.model_columns(), columns.tangents();
   Eigen::VectorXd const length = all.colwise().norm().cwiseMax(1e-300);
   auto const solver = (all * length.cwiseInverse().asDiagonal()).colPivHouseholderQr();
-  Eigen::VectorXd const step =
-      Eigen::VectorXd(solver.solve(stage.mismatch())).cwiseQuotient(length).tail(n_shapes);
+  Eigen::VectorXd const step = Eigen::VectorXd(solver.solve(stage.mismatch())).cwiseQuotient(length).tail(n_shapes);
   Eigen::MatrixXd const apart = rows.twins.colwise() - rows.twin_mean;
   Eigen::MatrixXd const noise =
       (length.cwiseInverse().asDiagonal() * Eigen::MatrixXd(solver.solve(apart))).bottomRows(n_shapes);

@@ -94,7 +94,8 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   pipeline.restrict_to(safe);
 
   result.recording = pipeline.process(recording);
-  for_each_twin(noiseless, pipeline, address, 1, 1, [&](VisitedTwin const& visited) { result.common = visited.record; });
+  for_each_twin(noiseless, pipeline, address, 1, 1,
+                [&](VisitedTwin const& visited) { result.common = visited.record; });
   auto& rows = result.rows;
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = safe;

@@ -20,18 +20,18 @@
 namespace torquescope {
 
 struct MismatchRows {
-  double rate_hz = 0.0;                      // of the kept samples before the mask
-  std::vector<Eigen::Index> kept_rows{};     // of each row: index among the pipeline's kept samples
-  Motion motion{};                           // common motion, full rate; its torque is that of the model
+  double rate_hz = 0.0;                        // of the kept samples before the mask
+  std::vector<Eigen::Index> kept_rows{};       // of each row: index among the pipeline's kept samples
+  Motion motion{};                             // common motion, full rate; its torque is that of the model
   Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};  // of the common motion, per row
-  Eigen::VectorXd load_torque{};             // per row: terms of position and acceleration
-  Eigen::VectorXd model_torque{};            // per row: all terms
-  Eigen::VectorXd since_velocity_reversal{};  // distance travelled, rad or m
-  Eigen::VectorXd since_torque_reversal{};   // distance travelled since the model's torque changed its sign
-  Eigen::VectorXd torque{};                  // of the recording, filtered
-  Eigen::VectorXd residual{};                // of the recording
-  Eigen::VectorXd twin_mean{};               // mean residual of the twins
-  Eigen::MatrixXd twins{};                   // n x M: residual of each twin
+  Eigen::VectorXd load_torque{};               // per row: terms of position and acceleration
+  Eigen::VectorXd model_torque{};              // per row: all terms
+  Eigen::VectorXd since_velocity_reversal{};   // distance travelled, rad or m
+  Eigen::VectorXd since_torque_reversal{};     // distance travelled since the model's torque changed its sign
+  Eigen::VectorXd torque{};                    // of the recording, filtered
+  Eigen::VectorXd residual{};                  // of the recording
+  Eigen::VectorXd twin_mean{};                 // mean residual of the twins
+  Eigen::MatrixXd twins{};                     // n x M: residual of each twin
 
   Eigen::Index size() const { return residual.size(); }
   Eigen::Index n_twins() const { return twins.cols(); }
@@ -40,10 +40,10 @@ struct MismatchRows {
 // the recording, its noiseless twin and M noisy ones on common rows
 struct TwinComparison {
   MismatchRows rows;
-  ProcessedRecord recording;   // on those rows
-  ProcessedRecord common;      // of the twin without noise, on those rows
-  Eigen::MatrixXd twin_fits;   // M x model.size(): least squares of each twin
-  bool ran_away = false;       // the twin cannot follow the reference: nothing else is filled
+  ProcessedRecord recording;  // on those rows
+  ProcessedRecord common;     // of the twin without noise, on those rows
+  Eigen::MatrixXd twin_fits;  // M x model.size(): least squares of each twin
+  bool ran_away = false;      // the twin cannot follow the reference: nothing else is filled
 };
 
 // pipeline: its rows become the common ones.  twins >= 8

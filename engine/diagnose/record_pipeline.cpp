@@ -1,5 +1,7 @@
 #include "engine/diagnose/record_pipeline.hpp"
 
+#include <cmath>
+
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
@@ -63,6 +65,11 @@ Eigen::VectorXd RecordPipeline::filtered(Eigen::Ref<Eigen::VectorXd const> const
 Eigen::VectorXd RecordPipeline::picked(Eigen::Ref<Eigen::VectorXd const> const& signal,
                                        ProcessedRecord const& record) const {
   return filter_.pick(signal)(record.kept_rows);
+}
+
+Eigen::Index guard_rows(RecordPipeline const& pipeline) {
+  double const cutoff_hz = pipeline.cutoff_hz();
+  return cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(3.0 * pipeline.kept_rate_hz() / cutoff_hz)) : 3;
 }
 
 }  // namespace torquescope

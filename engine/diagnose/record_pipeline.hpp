@@ -64,4 +64,7 @@ class RecordPipeline {
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
 };
 
+// rows that the filter may couple: three periods of its cut-off
+Eigen::Index guard_rows(RecordPipeline const& pipeline);
+
 }  // namespace torquescope

@@ -15,8 +15,7 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
     bool const is_order = parameter.lower.to == RelativeTo::lowest_order;
     if (is_frequency || is_order) {
       double const resolution = bound_value({1.0, parameter.lower.to}, scales);
-      return static_cast<std::size_t>(
-                 std::ceil((range.upper - range.lower) / (share_of_resolution * resolution))) + 1;
+      return static_cast<std::size_t>(std::ceil((range.upper - range.lower) / (share_of_resolution * resolution))) + 1;
     }
   }
   if (parameter.lower.to == RelativeTo::instant || parameter.lower.to == RelativeTo::position) return places;
@@ -72,8 +71,9 @@ ShapeGrid shape_grid(Effect const& effect, JointScales const& scales) {
   for (std::size_t k = 0; k < grid.ranges.size(); ++k) {
     auto const& range = grid.ranges[k];
     auto const& parameter = effect.parameters()[effect.n_linear() + k];
-    std::size_t const points =
-        range.upper > range.lower ? std::max<std::size_t>(2, points_for(parameter, range, effect.n_shape(), scales)) : 1;
+    std::size_t const points = range.upper > range.lower
+                                   ? std::max<std::size_t>(2, points_for(parameter, range, effect.n_shape(), scales))
+                                   : 1;
     std::vector<double> axis(points);
     for (std::size_t i = 0; i < points; ++i)
       axis[i] = from_unit(range, points > 1 ? static_cast<double>(i) / static_cast<double>(points - 1) : 0.0);

@@ -98,8 +98,7 @@ class Refinement {
       double const step = unit < 0.999 ? 1e-3 : -1e-3;
       moved[k] = from_unit(ranges_[k], unit + step);
       Eigen::VectorXd const there = columns_.columns(effect_, moved) * best_.parameters;
-      jacobian.col(linear + static_cast<Eigen::Index>(k)) =
-          without_nuisance((there - here * best_.parameters) / step);
+      jacobian.col(linear + static_cast<Eigen::Index>(k)) = without_nuisance((there - here * best_.parameters) / step);
       ++best_.evaluations;
     }
     Eigen::VectorXd const left = without_nuisance(mismatch_) - jacobian.leftCols(linear) * best_.parameters;

@@ -102,6 +102,7 @@ struct EffectDescription {
   std::string title{};
   std::string equation{};
   std::string source{};
+  std::string separated_by{};  // the motion that tells it from those it is confused with; empty for baseline terms
   std::vector<EffectParameter> parameters{};
   std::vector<EffectFamily> families{EffectFamily::baseline};  // own one first, then those it is also confused with
   std::vector<SignatureAxis> signature{};                      // principal axis first
@@ -120,6 +121,7 @@ class Effect {
   std::string const& title() const { return description_.title; }        // one line for people
   std::string const& equation() const { return description_.equation; }  // "J ddq"
   std::string const& source() const { return description_.source; }
+  std::string const& separated_by() const { return description_.separated_by; }
   std::vector<EffectParameter> const& parameters() const { return description_.parameters; }
   EffectFamily family() const { return description_.families.front(); }
   std::vector<EffectFamily> const& families() const { return description_.families; }

@@ -162,15 +162,14 @@ TEST(TruthRegion, HoldsFourFifthsOfTheEnergyAndNotMuchMore) {
   Case const brief = shortened(sealed_case("alder"), 31.0);
   Truth const truth = training_run(brief, without_noise(brief.rig)).truth;
   for (auto const& region : truth_regions(truth, truth.added[0], brief.rig.joint.baseline)) {
-    if (region.axis != "speed" && region.axis != "velocity" && region.axis != "time") continue;
+    if (region.axis != "velocity" && region.axis != "time") continue;
     auto const& place = region.axis == "time" ? truth.t : truth.v;
     double inside = 0.0, all = 0.0;
     for (std::size_t k = 0; k < place.size(); ++k) {
-      double const x = region.axis == "speed" ? std::abs(place[k]) : place[k];
       double const energy = truth.added[0][k] * truth.added[0][k];
       all += energy;
       for (auto const& [low, high] : region.intervals()) {
-        if (x >= low && x < high) inside += energy;
+        if (place[k] >= low && place[k] < high) inside += energy;
       }
     }
     EXPECT_GE(inside, 0.8 * all) << region.axis;
@@ -183,11 +182,13 @@ TEST(TruthRegion, OfAStribeckRiseIsTheSlowPart) {
   Case const brief = shortened(sealed_case("alder"), 31.0);
   Truth const truth = training_run(brief, without_noise(brief.rig)).truth;
   for (auto const& region : truth_regions(truth, truth.added[0], brief.rig.joint.baseline)) {
-    if (region.axis != "speed") continue;
+    if (region.axis != "velocity") continue;
     auto const intervals = region.intervals();
     ASSERT_EQ(intervals.size(), 1u);
-    EXPECT_NEAR(intervals[0].first, 0.0, 1e-6);
-    EXPECT_LT(intervals[0].second, 0.08 * brief.rig.joint.limits.speed);
+    EXPECT_LT(intervals[0].first, 0.0);
+    EXPECT_GT(intervals[0].first, -0.1 * brief.rig.joint.limits.speed);
+    EXPECT_GT(intervals[0].second, 0.0);
+    EXPECT_LT(intervals[0].second, 0.1 * brief.rig.joint.limits.speed);
   }
 }
 

@@ -13,6 +13,8 @@
 namespace concealed {
 
 std::string truth_text(Case const& one_case, CaseReport const& report);
+// every word the truths may use for effects, families, parameters, units and axes, whatever the case
+std::string words_text();
 std::string job_text(Case const& one_case);
 
 // writes the four files and returns the seal

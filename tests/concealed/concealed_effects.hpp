@@ -1,7 +1,8 @@
 #pragma once
 // Hidden effects under the names the engine should find them by, sized as shares of the joint they are put into.
 //
-// Names      PHYSICS.md section 1; "" for what that catalogue does not hold
+// Names      PHYSICS.md section 1; "" for what that catalogue does not hold. catalogue_words.py holds effects, families,
+//            parameters and units against what the engine says of itself
 // Units      shares of the joint's Coulomb friction, peak speed, range or inertia, unless a unit is in the name
 
 #include <functional>
@@ -17,12 +18,14 @@ namespace concealed {
 struct TrueParameter {
   std::string name;
   double value = 0.0;
+  std::string unit;  // for the joint's kind
 };
 
 struct ConcealedEffect {
-  std::string name, family;
-  std::string form;             // the law as simulated
-  bool catalogue_form = false;  // the engine's catalogue has this very law
+  std::string name;
+  std::vector<std::string> families;  // own one first, then those it is also confused with
+  std::string form;                   // the law as simulated
+  bool catalogue_form = false;        // the engine's catalogue has this very law
   Effect law;
   std::vector<TrueParameter> parameters;
 };

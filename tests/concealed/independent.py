@@ -8,7 +8,7 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
-READERS = {"judge.py", "score.py", "test_score.py", "independent.py"}
+READERS = {"calibrate.py", "test_calibrate.py", "judge.py", "score.py", "test_score.py", "independent.py"}
 
 
 def foreign_includes(sources):
@@ -37,7 +37,7 @@ def main(root):
             if "truth.json" in text or re.search(r'#\s*include\s+"concealed/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
     for path in here.glob("*.py"):
-        if "truth" in path.read_text() and path.name not in READERS:
+        if "truth.json" in path.read_text() and path.name not in READERS:
             found.append(f"{path.name} reads a truth: only the scorer may")
     print("\n".join(found) or f"{len(sources)} sources of the concealed plant: none shares a header with the engine")
     return 1 if found else 0

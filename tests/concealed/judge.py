@@ -1,6 +1,7 @@
-"""One verdict against one truth: what was found, at which level, what was invented.
+"""One verdict against one truth: what was found, at which level, what was invented. A number of the verdict may be null: unknown.
 
-A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family.
+A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family (its
+family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
 Each reported effect answers at most one true effect, better levels first; one that answers none is a false name.
 A law whose form is not the catalogue's is found when its family is found (PHYSICS.md section 4).
 """
@@ -18,6 +19,7 @@ class Found:
     name: str
     snr: float
     level: str = "missed"
+    n_equivalent: int = 0              # effects the answer says fit as well: a class of everything says nothing
     first: bool = False                # answered by the first effect the verdict lists
     iou: float | None = None
     parameter_error: float | None = None  # largest relative error of the true parameters that are reported
@@ -45,6 +47,9 @@ def check_truth(truth):
     for key in ("case", "expected", "size", "effects", "relerr", "step_error"):
         if key not in truth:
             raise ValueError(f"truth without {key}")
+    for effect in truth["effects"]:
+        if "families" not in effect:
+            raise ValueError(f"{truth['case']}: a true effect without families: made by an older make_case")
     worst = max(truth["step_error"].values())
     if worst > LARGEST_STEP_ERROR:
         raise ValueError(f"{truth['case']}: step-halving error {worst:.3g} of the noise floor")
@@ -52,7 +57,7 @@ def check_truth(truth):
 
 def region_iou(region, truth_regions):
     """Shared over joint occupancy of the reported interval and the true region, on the axis of the report."""
-    if not region:
+    if not region or region.get("from") is None or region.get("to") is None:
         return None
     for true in truth_regions:
         if true["axis"] != region.get("axis"):
@@ -72,7 +77,7 @@ def _answers(reported, true, level):
         return reported["name"] == true["name"]
     if level == "class":
         return true["name"] in reported.get("equivalent", [])
-    return reported.get("family") == true["family"]
+    return reported.get("family") in true["families"]
 
 
 def _parameter_score(reported, true):
@@ -80,10 +85,10 @@ def _parameter_score(reported, true):
     errors, inside = [], []
     for parameter in true["parameters"]:
         estimate = values.get(parameter["name"])
-        if estimate is None or parameter["value"] == 0.0:
+        if estimate is None or estimate["value"] is None or parameter["value"] == 0.0:
             continue
         errors.append(abs(estimate["value"] / parameter["value"] - 1.0))
-        if estimate.get("ci95"):
+        if estimate.get("ci95") and None not in estimate["ci95"]:
             inside.append(estimate["ci95"][0] <= parameter["value"] <= estimate["ci95"][1])
     return (max(errors) if errors else None), tuple(inside)
 
@@ -100,6 +105,7 @@ def match(reported, true_effects):
                 continue
             free.remove(index)
             f.level, f.first = level, index == 0
+            f.n_equivalent = len(reported[index].get("equivalent", []))
             f.iou = region_iou(reported[index].get("region"), t["regions"])
             if level == "exact":
                 f.parameter_error, f.intervals = _parameter_score(reported[index], t)
@@ -124,7 +130,7 @@ def _is_right(judgement, truth):
 def _gap_closed(joint, oracle):
     before = joint["baseline"]["validation_relerr"]
     after = (joint.get("augmented") or {}).get("validation_relerr")
-    if after is None or before <= oracle:
+    if before is None or after is None or before <= oracle:
         return None
     return (before - after) / (before - oracle)
 

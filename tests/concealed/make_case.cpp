@@ -1,6 +1,7 @@
 // make_case NAME OUT_DIR          writes a sealed case to OUT_DIR/NAME
 // make_case --clean SEED OUT_DIR  writes a clean record to OUT_DIR/clean_SEED
 // make_case --list                names of the sealed cases, one per line
+// make_case --words               effects, families, parameters, units and axes the truths are written with, as JSON
 // Prints one line: seal, folder, realised effect size. Exit code 0; 64 usage; 1 with a message when it fails.
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +14,8 @@
 namespace {
 
 int usage() {
-  std::fputs("usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --list\n", stderr);
+  std::fputs("usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --list | make_case --words\n",
+             stderr);
   return 64;
 }
 
@@ -29,6 +31,10 @@ void make(concealed::Case const& one_case, std::filesystem::path const& out) {
 int run(std::vector<std::string> const& words) {
   if (words.size() == 1 && words[0] == "--list") {
     for (auto const& one_case : concealed::sealed_cases()) std::printf("%s\n", one_case.name.c_str());
+    return 0;
+  }
+  if (words.size() == 1 && words[0] == "--words") {
+    std::fputs(concealed::words_text().c_str(), stdout);
     return 0;
   }
   if (words.size() == 3 && words[0] == "--clean") {

@@ -1,10 +1,10 @@
 """The scoreboard of the concealed cases; the only program that reads a truth.json.
 
-    score.py TRUTH_DIR VERDICT_DIR [--json BOARD.json]
+    score.py TRUTH_DIR VERDICT_DIR [--json BOARD.json] [--all-right]
 
 TRUTH_DIR/NAME/truth.json stands against VERDICT_DIR/NAME.json (`torquescope diagnose --json`). A verdict that is missing or
 does not follow the schema counts as a failure, not as an absent case. Bounds are one-sided 95 % Clopper-Pearson.
-Exit code 0 whatever the score; 66 when there is no truth; 65 when a truth is damaged.
+Exit code 0 whatever the score, with --all-right 1 unless every case is right; 66 when there is no truth; 65 when a truth is damaged.
 """
 import argparse
 import dataclasses
@@ -71,6 +71,7 @@ def scoreboard(judgements):
         "with effects: any false name": rate(count(named + outside, invented), len(named + outside), "low"),
         "false share of names": spread(
             [len(j.false_names) / max(1, j.n_named) for j in named if not unanswered(j)]),
+        "effects called equivalent": spread([f.n_equivalent for f in found if f.level != "missed"]),
         "region IoU": spread([f.iou for f in found]),
         "parameter error": spread([f.parameter_error for f in found]),
         "intervals that hold the truth": rate(sum(intervals), len(intervals), "high"),
@@ -105,6 +106,7 @@ def main(arguments):
     parser.add_argument("truths", type=pathlib.Path)
     parser.add_argument("verdicts", type=pathlib.Path)
     parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--all-right", action="store_true")
     options = parser.parse_args(arguments)
     paths = sorted(options.truths.glob("*/truth.json"))
     if not paths:
@@ -124,6 +126,10 @@ def main(arguments):
     print("\n".join(board_line(name, entry) for name, entry in board.items() if name != "cases"))
     if options.json:
         options.json.write_text(json.dumps({"board": board, "cases": [dataclasses.asdict(j) for j in judgements]}, indent=1))
+    wrong = [j.case for j in judgements if not j.right]
+    if options.all_right and wrong:
+        print(f"\nnot right: {', '.join(wrong)}")
+        return 1
     return 0
 
 

@@ -16,10 +16,10 @@ def size(snr):
     return {"snr_eff": snr, "torque_share": 0.01 * snr}
 
 
-def true_effect(name="stribeck", family="reversal", catalogue_form=True, snr=3.0):
+def true_effect(name="stribeck", families=("reversal", "velocity_law"), catalogue_form=True, snr=3.0):
     region = {"axis": "velocity", "edges": [-2.0, -1.0, 0.0, 1.0, 2.0], "occupancy": [0.25] * 4,
               "inside": [False, True, True, False]}
-    return {"name": name, "family": family, "catalogue_form": catalogue_form, "size": size(snr),
+    return {"name": name, "families": list(families), "catalogue_form": catalogue_form, "size": size(snr),
             "parameters": [{"name": "stribeck", "value": 0.5}], "regions": [region]}
 
 
@@ -69,7 +69,7 @@ class Judge(unittest.TestCase):
         self.assertAlmostEqual(j.gap_closed, 0.9)
 
     def test_wrong_name_is_a_false_name_and_a_miss(self):
-        j = judge.judge(truth(), verdict("named", [effect("cogging", "order-locked")]))
+        j = judge.judge(truth(), verdict("named", [effect("cogging", "order_locked")]))
         self.assertFalse(j.right)
         self.assertEqual(j.false_names, ("cogging",))
         self.assertEqual(j.found[0].level, "missed")
@@ -84,6 +84,41 @@ class Judge(unittest.TestCase):
         j = judge.judge(truth(effects=[true_effect(catalogue_form=False)]), verdict("named", [effect("presliding")]))
         self.assertTrue(j.right)
 
+    def test_family_is_one_of_those_the_catalogue_puts_the_truth_into(self):
+        other_form = truth(effects=[true_effect(catalogue_form=False)])
+        self.assertTrue(judge.judge(other_form, verdict("named", [effect("power_law_viscous", "velocity_law")])).right)
+        # the family of what is reported has to be the truth's, not the other way round
+        one_sided = truth(effects=[true_effect("presliding", ["reversal"], False)])
+        j = judge.judge(one_sided, verdict("named", [effect("power_law_viscous", "velocity_law")]))
+        self.assertEqual((j.found[0].level, j.right, j.false_names), ("missed", False, ("power_law_viscous",)))
+
+    def test_family_is_not_enough_for_a_law_of_the_catalogue(self):
+        self.assertFalse(judge.judge(truth(), verdict("named", [effect("power_law_viscous", "velocity_law")])).right)
+
+    def test_class_answers_by_its_name_or_by_an_equivalent(self):
+        for answer in (effect("presliding", equivalent=["backlash", "stribeck"]), effect(equivalent=["presliding"])):
+            self.assertTrue(judge.judge(truth(), verdict("class", [answer])).right)
+        j = judge.judge(truth(), verdict("class", [effect("delay", "acceleration", equivalent=["backlash"])]))
+        self.assertEqual((j.right, j.false_names), (False, ("delay",)))
+
+    def test_class_answers_one_truth_only(self):
+        pair = truth(effects=[true_effect(), true_effect("presliding", ["reversal"])])
+        answer = effect("maxwell_slip", equivalent=["stribeck", "presliding"])
+        j = judge.judge(pair, verdict("class", [answer]))
+        self.assertEqual(([f.level for f in j.found], j.right), (["class", "missed"], False))
+        self.assertEqual(j.found[0].n_equivalent, 2)
+
+    def test_abstaining_with_a_name_is_no_abstention(self):
+        outside = truth("unexplained", [true_effect(name="", families=())])
+        self.assertFalse(judge.judge(outside, verdict("unexplained", [effect()])).right)
+        self.assertFalse(judge.judge(clean(), verdict("none", [effect()])).right)
+
+    def test_refuses_a_truth_of_an_older_plant(self):
+        old = truth()
+        del old["effects"][0]["families"]
+        with self.assertRaises(ValueError):
+            judge.judge(old, verdict("none"))
+
     def test_second_name_of_the_same_family_is_false(self):
         j = judge.judge(truth(), verdict("named", [effect("presliding"), effect()]))
         self.assertEqual(j.false_names, ("presliding",))
@@ -95,7 +130,7 @@ class Judge(unittest.TestCase):
             self.assertFalse(judge.judge(truth(), verdict(kind)).right)
         small = judge.judge(truth(snr=0.2), verdict("none"))
         self.assertTrue(small.right)
-        self.assertFalse(judge.judge(truth(snr=0.2), verdict("named", [effect("spring", "static-position")])).right)
+        self.assertFalse(judge.judge(truth(snr=0.2), verdict("named", [effect("spring", "static_position")])).right)
 
     def test_clean(self):
         self.assertTrue(judge.judge(clean(), verdict("none")).right)
@@ -104,15 +139,15 @@ class Judge(unittest.TestCase):
         self.assertEqual((j.right, j.false_names), (False, ("stribeck",)))
 
     def test_outside_the_catalogue(self):
-        outside = truth("unexplained", [true_effect(name="", family="")])
+        outside = truth("unexplained", [true_effect(name="", families=())])
         self.assertTrue(judge.judge(outside, verdict("unexplained")).right)
         self.assertFalse(judge.judge(outside, verdict("named", [effect()])).right)
         self.assertEqual(judge.judge(outside, verdict("unexplained", [effect("x", "")])).false_names, ("x",))
 
     def test_pair_needs_both(self):
-        pair = truth(effects=[true_effect(), true_effect("spring", "static-position")])
+        pair = truth(effects=[true_effect(), true_effect("spring", ["static_position"])])
         self.assertFalse(judge.judge(pair, verdict("named", [effect()])).right)
-        self.assertTrue(judge.judge(pair, verdict("named", [effect("spring", "static-position"), effect()])).right)
+        self.assertTrue(judge.judge(pair, verdict("named", [effect("spring", "static_position"), effect()])).right)
 
     def test_region_overlap_counts_samples(self):
         self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": 0.0, "to": 2.0}, true_effect()["regions"]), 1 / 3)
@@ -127,6 +162,16 @@ class Judge(unittest.TestCase):
             self.assertEqual(judge.judge(clean(), broken).verdict, "invalid")
             self.assertFalse(judge.judge(clean(), broken).right)
 
+    def test_unknown_numbers_are_no_broken_verdict(self):
+        vague = effect(low=None, high=None)
+        vague["parameters"][0]["ci95"] = [None, None]
+        answer = verdict("named", [vague])
+        answer["joints"][0]["baseline"]["validation_relerr"] = answer["joints"][0]["augmented"]["validation_relerr"] = None
+        j = judge.judge(truth(), answer)
+        self.assertEqual((j.verdict, j.right, j.gap_closed, j.found[0].iou, j.found[0].intervals), ("named", True, None, None, ()))
+        vague["parameters"][0]["value"] = None
+        self.assertIsNone(judge.judge(truth(), verdict("named", [vague])).found[0].parameter_error)
+
     def test_refuses_a_coarse_truth(self):
         coarse = clean()
         coarse["step_error"]["torque"] = 0.02
@@ -135,7 +180,7 @@ class Judge(unittest.TestCase):
 
 
 class Board(unittest.TestCase):
-    def run_score(self, truths, verdicts):
+    def run_score(self, truths, verdicts, *options):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             for case, text in truths.items():
@@ -146,8 +191,8 @@ class Board(unittest.TestCase):
                 (folder / "verdicts" / f"{case}.json").write_text(text)
             out, err = io.StringIO(), io.StringIO()
             with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-                code = score.main([str(folder), str(folder / "verdicts"), "--json", str(folder / "board.json")])
-            board = json.loads((folder / "board.json").read_text()) if code == 0 else None
+                code = score.main([str(folder), str(folder / "verdicts"), "--json", str(folder / "board.json"), *options])
+            board = json.loads((folder / "board.json").read_text()) if code < 64 else None
             return code, out.getvalue(), err.getvalue(), board
 
     def test_counts_missing_verdicts_in_the_denominator(self):
@@ -165,6 +210,15 @@ class Board(unittest.TestCase):
         _, _, _, board = self.run_score({"a": json.dumps(truth()), "b": json.dumps(truth(snr=0.5))},
                                         {"a": json.dumps(verdict("named", [effect()]))})
         self.assertEqual(board["board"]["single: exact"]["of"], 1)
+
+    def test_all_right_means_every_case(self):
+        truths = {"a": json.dumps(clean()), "b": json.dumps(truth())}
+        right = {"a": json.dumps(verdict("none")), "b": json.dumps(verdict("named", [effect()]))}
+        self.assertEqual(self.run_score(truths, right, "--all-right")[0], 0)
+        code, text, _, _ = self.run_score(truths, {**right, "b": json.dumps(verdict("none"))}, "--all-right")
+        self.assertEqual(code, 1)
+        self.assertIn("not right: x", text)
+        self.assertEqual(self.run_score(truths, {"a": right["a"]}, "--all-right")[0], 1)
 
     def test_no_truth_and_damaged_truth(self):
         self.assertEqual(self.run_score({}, {})[0], 66)

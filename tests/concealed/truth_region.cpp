@@ -41,13 +41,16 @@ TruthRegion region_along(std::string axis, std::vector<double> const& place, std
   return region;
 }
 
-std::vector<double> distance_since_reversal(Truth const& truth, double shortest) {
+// travelled since `turning` last changed its sign
+std::vector<double> since_reversal(Truth const& truth, std::vector<double> const& turning, double shortest) {
   std::vector<double> distance;
-  double turned_at = truth.q.front(), direction = 0.0;
+  double direction = 0.0, travelled = 0.0, before = truth.q.front();
   for (std::size_t k = 0; k < truth.q.size(); ++k) {
-    if (truth.v[k] * direction < 0.0) turned_at = truth.q[k];
-    if (truth.v[k] != 0.0) direction = truth.v[k];
-    distance.push_back(std::max(shortest, std::abs(truth.q[k] - turned_at)));
+    travelled += std::abs(truth.q[k] - before);
+    before = truth.q[k];
+    if (turning[k] * direction < 0.0) travelled = 0.0;
+    if (turning[k] != 0.0) direction = turning[k];
+    distance.push_back(std::max(shortest, travelled));
   }
   return distance;
 }
@@ -67,22 +70,35 @@ std::vector<std::pair<double, double>> TruthRegion::intervals() const {
   return joined;
 }
 
+std::vector<std::string> const& truth_axes() {
+  static std::vector<std::string> const axes = {
+      "time", "position", "velocity", "acceleration", "load", "since_velocity_reversal", "since_torque_reversal"};
+  return axes;
+}
+
 std::vector<TruthRegion> truth_regions(Truth const& truth, std::vector<double> const& added, Baseline const& baseline) {
-  std::vector<double> speed, load;
+  std::vector<double> load, transmitted;
   for (std::size_t k = 0; k < truth.t.size(); ++k) {
-    speed.push_back(std::abs(truth.v[k]));
+    double const direction = truth.v[k] > 0.0 ? 1.0 : truth.v[k] < 0.0 ? -1.0 : 0.0;
     load.push_back(baseline.inertia * truth.a[k] + baseline.gravity_sin * std::sin(truth.q[k]) +
                    baseline.gravity_cos * std::cos(truth.q[k]));
+    transmitted.push_back(load.back() + baseline.viscous * truth.v[k] + baseline.coulomb * direction);
   }
   auto const [lowest, highest] = std::minmax_element(truth.q.begin(), truth.q.end());
-  auto const distance = distance_since_reversal(truth, 1e-5 * (*highest - *lowest));
-  return {region_along("time", truth.t, added, false),
-          region_along("position", truth.q, added, false),
-          region_along("velocity", truth.v, added, false),
-          region_along("speed", speed, added, false),
-          region_along("acceleration", truth.a, added, false),
-          region_along("load", load, added, false),
-          region_along("distance_since_reversal", distance, added, true)};
+  double const shortest = 1e-5 * (*highest - *lowest);
+  std::vector<std::vector<double>> const places = {truth.t,
+                                                   truth.q,
+                                                   truth.v,
+                                                   truth.a,
+                                                   load,
+                                                   since_reversal(truth, truth.v, shortest),
+                                                   since_reversal(truth, transmitted, shortest)};
+  std::vector<TruthRegion> regions;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    bool const is_distance = truth_axes()[i].starts_with("since");
+    regions.push_back(region_along(truth_axes()[i], places[i], added, is_distance));
+  }
+  return regions;
 }
 
 }  // namespace concealed

@@ -1,4 +1,5 @@
 // truth.json: everything about a case that its recordings do not say (read by score.py).
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "concealed/case_writer.hpp"
@@ -25,12 +26,12 @@ Json region_json(TruthRegion const& region) {
 }
 
 Json effect_json(ConcealedEffect const& effect, EffectSize const& size, std::vector<TruthRegion> const& regions) {
-  Json out = {{"name", effect.name},     {"family", effect.family},
+  Json out = {{"name", effect.name},     {"families", effect.families},
               {"form", effect.form},     {"catalogue_form", effect.catalogue_form},
               {"size", size_json(size)}, {"parameters", Json::array()},
               {"regions", Json::array()}};
   for (auto const& parameter : effect.parameters) {
-    out["parameters"].push_back({{"name", parameter.name}, {"value", parameter.value}});
+    out["parameters"].push_back({{"name", parameter.name}, {"value", parameter.value}, {"unit", parameter.unit}});
   }
   for (auto const& region : regions) out["regions"].push_back(region_json(region));
   return out;
@@ -49,6 +50,24 @@ Json baseline_json(Baseline const& baseline) {
 }
 
 }  // namespace
+
+std::string words_text() {
+  Json effects = Json::array();
+  for (auto const& one_case : sealed_cases()) {
+    for (auto const& effect : one_case.effects) {
+      if (effect.name.empty()) continue;
+      Json one = {{"name", effect.name}, {"families", effect.families}, {"parameters", Json::array()}};
+      one["prismatic"] = !one_case.rig.joint.revolute;
+      for (auto const& parameter : effect.parameters) {
+        one["parameters"].push_back({{"name", parameter.name}, {"unit", parameter.unit}});
+      }
+      if (std::find(effects.begin(), effects.end(), one) == effects.end()) effects.push_back(one);
+    }
+  }
+  // in an order that tells nothing about the cases
+  std::sort(effects.begin(), effects.end(), [](Json const& a, Json const& b) { return a.dump() < b.dump(); });
+  return Json{{"effects", effects}, {"axes", truth_axes()}}.dump(1) + "\n";
+}
 
 std::string truth_text(Case const& one_case, CaseReport const& report) {
   Rig const& rig = one_case.rig;

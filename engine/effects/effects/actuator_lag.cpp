@@ -47,6 +47,7 @@ class ActuatorLag final : public Effect {
                 .title = "current loop that follows its command late",
                 .equation = "tau_e d tau_motor/dt",
                 .source = "definition of a first-order current loop",
+                .separated_by = "a wideband multisine up to the bandwidth of the current loop",
                 .parameters = {{"actuator_lag", "s", "s", {0.0}, {20.0, RelativeTo::sample_period}}},
                 .families = {EffectFamily::acceleration, EffectFamily::reversal},
                 .signature = {SignatureAxis::acceleration, SignatureAxis::frequency},

@@ -20,6 +20,7 @@ class AsymmetricViscous final : public InstantEffect {
                        .title = "viscous friction that differs between the directions",
                        .equation = "Fa |dq|",
                        .source = "Elhami, Brookfield 1996",
+                       .separated_by = "two or more speeds in each direction over the same positions",
                        .parameters = {{"asymmetric_viscous",
                                        "N m s/rad",
                                        "N s/m",

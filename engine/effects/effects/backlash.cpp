@@ -96,6 +96,7 @@ class Backlash final : public MemoryEffect {
                       .title = "lost motion: the load is let go within a gap",
                       .equation = "-(c_l tau_load + c_f Fc sign(dq)) [in the gap 2 b] + c_l J (dq - dq_load) at impact",
                       .source = "Nordin, Gutman 2002",
+                      .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
                       .parameters = {{"backlash_load", "1", "1", {0.0}, {1.0}},
                                      {"backlash_friction", "1", "1", {0.0}, {1.0}},
                                      shape_parameter("backlash_half_gap", "rad", "m", {1.0, RelativeTo::resolution},

@@ -49,6 +49,7 @@ class BreakawayDwell final : public MemoryEffect {
                       .title = "break-away friction that grows while the joint rests",
                       .equation = "s Fd (1 - exp(-age / tau_d)), d age/dt = 1 - |dq| age / D",
                       .source = "Rabinowicz 1958; Ruina 1983",
+                      .separated_by = "rests of 0.1 to 30 s before each start",
                       .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
                                      shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
                                                      {0.5, RelativeTo::duration}, Spacing::logarithmic),

@@ -49,6 +49,7 @@ class Cable final : public MemoryEffect {
                       .title = "cables and hoses: hardening spring with a loop",
                       .equation = "k1 q + k3 q^3 + C z, dz/dx = (1 - z / sign(dx)) / D",
                       .source = "Dahl 1968 (loop); FloBaRoID (cable torque)",
+                      .separated_by = "slow loops over the full range",
                       .parameters = {{"cable_stiffness",
                                       "N m/rad",
                                       "N/m",

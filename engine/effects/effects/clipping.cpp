@@ -20,6 +20,7 @@ class Clipping final : public InstantEffect {
                        .title = "torque channel that clips at a limit",
                        .equation = "recorded torque + c (clamp(tau_motor, -L, L) - tau_motor)",
                        .source = "definition of saturation",
+                       .separated_by = "a gentler motion, and a log of the saturation flag",
                        .parameters = {{"clipping", "1", "1", {0.0}, {1.0}},
                                       shape_parameter("clipping_limit", "N m", "N", {0.5, RelativeTo::torque_peak},
                                                       {1.0, RelativeTo::torque_peak}, Spacing::linear)},

@@ -21,6 +21,7 @@ class Cogging final : public InstantEffect {
              .title = "cogging torque of the motor, fixed in the angle",
              .equation = "A cos(N q) + B sin(N q)",
              .source = "Islam, Mir, Sebastian 2004",
+             .separated_by = "constant speed at two or more speeds in both directions, with and without load",
              .parameters = {{"cogging_cos", "N m", "N", {-1.0, RelativeTo::torque}, {1.0, RelativeTo::torque}},
                             {"cogging_sin", "N m", "N", {-1.0, RelativeTo::torque}, {1.0, RelativeTo::torque}},
                             shape_parameter("cogging_order", "1/rad", "1/m", {2.0, RelativeTo::lowest_order},

@@ -21,6 +21,7 @@ class Contact final : public InstantEffect {
                        .title = "a push from outside for a while",
                        .equation = "a sin^2(pi (t - t_0) / w), t_0 < t < t_0 + w",
                        .source = "De Luca, Mattone 2005",
+                       .separated_by = "the same lap again",
                        .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
                                       shape_parameter("contact_start", "s", "s", {0.0, RelativeTo::instant},
                                                       {0.98, RelativeTo::instant}, Spacing::linear),

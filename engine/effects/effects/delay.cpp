@@ -37,6 +37,7 @@ class Delay final : public MemoryEffect {
              .title = "torque channel that lags behind the position",
              .equation = "recorded torque + d (tau_motor(t - D) - tau_motor(t)) / D",
              .source = "MuJoCo sysid, apply_delay",
+             .separated_by = "a step of torque recorded on both channels, or a wideband multisine",
              .parameters = {{"delay", "s", "s", {-5.0, RelativeTo::sample_period}, {50.0, RelativeTo::sample_period}},
                             shape_parameter("delay_span", "s", "s", {1.0, RelativeTo::sample_period},
                                             {50.0, RelativeTo::sample_period}, Spacing::logarithmic)},

@@ -21,6 +21,7 @@ class DirectionalEfficiency final : public InstantEffect {
                        .title = "losses that differ between driving and being driven",
                        .equation = "s K |tau_motor - rho tau_load|",
                        .source = "BAM models M5, M6; Giberti, Cinquemani, Legnani 2010",
+                       .separated_by = "all four quadrants of torque and speed: lift and lower a load",
                        .parameters = {{"directional_efficiency", "1", "1", {0.0}, {0.5}},
                                       shape_parameter("backdrive_ratio", "1", "1", {0.0}, {2.0}, Spacing::linear)},
                        .families = {EffectFamily::load},

@@ -31,17 +31,19 @@ class ReadingError final : public EffectRunner {
 class EncoderEccentricity final : public InstantEffect {
  public:
   EncoderEccentricity()
-      : InstantEffect({.name = "encoder_eccentricity",
-                       .title = "encoder disc off its centre",
-                       .equation = "recorded position + e_s sin(q) + e_c cos(q)",
-                       .source = "first order of the reading error",
-                       .parameters = {{"encoder_eccentricity_sin", "rad", "", {-0.01}, {0.01}},
-                                      {"encoder_eccentricity_cos", "rad", "", {-0.01}, {0.01}}},
-                       .families = {EffectFamily::order_locked, EffectFamily::measurement},
-                       .signature = {SignatureAxis::order, SignatureAxis::velocity},
-                       .parity = Parity::neither,
-                       .acts_on = ActsOn::recorded_position,
-                       .needs_baseline = true}) {}
+      : InstantEffect(
+            {.name = "encoder_eccentricity",
+             .title = "encoder disc off its centre",
+             .equation = "recorded position + e_s sin(q) + e_c cos(q)",
+             .source = "first order of the reading error",
+             .separated_by = "full turns at two constant speeds: the reading error grows with the square of the speed",
+             .parameters = {{"encoder_eccentricity_sin", "rad", "", {-0.01}, {0.01}},
+                            {"encoder_eccentricity_cos", "rad", "", {-0.01}, {0.01}}},
+             .families = {EffectFamily::order_locked, EffectFamily::measurement},
+             .signature = {SignatureAxis::order, SignatureAxis::velocity},
+             .parity = Parity::neither,
+             .acts_on = ActsOn::recorded_position,
+             .needs_baseline = true}) {}
 
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const&) const override {
     return std::make_unique<ReadingError>(parameters[0], parameters[1]);

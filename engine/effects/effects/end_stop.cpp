@@ -19,6 +19,7 @@ class EndStop final : public InstantEffect {
                        .title = "elastic stop at one end of the travel",
                        .equation = "(k (q - q_c) + d dq) [q beyond q_c]",
                        .source = "Hunt, Crossley 1975",
+                       .separated_by = "a slow approach to the stop, and the same positions left again",
                        .parameters = {{"end_stop", "N m/rad", "N/m", {0.0}},
                                       {"end_stop_damping", "N m s/rad", "N s/m", {0.0}},
                                       shape_parameter("end_stop_position", "rad", "m", {-0.49, RelativeTo::position},

@@ -20,6 +20,7 @@ class FrictionDrift final : public InstantEffect {
              .title = "friction that wanders or steps in time",
              .equation = "(t - start) (s d_c + d_v dq) + s d_s [t >= t_c]",
              .source = "Bittencourt, Axelsson 2014",
+             .separated_by = "the same motion again after a rest",
              .parameters = {{"friction_drift_coulomb",
                              "N m/s",
                              "N/s",

@@ -41,6 +41,7 @@ class FrictionLag final : public MemoryEffect {
              .title = "friction that answers a change of speed later",
              .equation = "s Fl (g(dq(t - tau_L)) - g(dq)), g(v) = 1 / (1 + (v / vs)^2)",
              .source = "Hess, Soom 1990; Armstrong-Helouvry, Dupont, Canudas de Wit 1994",
+             .separated_by = "the same speed reached by speeding up and by slowing down, at three rates",
              .parameters = {{"friction_lag", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
                             shape_parameter("friction_lag_time", "s", "s", {0.2, RelativeTo::filter_time},
                                             {20.0, RelativeTo::filter_time}, Spacing::logarithmic),

@@ -18,6 +18,8 @@ class Gravity final : public InstantEffect {
                        .title = "weight of an eccentric link",
                        .equation = "g_sin sin(q) + g_cos cos(q)",
                        .source = "Khalil, Dombre 2002, Modeling, Identification and Control of Robots",
+                       .separated_by =
+                           "slow motion in both directions over more than 90 degrees, in two orientations of the base",
                        .parameters = {{"gravity_sin", "N m", ""}, {"gravity_cos", "N m", ""}},
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},

@@ -76,6 +76,7 @@ class JointElasticity final : public MemoryEffect {
              .title = "flexible transmission between motor and load",
              .equation = "J_l y'', y'' + 2 zeta w y' + w^2 y = -ddq, w = 2 pi f",
              .source = "Spong 1987; Wernholt 2007",
+             .separated_by = "a multisine or chirp up to twice the resonance",
              .parameters = {{"load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
                             shape_parameter("elasticity_frequency", "Hz", "Hz", {0.05, RelativeTo::cutoff_frequency},
                                             {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic),

@@ -21,6 +21,7 @@ class LoadDependentFriction final : public InstantEffect {
                        .title = "dry friction in proportion to the load",
                        .equation = "s mu |tau_load|",
                        .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
+                       .separated_by = "the same motion with another payload",
                        .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}}},
                        .families = {EffectFamily::load},
                        .signature = {SignatureAxis::load, SignatureAxis::velocity},

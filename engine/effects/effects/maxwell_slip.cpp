@@ -57,6 +57,7 @@ class MaxwellSlip final : public MemoryEffect {
                       .title = "nested loops of friction after reversals",
                       .equation = "sum_i F_i (z_i - s), z_i slips after D / 4^(i-1)",
                       .source = "Al-Bender, Lampaert, Swevers 2005",
+                      .separated_by = "trains of reversals with several amplitudes, smaller loops inside larger ones",
                       .parameters = {{"maxwell_slip_1", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
                                      {"maxwell_slip_2", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
                                      {"maxwell_slip_3", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},

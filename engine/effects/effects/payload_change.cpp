@@ -22,6 +22,7 @@ class PayloadChange final : public InstantEffect {
              .title = "payload picked up or dropped",
              .equation = "(dJ ddq + dg_s sin(q) + dg_c cos(q)) [t >= t_c]",
              .source = "Gaz, De Luca 2017",
+             .separated_by = "a rest before and after the change",
              .parameters =
                  {{"payload_inertia", "kg m2", "kg", {-1.0, RelativeTo::inertia}, {10.0, RelativeTo::inertia}},
                   {"payload_gravity_sin", "N m", ""},

@@ -23,6 +23,7 @@ class PeriodicDisturbance final : public InstantEffect {
              .title = "torque of fixed frequency from outside",
              .equation = "a_s sin(2 pi f t) + a_c cos(2 pi f t)",
              .source = "definition of a sinusoid in time",
+             .separated_by = "the same motion at several speeds",
              .parameters =
                  {{"periodic_disturbance_sin", "N m", "N", {-3.0, RelativeTo::torque}, {3.0, RelativeTo::torque}},
                   {"periodic_disturbance_cos", "N m", "N", {-3.0, RelativeTo::torque}, {3.0, RelativeTo::torque}},

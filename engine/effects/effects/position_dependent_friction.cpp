@@ -22,6 +22,7 @@ class PositionDependentFriction final : public InstantEffect {
              .title = "dry friction that changes along the travel",
              .equation = "s (a1 q + a_c cos(k q) + a_s sin(k q))",
              .source = "Bittencourt, Gunnarsson 2012",
+             .separated_by = "the same positions in both directions at two or more speeds",
              .parameters =
                  {{"position_friction_slope",
                    "N m/rad",

@@ -21,6 +21,7 @@ class PowerLawViscous final : public InstantEffect {
                        .title = "friction that grows with a power of the speed",
                        .equation = "k sign(dq) |dq|^alpha",
                        .source = "Waiboer, Aarts, Jonker 2005",
+                       .separated_by = "speeds spaced logarithmically, from creep to the fastest",
                        .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
                                       shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0}, Spacing::linear)},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},

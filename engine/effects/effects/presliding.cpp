@@ -49,18 +49,21 @@ class DahlBristle final : public EffectMemory {
 class Presliding final : public MemoryEffect {
  public:
   Presliding()
-      : MemoryEffect({.name = "presliding",
-                      .title = "friction that builds up over a distance after a reversal",
-                      .equation = "F (z - s) + sigma_1 D dz/dt, dz/dx = (1 - z / s) / D",
-                      .source = "Dahl 1968; Canudas de Wit, Olsson, Astrom, Lischinsky 1995",
-                      .parameters = {{"presliding", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
-                                     {"presliding_damping", "N m s/rad", "N s/m", {0.0}},
-                                     shape_parameter("presliding_distance", "rad", "m", {1.0, RelativeTo::resolution},
-                                                     {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
-                      .families = {EffectFamily::reversal},
-                      .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::velocity},
-                      .parity = Parity::odd,
-                      .is_dry_friction = true}) {}
+      : MemoryEffect(
+            {.name = "presliding",
+             .title = "friction that builds up over a distance after a reversal",
+             .equation = "F (z - s) + sigma_1 D dz/dt, dz/dx = (1 - z / s) / D",
+             .source = "Dahl 1968; Canudas de Wit, Olsson, Astrom, Lischinsky 1995",
+             .separated_by =
+                 "triangular strokes of several small amplitudes, with smaller loops inside larger ones, at two rates",
+             .parameters = {{"presliding", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
+                            {"presliding_damping", "N m s/rad", "N s/m", {0.0}},
+                            shape_parameter("presliding_distance", "rad", "m", {1.0, RelativeTo::resolution},
+                                            {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
+             .families = {EffectFamily::reversal},
+             .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::velocity},
+             .parity = Parity::odd,
+             .is_dry_friction = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {

@@ -19,6 +19,7 @@ class SensorDrift final : public InstantEffect {
              .title = "torque channel whose zero creeps or jumps",
              .equation = "recorded torque + b (t - start) + b_s [t >= t_c]",
              .source = "FloBaRoID, recordings of a KUKA LWR (0.1 to 0.9 N m)",
+             .separated_by = "holds in the same position at the start and the end",
              .parameters = {{"sensor_drift",
                              "N m/s",
                              "N/s",

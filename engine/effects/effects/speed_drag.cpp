@@ -21,6 +21,7 @@ class SpeedDrag final : public InstantEffect {
              .title = "quadratic and cubic drag at high speed",
              .equation = "c2 dq |dq| + c3 dq^3",
              .source = "MuJoCo XML reference, damping polynomial; Wahrburg et al. 2018",
+             .separated_by = "constant speeds over a range of four to one or more",
              .parameters = {{"quadratic_drag", "N m s2/rad2", "N s2/m2", {0.0}, {0.5, RelativeTo::torque_per_speed2}},
                             {"cubic_drag", "N m s3/rad3", "N s3/m3", {0.0}, {0.5, RelativeTo::torque_per_speed3}}},
              .families = {EffectFamily::velocity_law},

@@ -18,6 +18,7 @@ class Spring final : public InstantEffect {
                        .title = "spring or counterbalance across the joint",
                        .equation = "k q",
                        .source = "Khalil, Dombre 2002, Modeling, Identification and Control of Robots",
+                       .separated_by = "slow motion over more than 120 degrees, or two orientations of the base",
                        .parameters = {{"spring",
                                        "N m/rad",
                                        "N/m",

@@ -22,6 +22,8 @@ class Stribeck final : public InstantEffect {
              .title = "Stribeck friction: falls with speed just above rest",
              .equation = "s Fs exp(-(|dq| / vs)^delta)",
              .source = "Armstrong-Helouvry 1991, Control of Machines with Friction; Bittencourt, Gunnarsson 2012",
+             .separated_by =
+                 "creep plateaus at five to eight speeds below three times the Stribeck speed, constant speed",
              .parameters = {{"stribeck", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
                             shape_parameter("stribeck_speed", "rad/s", "m/s", {0.002, RelativeTo::peak_speed},
                                             {0.2, RelativeTo::peak_speed}, Spacing::logarithmic),

@@ -22,6 +22,8 @@ class ThermalFriction final : public InstantEffect {
              .title = "friction that changes while the joint warms up",
              .equation = "exp(-t / tau_T) (s c_c + c_v dq)",
              .source = "Simoni, Beschi, Legnani, Visioli 2015; Bittencourt, Gunnarsson 2012",
+             .separated_by = "a periodic motion for twice the warm-up time, from cold and from warm, fast and slow "
+                             "laps interleaved",
              .parameters =
                  {{"thermal_coulomb", "N m", "N", {-1.0, RelativeTo::coulomb}, {1.0, RelativeTo::coulomb}},
                   {"thermal_viscous", "N m s/rad", "N s/m", {-1.0, RelativeTo::viscous}, {1.0, RelativeTo::viscous}},

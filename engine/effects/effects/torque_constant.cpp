@@ -20,6 +20,7 @@ class TorqueConstant final : public InstantEffect {
              .title = "torque constant that falls at high current",
              .equation = "beta tau_motor^3",
              .source = "Gautier, Briot 2014",
+             .separated_by = "a known payload",
              .parameters = {{"torque_constant", "1/(N m)2", "1/N2", {0.0}, {0.05, RelativeTo::torque_inverse2}}},
              .families = {EffectFamily::load},
              .signature = {SignatureAxis::load},

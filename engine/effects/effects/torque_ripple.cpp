@@ -21,6 +21,7 @@ class TorqueRipple final : public InstantEffect {
              .title = "torque constant that waves with the angle",
              .equation = "tau_motor (r_c cos(N q) + r_s sin(N q))",
              .source = "Holtz, Springob 1996",
+             .separated_by = "constant speed with two levels of load",
              .parameters = {{"torque_ripple_cos", "1", "1", {-0.3}, {0.3}},
                             {"torque_ripple_sin", "1", "1", {-0.3}, {0.3}},
                             shape_parameter("torque_ripple_order", "1/rad", "1/m", {2.0, RelativeTo::lowest_order},

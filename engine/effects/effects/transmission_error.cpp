@@ -24,6 +24,7 @@ class TransmissionError final : public InstantEffect {
              .title = "kinematic error of the transmission",
              .equation = "h' (tau_load + J ddq + 2 Fv dq) + J h'' dq^2 + g' h, h = A cos(N q) + B sin(N q)",
              .source = "Tuttle, Seering 1996",
+             .separated_by = "constant speed at two speeds in both directions, with an encoder on the output",
              .parameters = {{"transmission_error_cos",
                              "rad",
                              "m",

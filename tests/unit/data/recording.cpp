@@ -95,6 +95,35 @@ TEST(MakeRecording, UnitsScaleTheirOwnChannelsOnly) {
   EXPECT_EQ(recording.simulated_torque[7], table.columns[4][7]);
 }
 
+double simulated_at(double t) { return std::sin(t) + 2; }
+
+// the simulator was given the recorded motion: its torque has the motion's stamps, whatever the torque channel's delay
+TEST(MakeRecording, SimulatedTorqueStaysWithTheMotion) {
+  auto options = options_of();
+  options.simulated_torque = "sim_Nm";
+  options.delay_s = -0.0038;
+  auto const late = made(table_at(even_times()), options);
+  EXPECT_EQ(late.simulated_torque.size(), late.torque.size());
+  EXPECT_LT(largest_error(late.time_s, late.simulated_torque, simulated_at), 1e-12);
+
+  options.delay_s = 0;
+  auto jittered = even_times();
+  for (std::size_t i = 0; i < jittered.size(); i += 3) jittered[i] += 2e-4;
+  auto const resampled = made(table_at(jittered), options);
+  EXPECT_GT(resampled.rows.resampled, 0);
+  EXPECT_LT(largest_error(resampled.time_s, resampled.simulated_torque, simulated_at), 1e-8);
+}
+
+TEST(MakeRecording, SimulatedTorqueThatIsNotThereIsRefusedByItsOwnKey) {
+  auto options = options_of();
+  options.simulated_torque = "sim_nm";
+  auto const problem = refused(table_at(even_times()), options);
+  EXPECT_EQ(problem.code, ExitCode::bad_job);
+  EXPECT_EQ(problem.key, "recording.simulated_torque");
+  EXPECT_THAT(problem.what, HasSubstr("no column \"sim_nm\" in arm.csv"));
+  EXPECT_THAT(problem.caret_note, HasSubstr("sim_Nm"));
+}
+
 TEST(MakeRecording, RateServesWhereThereIsNoTime) {
   auto options = options_of({{"position", "q_rad"}, {"torque", "i_A"}});
   options.rate_hz = 500;

@@ -1,0 +1,41 @@
+#include "engine/diagnose/abstention.hpp"
+
+#include <algorithm>
+
+namespace torquescope {
+namespace {
+
+constexpr double worth_a_word = 0.03;  // of the first excess
+constexpr double smallest_z = 5.0;
+constexpr double most_of_it = 0.5;
+constexpr double enough_named = 2.0 / 3.0;
+constexpr double some_structure = 0.2;
+
+bool is_axis_of(JointModel const& model, SignatureAxis axis) {
+  return std::any_of(model.effects().begin(), model.effects().end(), [&](ShapedEffect const& one) {
+    auto const& own = one.effect->signature();
+    return std::find(own.begin(), own.end(), axis) != own.end();
+  });
+}
+
+}  // namespace
+
+Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
+  Remainder result;
+  if (!selection.is_gate_open) return result;
+  double const first = selection.first_energy.excess;
+  result.share = std::max(0.0, final.energy.excess) / first;
+  result.is_significant =
+      final.energy.z > smallest_z && mismatch_share(final) > smallest_mismatch_share && result.share > worth_a_word;
+  if (selection.accepted.empty()) result.is_unexplained = true;
+  if (!result.is_significant) return result;
+  CandidateColumns const columns(*final.pipeline, final.comparison, final.reference(), final.parameters());
+  result.axes = generic_axes(columns, final.energy.excess);
+  bool const is_named_enough = 1.0 - result.share >= enough_named;
+  if (!is_named_enough && result.axes.front().share > some_structure) result.is_unexplained = true;
+  for (auto const& axis : result.axes)
+    if (axis.share > most_of_it && !is_axis_of(final.model(), axis.axis)) result.is_unexplained = true;
+  return result;
+}
+
+}  // namespace torquescope

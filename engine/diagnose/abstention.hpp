@@ -1,0 +1,28 @@
+#pragma once
+// Whether the named effects may keep their names: what they leave is held against smooth functions of anything.
+//
+// Rule       joint_diagnosis.hpp, verdict "unexplained"; the numbers (3 %, half, two thirds, a fifth) are those a prototype
+//            arrived at on trials of its own, and were not moved for the cases of tests/concealed
+// Why        effects of the catalogue can imitate parts of one that is not in it; a right name with a form that is a little
+//            wrong leaves little, or leaves it on its own axis
+// Threads    free function
+// Source     LESSONS item 18 of our own prototype
+
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/generic_axes.hpp"
+
+namespace torquescope {
+
+struct Remainder {
+  double share = 0.0;  // of the first excess that the final model leaves
+  bool is_significant = false;
+  std::vector<GenericAxis> axes{};  // of what is left, strongest first; empty when nothing is
+  bool is_unexplained = false;
+};
+
+Remainder judge_remainder(Selection const& selection, ModelStage const& final);
+
+}  // namespace torquescope

@@ -1,0 +1,35 @@
+#include "engine/diagnose/detection_power.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+
+std::string power_sentence(ModelStage const& stage) {
+  auto const& rows = stage.comparison.rows;
+  BaselineReference const reference = stage.reference();
+  double const coulomb = reference.scales.coulomb();
+  if (!(coulomb > 0.0)) return {};
+  // excess that opens both gates
+  auto const m = static_cast<double>(rows.n_twins());
+  Eigen::VectorXd const energy = (rows.twins.colwise() - rows.twin_mean).colwise().squaredNorm().transpose();
+  double const std = std::sqrt((energy.array() - energy.mean()).square().sum() / (m - 1.0));
+  double const by_floor = smallest_mismatch_share * smallest_mismatch_share * rows.torque.squaredNorm();
+  double const needed = std::max(smallest_omnibus_z * std, by_floor);
+
+  CandidateColumns const columns(*stage.pipeline, stage.comparison, reference, stage.parameters());
+  std::array<double, 2> const shape{0.05 * reference.scales.peak_speed, 1.0};
+  OrthonormalGroup const group = columns.group(*find_effect("stribeck"), shape);
+  double const per_unit = group.r.squaredNorm();
+  if (!(per_unit > 0.0)) return {};
+  double const share = std::sqrt(needed / per_unit) / coulomb;
+  if (share > 1.0) return "Only a Stribeck effect larger than the Coulomb friction itself would have shown.";
+  return fmt::format("A Stribeck effect of {:.2g} % of the Coulomb friction would have shown.", 100.0 * share);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,122 @@
+#include "engine/diagnose/effect_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/contract.hpp"
+#include "engine/diagnose/map_axes.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double region_share = 0.8;
+
+Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
+  auto const& [effect, shape] = stage.model().effects()[i];
+  auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+  return columns.columns(*effect, shape) *
+         stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
+}
+
+// the reading of the map: torque that turns with the direction is counted along the motion
+Eigen::VectorXd reading_sign(SignatureAxis axis, MismatchRows const& rows) {
+  switch (shown_reading(axis)) {
+    case CellReading::along_motion:
+      return rows.dq.array().sign();
+    case CellReading::along_torque:
+      return rows.model_torque.array().sign();
+    case CellReading::torque:
+      break;
+  }
+  return Eigen::VectorXd::Ones(rows.size());
+}
+
+EffectCurve curve_on(SignatureAxis axis, MismatchRows const& rows, Eigen::VectorXd const& torque,
+                     Eigen::VectorXd const& left, JointKind joint) {
+  EffectCurve curve;
+  Eigen::VectorXd const values = values_on(axis, rows);
+  std::vector<double> const edges = cell_edges(axis, values);
+  std::vector<int> const cells = cells_of(values, edges);
+  Eigen::VectorXd const sign = reading_sign(axis, rows);
+  std::size_t const n = edges.size() - 1;
+  Eigen::MatrixXd const apart = rows.twins.colwise() - rows.twin_mean;
+  curve.axis = {word(axis), edges.front(), edges.back(), axis_unit(axis, joint)};
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    double count = 0.0, modelled = 0.0, partial = 0.0;
+    Eigen::RowVectorXd twins = Eigen::RowVectorXd::Zero(apart.cols());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (cells[k] != static_cast<int>(cell)) continue;
+      auto const row = static_cast<Eigen::Index>(k);
+      count += 1.0;
+      modelled += sign[row] * torque[row];
+      partial += sign[row] * (torque[row] + left[row]);
+      twins += sign[row] * apart.row(row);
+    }
+    if (count == 0.0) continue;
+    curve.at.push_back(0.5 * (edges[cell] + edges[cell + 1]));
+    curve.modelled.push_back(modelled / count);
+    curve.partial.push_back(partial / count);
+    curve.spread.push_back(twins.norm() / count / std::sqrt(static_cast<double>(apart.cols() - 1)));
+  }
+  return curve;
+}
+
+// the wave an effect is, as an interval of the spectrum's axis
+std::optional<AxisInterval> wave_region(ShapedEffect const& shaped, SignatureAxis axis, JointScales const& scales) {
+  if (!is_spectrum(axis)) return std::nullopt;
+  for (std::size_t k = 0; k < shaped.shape.size(); ++k) {
+    auto const& parameter = shaped.effect->parameters()[shaped.effect->n_linear() + k];
+    RelativeTo const to = parameter.lower.to;
+    if (to != RelativeTo::lowest_order && to != RelativeTo::slowest_frequency && to != RelativeTo::cutoff_frequency)
+      continue;
+    double const half =
+        to == RelativeTo::cutoff_frequency ? 0.25 * shaped.shape[k] : 0.5 * bound_value({1.0, to}, scales);
+    return AxisInterval{word(axis), std::max(0.0, shaped.shape[k] - half), shaped.shape[k] + half,
+                        axis_unit(axis, scales.joint)};
+  }
+  // one wave per turn
+  return AxisInterval{word(axis), 0.5, 1.5, axis_unit(axis, scales.joint)};
+}
+
+}  // namespace
+
+std::pair<double, double> shortest_interval(Eigen::VectorXd const& at, Eigen::VectorXd const& weight, double share) {
+  TORQUESCOPE_EXPECT(at.size() == weight.size() && at.size() > 0);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(at.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at[a] < at[b]; });
+  double const wanted = share * weight.sum();
+  std::pair<double, double> best{at[order.front()], at[order.back()]};
+  double inside = 0.0;
+  std::size_t from = 0;
+  for (std::size_t to = 0; to < order.size(); ++to) {
+    inside += weight[order[to]];
+    while (inside - weight[order[from]] >= wanted && from < to) inside -= weight[order[from++]];
+    double const width = at[order[to]] - at[order[from]];
+    if (inside >= wanted && width < best.second - best.first) best = {at[order[from]], at[order[to]]};
+  }
+  return best;
+}
+
+EffectAccount account_of(ModelStage const& stage, std::size_t i) {
+  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
+  auto const& rows = stage.comparison.rows;
+  auto const& shaped = stage.model().effects()[i];
+  Eigen::VectorXd const torque = effect_torque(stage, columns, i);
+  SignatureAxis const axis = shaped.effect->signature().front();
+  EffectAccount account;
+  account.rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
+  account.peak = torque.cwiseAbs().maxCoeff();
+  if (auto const wave = wave_region(shaped, axis, columns.scales())) {
+    account.region = *wave;
+  } else {
+    auto const [from, to] = shortest_interval(values_on(axis, rows), torque.array().square().matrix(), region_share);
+    account.region = {word(axis), from, to, axis_unit(axis, columns.joint())};
+  }
+  SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
+  account.curve = curve_on(drawn, rows, torque, stage.mismatch(), columns.joint());
+  return account;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,25 @@
+#include "engine/diagnose/excitation_advice.hpp"
+
+#include "engine/effects/effect.hpp"
+
+namespace torquescope {
+
+std::vector<ExcitationAdvice> advice_for(std::vector<NamedEffect> const& effects) {
+  std::vector<ExcitationAdvice> advice;
+  for (auto const& effect : effects) {
+    if (effect.equivalent.empty()) continue;
+    ExcitationAdvice one;
+    one.would_separate.push_back(effect.name);
+    one.would_separate.insert(one.would_separate.end(), effect.equivalent.begin(), effect.equivalent.end());
+    for (auto const& name : one.would_separate) {
+      Effect const* known = find_effect(name);
+      if (!known || known->separated_by().empty()) continue;
+      bool const is_said = one.lacks.find(known->separated_by()) != std::string::npos;
+      if (!is_said) one.lacks += (one.lacks.empty() ? "" : "; ") + known->separated_by();
+    }
+    advice.push_back(std::move(one));
+  }
+  return advice;
+}
+
+}  // namespace torquescope

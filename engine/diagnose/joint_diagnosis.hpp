@@ -1,0 +1,38 @@
+#pragma once
+// The whole diagnosis of one joint: checks, search, abstention, unseen recordings, verdict.
+//
+// Verdict    data_fault, insufficient   the recording cannot carry a diagnosis (recording_checks.hpp), the baseline cannot be
+//                                       fitted or simulated, or all that is missing is a fault of a channel
+//            none                       no gate opened (forward_selection.hpp)
+//            unexplained                something is missing and nothing fits; or the named effects leave more than 3 % of it,
+//                                       beyond chance, and either more than half of that is a smooth function of an axis which
+//                                       is none of theirs, or they explain less than two thirds of the whole while a
+//                                       smooth function holds a fifth of what is left: then they are withdrawn
+//            named, one_of_class        the rest; a class when another effect fits as well (equivalent_effects.hpp)
+// Errors     Error 78 for a filter that does not suit the recording; everything a recording is to blame for is a verdict
+// Threads    spreads work over `threads`; same bits for any number
+// Source     PHYSICS.md section 2; LESSONS items 9 to 18 of our own prototype
+
+#include <functional>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+
+struct DiagnosisInput {
+  Recording const& train;
+  std::vector<Recording> const& validate;
+  Regressor const& regressor;
+  FilterOptions const& filter;
+  Section const& filter_section;
+  SelectionOptions selection{};
+  std::size_t twins = 200;
+  std::uint64_t seed = 0;
+  int threads = 1;
+};
+
+Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress);
+
+}  // namespace torquescope

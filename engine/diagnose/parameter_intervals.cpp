@@ -1,0 +1,59 @@
+#include "engine/diagnose/parameter_intervals.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace torquescope {
+namespace {
+
+// standard deviation of every parameter over twins: model columns first, then one per tangent
+Eigen::VectorXd deviations(ModelStage const& stage, CandidateColumns const& columns) {
+  auto const& rows = stage.comparison.rows;
+  Eigen::Index const n_model = columns.model_columns().cols(), n_shapes = columns.tangents().cols();
+  Eigen::MatrixXd all(rows.size(), n_model + n_shapes);
+  all << columns.model_columns(), columns.tangents();
+  Eigen::VectorXd const length = all.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
+  // what the twin's own fit took up is put back: residual + columns (fit - mean fit)
+  Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
+  Eigen::MatrixXd const apart = (rows.twins.colwise() - rows.twin_mean) +
+                                columns.model_columns() * (fits.colwise() - fits.rowwise().mean().eval());
+  Eigen::MatrixXd const moved =
+      length.cwiseInverse().asDiagonal() *
+      Eigen::MatrixXd((all * length.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().solve(apart));
+  auto const m = static_cast<double>(rows.n_twins());
+  return (moved.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
+}
+
+ParameterEstimate estimate(std::string name, std::string unit, double value, double std) {
+  constexpr double two_sided = 1.96;
+  return {std::move(name), std::move(unit), value, value - two_sided * std, value + two_sided * std};
+}
+
+}  // namespace
+
+ModelEstimate estimate_parameters(ModelStage const& stage) {
+  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
+  Eigen::VectorXd const std = deviations(stage, columns);
+  auto const& model = stage.model();
+  ModelEstimate result;
+  auto const owners = model.regressor().column_owners();
+  for (std::size_t k = 0; k < owners.size(); ++k)
+    result.baseline.push_back(estimate(owners[k].name, owners[k].unit, stage.parameters()[static_cast<Eigen::Index>(k)],
+                                       std[static_cast<Eigen::Index>(k)]));
+  Eigen::Index shape_at = columns.model_columns().cols();
+  for (std::size_t i = 0; i < model.effects().size(); ++i) {
+    auto const& effect = *model.effects()[i].effect;
+    auto const values = model.effect_parameters(i, stage.parameters());
+    std::vector<ParameterEstimate> own;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      auto const& parameter = effect.parameters()[k];
+      Eigen::Index const at =
+          k < effect.n_linear() ? static_cast<Eigen::Index>(model.first_parameter(i) + k) : shape_at++;
+      own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], std[at]));
+    }
+    result.effects.push_back(std::move(own));
+  }
+  return result;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,24 @@
+#pragma once
+// Parameters of a model with 95 % intervals from its twins: all of them jointly, shapes included.
+//
+// Equation   deviation of twin t = [columns | tangents]^+ (its torque - columns * the truth it was simulated with);
+//            interval = value -+ 1.96 standard deviation over twins * sqrt(1 + 1/M)
+// Value      corrected for the bias of processing (baseline_correction.hpp); shapes by the last step of joint_refinement.hpp
+// Threads    free function
+// Source     PHYSICS.md section 2 step 12; parametric bootstrap: Efron, Tibshirani 1993
+
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/model_stage.hpp"
+
+namespace torquescope {
+
+struct ModelEstimate {
+  std::vector<ParameterEstimate> baseline{};              // of the regressor
+  std::vector<std::vector<ParameterEstimate>> effects{};  // of each effect: linear ones, then shapes
+};
+
+ModelEstimate estimate_parameters(ModelStage const& stage);
+
+}  // namespace torquescope

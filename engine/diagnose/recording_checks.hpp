@@ -1,0 +1,27 @@
+#pragma once
+// What makes a diagnosis of a recording hopeless before it begins: no search, no name, a way out.
+//
+// Insufficient   one direction, one speed, hardly more than the encoder's steps, too short
+// Data fault     the torque channel sits at its limit, or has nothing to do with the motion
+// Units          as Excitation
+// Threads        free function
+// Source         PHYSICS.md section 2 step 1; UX.md section 3 (abstention)
+
+#include <optional>
+#include <string>
+
+#include "engine/data/excitation.hpp"
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace torquescope {
+
+struct Hopeless {
+  Verdict verdict = Verdict::insufficient;
+  std::string finding;  // a clause
+  std::string way_out;
+};
+
+// relerr: of the baseline on the recording it was fitted to
+std::optional<Hopeless> check_recording(Excitation const& facts, double relerr);
+
+}  // namespace torquescope

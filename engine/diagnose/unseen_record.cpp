@@ -1,0 +1,189 @@
+#include "engine/diagnose/unseen_record.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/error.hpp"
+#include "engine/diagnose/twin_batch.hpp"
+#include "engine/simulate/autoregression.hpp"
+
+namespace torquescope {
+namespace {
+
+// it begins at an instant of one recording
+bool is_event(Effect const& effect) {
+  for (std::size_t k = effect.n_linear(); k < effect.parameters().size(); ++k)
+    if (effect.parameters()[k].lower.to == RelativeTo::instant) return true;
+  return false;
+}
+
+// the training parameters, those of events taken out
+Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
+  Eigen::VectorXd parameters = stage.comparison.recording.parameters;
+  auto const& effects = stage.model().effects();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (!is_event(*effects[i].effect)) continue;
+    parameters
+        .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
+                 static_cast<Eigen::Index>(effects[i].effect->n_linear()))
+        .setZero();
+    nuisances.push_back(effects[i].effect->name() + " left out: its instant belongs to the training recording");
+  }
+  return parameters;
+}
+
+// mean of the head when it is beyond chance, else 0
+double head_offset(Eigen::VectorXd const& residual) {
+  constexpr Eigen::Index head_share = 20, fewest = 50;
+  constexpr double beyond = 3.0;
+  Eigen::Index const n = std::min(residual.size(), std::max(fewest, residual.size() / head_share));
+  Eigen::VectorXd const head = residual.head(n);
+  double const mean = head.mean();
+  Eigen::VectorXd const apart = head.array() - mean;
+  // neighbours repeat each other: an autoregression of order 1 says how often
+  double const r = std::clamp(autocorrelation(apart, 1), 0.0, 0.99);
+  double const error =
+      std::sqrt(apart.squaredNorm() / static_cast<double>(n - 1) * (1.0 + r) / (1.0 - r) / static_cast<double>(n));
+  return std::abs(mean) > beyond * error ? mean : 0.0;
+}
+
+RecordPipeline pipeline_for(Recording const& recording, StageSetting const& setting, JointModel const& model) {
+  return {model, setting.filter, recording.rate_hz, recording.position.size(), setting.filter_section};
+}
+
+TwinLoop quiet(TwinLoop loop) {
+  loop.encoder_step = 0.0;
+  loop.torque_noise = white(0.0);
+  loop.disturbance_std = 0.0;
+  loop.disturbance_variance_error = 0.0;
+  return loop;
+}
+
+// the training's loop on another recording's reference
+std::optional<RecordedLoop> loop_on(Recording const& recording, ModelStage const& stage) {
+  auto const& trained = stage.twin->loop;
+  if (trained.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
+    return std::nullopt;
+  RecordedLoop loop = recorded_loop(recording, 1.0, {});
+  loop.loop.disturbance_std = trained.loop.disturbance_std;
+  loop.loop.disturbance_variance_error = trained.loop.disturbance_variance_error;
+  return loop;
+}
+
+double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), quiet(loop.loop), loop.track,
+                       stage.twin->twin.step_s());
+  TwinGroup group;
+  twin.simulate({}, 0, group);
+  if (group.ran_away[0]) return unknown;
+  return std::sqrt((group.position[0] - recording.position).squaredNorm() /
+                   static_cast<double>(recording.position.size()));
+}
+
+double floor_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                RecordedLoop const& loop, Eigen::VectorXd const& parameters) {
+  RecordPipeline const pipeline = pipeline_for(recording, setting, stage.model());
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), loop.loop, loop.track, stage.twin->twin.step_s());
+  std::vector<double> relerr(twin_lanes, unknown);
+  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, relerr.size(), setting.threads,
+                [&](VisitedTwin const& visited) {
+                  if (visited.ran_away) return;
+                  auto const& record = visited.record;
+                  relerr[visited.index] = (record.torque - record.columns * parameters).norm() / record.torque.norm();
+                });
+  double sum = 0.0;
+  for (double one : relerr) sum += one;
+  return sum / static_cast<double>(relerr.size());
+}
+
+}  // namespace
+
+Recording from_zero(Recording recording) {
+  double const start = recording.time_s.size() > 0 ? recording.time_s[0] : 0.0;
+  recording.time_s.array() -= start;
+  return recording;
+}
+
+TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,
+                         Eigen::VectorXd const& residual_before, Eigen::VectorXd const& residual_after) {
+  ProcessedRecord everything = before;
+  everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
+  for (std::size_t i = 0; i < everything.kept_rows.size(); ++i) everything.kept_rows[i] = static_cast<Eigen::Index>(i);
+  TorqueTrace trace;
+  trace.recording = recording.name;
+  trace.rate_hz = pipeline.kept_rate_hz();
+  trace.time_s = pipeline.picked(before.motion.time_s, everything);
+  trace.torque = pipeline.filtered(before.motion.torque, everything);
+  trace.velocity = pipeline.picked(before.motion.dq, everything);
+  trace.position = pipeline.picked(before.motion.q, everything);
+  trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);
+  for (std::size_t i = 0; i < before.kept_rows.size(); ++i) {
+    trace.before[before.kept_rows[i]] = residual_before[static_cast<Eigen::Index>(i)];
+    trace.after[before.kept_rows[i]] = residual_after[static_cast<Eigen::Index>(i)];
+  }
+  return trace;
+}
+
+ForwardSimulation simulate_forward(Recording const& recording, ModelStage const& baseline,
+                                   ModelStage const& augmented) {
+  ForwardSimulation result;
+  result.recording = recording.name;
+  result.encoder_step = baseline.twin->loop.loop.encoder_step;
+  double const mean = recording.position.mean();
+  result.motion_rms = std::sqrt((recording.position.array() - mean).square().mean());
+  auto const loop = loop_on(recording, baseline);
+  if (!loop) return result;
+  result.before_rms = position_error(recording, *loop, baseline);
+  auto const own = loop_on(recording, augmented);
+  result.after_rms = position_error(recording, *own, augmented);
+  return result;
+}
+
+UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
+                          ModelStage const& augmented) {
+  Recording const recording = from_zero(given);
+  UnseenResult result;
+  RecordPipeline const plain = pipeline_for(recording, setting, baseline.model());
+  RecordPipeline full = pipeline_for(recording, setting, augmented.model());
+  ProcessedRecord const before = plain.process(recording);
+  full.restrict_to(before.kept_rows);
+  ProcessedRecord const after = full.process(recording);
+  Eigen::VectorXd const parameters = transferable(augmented, result.nuisances);
+  Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
+  Eigen::VectorXd left_after = after.torque - after.columns * parameters;
+  double const offset = head_offset(left_after);
+  if (offset != 0.0) {
+    left_before.array() -= head_offset(left_before);
+    left_after.array() -= offset;
+    result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
+  }
+  result.energy = before.torque.squaredNorm();
+  result.before_energy = left_before.squaredNorm();
+  result.after_energy = left_after.squaredNorm();
+  result.before = std::sqrt(result.before_energy / result.energy);
+  result.after = std::sqrt(result.after_energy / result.energy);
+  for (std::size_t i = 0; i < augmented.model().effects().size(); ++i) {
+    auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(i));
+    auto const width = static_cast<Eigen::Index>(augmented.model().effects()[i].effect->n_linear());
+    // what the other terms would have been fitted to without it
+    auto const& trained = augmented.comparison.recording;
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
+      if (k < first || k >= first + width) others.push_back(k);
+    Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
+    Eigen::VectorXd const refitted = rest.colPivHouseholderQr().solve(trained.torque);
+    result.without.push_back((after.torque - after.columns(Eigen::all, others) * refitted).squaredNorm());
+  }
+  result.trace = torque_trace(recording, plain, before, left_before, left_after);
+  result.forward = simulate_forward(recording, baseline, augmented);
+  if (auto const loop = loop_on(recording, augmented))
+    result.floor = floor_of(recording, setting, augmented, *loop, augmented.comparison.recording.parameters);
+  return result;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,43 @@
+#pragma once
+// A recording that no fit and no choice has seen: how well the model predicts its torque, before and after.
+//
+// Parameters least squares of the training rows for both models (columns of measured motion are predicted best by
+//            parameters that carry the same attenuation)
+// Rows       those of the baseline's mask, for both
+// Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
+//            errors, then for both models, and said so
+// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
+// Floor      relerr of 16 twins of this recording under the final model, with the same parameters
+// Units      SI
+// Threads    spreads twins over `threads`; same bits for any number
+// Source     PHYSICS.md section 2 steps 9, 12
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+
+struct UnseenResult {
+  double before = unknown, after = unknown, floor = unknown;     // relerr
+  double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
+  std::vector<double> without{};                                 // residual energy with all effects but one, per effect
+  TorqueTrace trace{};
+  ForwardSimulation forward{};
+  std::vector<std::string> nuisances{};
+};
+
+// Errors     as the pipeline
+UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                          ModelStage const& augmented);
+
+// closed loop from the recording's reference, without noise, before and after; of a recording without reference: unknown
+ForwardSimulation simulate_forward(Recording const& recording, ModelStage const& baseline, ModelStage const& augmented);
+
+// torque and residuals on all kept samples; NaN where the mask has none
+TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,
+                         Eigen::VectorXd const& residual_before, Eigen::VectorXd const& residual_after);
+
+// the recording with its time beginning at 0
+Recording from_zero(Recording recording);
+
+}  // namespace torquescope

@@ -1,0 +1,101 @@
+"""The runner of the suite with a stand-in for the engine: what it keeps, what it makes again, what counts as failure.
+
+    test_run_suite.py MAKE_CASE
+
+The stand-in says "none" to everything, writes down each call, and sees its folder: no truth may lie there.
+"""
+import contextlib
+import io
+import json
+import os
+import pathlib
+import stat
+import sys
+import tempfile
+import unittest
+
+import run_suite
+
+MAKE_CASE = None
+STAND_IN = """#!{python}
+import json, os, sys
+assert sys.argv[1:4] == ["diagnose", "job.toml", "--json"] and sys.argv[5] == "--out", sys.argv
+seen = sorted(os.listdir("."))
+with open("{calls}", "a") as calls:
+    calls.write(json.dumps([os.path.basename(os.getcwd()), seen]) + "\\n")
+if "{mode}" == "fails":
+    sys.exit("cannot")
+joint = {{"joint": 1, "effects": [], "baseline": {{"validation_relerr": 0.1}}}}
+json.dump({{"schema": 1, "verdict": "none", "joints": [joint]}}, open(sys.argv[4], "w"))
+"""
+
+
+class RunSuite(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.calls = self.folder / "calls.txt"
+        self.out = self.folder / "out"
+
+    def program(self, mode):
+        path = self.folder / "stand_in"
+        path.write_text(STAND_IN.format(python=sys.executable, calls=self.calls, mode=mode))
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return path
+
+    def run_suite(self, mode="none", *options):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = run_suite.main([str(self.program(mode)), MAKE_CASE, str(self.out), *options])
+        return code, out.getvalue(), err.getvalue()
+
+    def called(self):
+        return [json.loads(line) for line in self.calls.read_text().splitlines()] if self.calls.exists() else []
+
+    def test_a_clean_suite_goes_right_and_is_not_run_twice(self):
+        code, text, _ = self.run_suite("none", "--clean", "1..2", "--jobs", "2", "--all-right")
+        self.assertEqual(code, 0, text)
+        self.assertIn("clean_2", text)
+        # the program saw the job and the recordings, nothing else
+        self.assertEqual(sorted(self.called()), [["clean_1", list(run_suite.OPEN)], ["clean_2", list(run_suite.OPEN)]])
+        board = json.loads((self.out / "board.json").read_text())
+        self.assertEqual(board["board"]["clean: verdict none"]["hits"], 2)
+
+        code, text, _ = self.run_suite("none", "--clean", "1..2", "--all-right")
+        self.assertEqual((code, len(self.called())), (0, 2))
+        self.assertIn("(kept)", text)
+
+        # another program, a lost verdict, a lost recording: made again
+        self.run_suite("none ", "--clean", "1..1")
+        self.assertEqual(len(self.called()), 3)
+        (self.out / "verdicts" / "clean_1.json").unlink()
+        self.run_suite("none ", "--clean", "1..1")
+        self.assertEqual(len(self.called()), 4)
+        (self.out / "open" / "clean_1" / "train.csv").unlink()
+        self.run_suite("none ", "--clean", "1..1")
+        self.assertTrue((self.out / "open" / "clean_1" / "train.csv").exists())
+
+    def test_silence_about_a_concealed_effect_is_not_right(self):
+        code, text, _ = self.run_suite("none", "--cases", "oak", "--all-right")
+        self.assertEqual(code, 1)
+        self.assertIn("not right: oak", text)
+        self.assertEqual(self.run_suite("none", "--cases", "oak")[0], 0)
+
+    def test_a_program_that_fails_leaves_a_case_without_verdict(self):
+        code, text, _ = self.run_suite("fails", "--clean", "1..1", "--all-right")
+        self.assertEqual(code, 1)
+        self.assertIn("FAILED with exit code 1", text)
+        self.assertIn("missing", text)
+        self.assertIn("cannot", (self.out / "logs" / "clean_1.txt").read_text())
+
+    def test_words_it_does_not_understand(self):
+        self.assertEqual(self.run_suite("none", "--clean", "5..1")[0], 64)
+        code, _, error = self.run_suite("none", "--cases", "oak,nothing")
+        self.assertEqual(code, 64)
+        self.assertIn("no sealed case nothing", error)
+
+
+if __name__ == "__main__":
+    MAKE_CASE = os.path.abspath(sys.argv.pop())
+    sys.exit(unittest.main())
