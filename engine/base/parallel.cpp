@@ -79,14 +79,15 @@ void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, in
 #pragma omp parallel num_threads(team)
   {
     int const thread = omp_get_thread_num();
-    while (!stop.load()) {
-      std::size_t const index = next.fetch_add(1);
+    // relaxed: tasks are independent, and an order the counter gave them by chance would hide a race from the sanitizer
+    while (!stop.load(std::memory_order_relaxed)) {
+      std::size_t const index = next.fetch_add(1, std::memory_order_relaxed);
       if (index >= n) break;
       try {
         task(index, thread);
       } catch (...) {
         std::lock_guard const lock(guard);
-        stop.store(true);
+        stop.store(true, std::memory_order_relaxed);
         if (index < failed_index) {
           failed_index = index;
           failure = std::current_exception();

@@ -49,6 +49,9 @@ function(choices target kind)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/choices)
 endfunction()
 
+# what preset tsan builds and runs: the tests labelled `threads`
+add_custom_target(threaded_tests)
+
 # unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, labelled by its first folder
 function(unit_test folder name)
   cmake_parse_arguments(TEST "" "TIMEOUT" "LINKS;LABELS" ${ARGN})
@@ -63,7 +66,10 @@ function(unit_test folder name)
   add_test(NAME ${flat}.${name} COMMAND ${target})
   string(REGEX REPLACE "/.*" "" label ${folder})
   set_tests_properties(${flat}.${name} PROPERTIES LABELS "${label};${TEST_LABELS}"
-                       ENVIRONMENT "OMP_WAIT_POLICY=passive")
+                       ENVIRONMENT "OMP_WAIT_POLICY=passive;${TORQUESCOPE_SANITIZER_ENVIRONMENT}")
+  if("threads" IN_LIST TEST_LABELS)
+    add_dependencies(threaded_tests ${target})
+  endif()
   if(TEST_TIMEOUT)
     set_tests_properties(${flat}.${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT})
   endif()

@@ -4,11 +4,14 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/error.hpp"
 
 namespace torquescope {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // (x - 0.3)^2 summed over three parameters; infinite where the first one is above 0.9
 class Bowl final : public Objective {
@@ -18,7 +21,7 @@ class Bowl final : public Objective {
     for (std::size_t i = 0; i < candidates.rows(); ++i) {
       fitness[i] = 0.0;
       for (double x : candidates.row(i)) fitness[i] += (x - 0.3) * (x - 0.3);
-      if (candidates(i, 0) > 0.9) fitness[i] = INFINITY;
+      if (candidates(i, 0) > 0.9) fitness[i] = infinity;
     }
   }
 
@@ -52,7 +55,7 @@ TEST(Optimise, RecordsEveryGenerationAndStopsWhereAsked) {
   for (std::size_t g = 1; g < history.best.size(); ++g) EXPECT_LE(history.best[g], history.best[g - 1]);
   EXPECT_LT(history.best.back(), 1e-4);
   // the last population's best member is the answer
-  double best = INFINITY;
+  double best = infinity;
   for (std::size_t i = 0; i < 30; ++i) best = std::min(best, history.fitness[40 * 30 + i]);
   EXPECT_EQ(best, history.best.back());
 }

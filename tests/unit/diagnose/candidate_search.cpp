@@ -1,0 +1,78 @@
+// The search for a missing effect spreads over threads without a trace in its numbers: the scan of the grids and the
+// refinement of a shape. Also what the thread sanitizer sees of both.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "engine/diagnose/model_stage.hpp"
+#include "engine/diagnose/shape_refinement.hpp"
+#include "unit/diagnose/clean_records.hpp"
+
+using namespace torquescope;
+using torquescope::test::clean_filter;
+using torquescope::test::clean_joint;
+using torquescope::test::clean_regressor;
+using torquescope::test::recorded;
+
+namespace {
+
+// a joint with Stribeck friction, compared with twins that have none
+class CandidateSearch : public testing::Test {
+ protected:
+  static Recording stribeck_recording() {
+    auto joint = clean_joint();
+    joint.plan.simulation.duration_s = 4.0;
+    joint.plan.plant = test::plant({{"inertia", 0.036},
+                                    {"viscous", 0.164},
+                                    {"coulomb", 1.3},
+                                    {"offset", -0.125},
+                                    {"stribeck", 0.5},
+                                    {"stribeck_speed", 0.1},
+                                    {"stribeck_exponent", 1.0}});
+    return recorded(simulate_joint(joint.plan, 3));
+  }
+
+  Recording const recording = stribeck_recording();
+  FilterOptions const filter = clean_filter();
+  Section const section{};
+  ModelStage const stage =
+      make_stage({recording, clean_regressor(), filter, section, 24, 1, 2}, clean_regressor()).value();
+  CandidateColumns const columns{*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()};
+  std::vector<Effect const*> const effects{find_effect("stribeck"), find_effect("power_law_viscous"),
+                                           find_effect("cogging")};
+};
+
+TEST_F(CandidateSearch, ScansWithTheSameBitsForAnyNumberOfThreads) {
+  auto const alone = scan_candidates(columns, effects, 1);
+  ASSERT_EQ(alone.size(), effects.size());
+  EXPECT_GT(alone[0].gain, 0.0);
+  for (int threads : {2, 3}) {
+    auto const together = scan_candidates(columns, effects, threads);
+    ASSERT_EQ(together.size(), alone.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_EQ(together[i].effect, alone[i].effect);
+      EXPECT_EQ(together[i].best_point, alone[i].best_point);
+      EXPECT_EQ(together[i].z, alone[i].z);
+      EXPECT_EQ(together[i].p, alone[i].p);
+      EXPECT_EQ(together[i].gain, alone[i].gain);
+      EXPECT_EQ(together[i].parameters, alone[i].parameters);
+    }
+  }
+}
+
+TEST_F(CandidateSearch, RefinesAShapeWithTheSameBitsForAnyNumberOfThreads) {
+  auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
+  auto const search = shape_search("de", 1);
+  auto const alone = refine_shape(columns, scan, stage.mismatch(), search, 1);
+  EXPECT_GE(alone.gain, scan.gain);
+  for (int threads : {2, 3}) {
+    auto const together = refine_shape(columns, scan, stage.mismatch(), search, threads);
+    EXPECT_EQ(together.shape, alone.shape);
+    EXPECT_EQ(together.parameters, alone.parameters);
+    EXPECT_EQ(together.gain, alone.gain);
+    EXPECT_EQ(together.evaluations, alone.evaluations);
+  }
+}
+
+}  // namespace
