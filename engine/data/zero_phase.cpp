@@ -1,7 +1,10 @@
 #include "engine/data/zero_phase.hpp"
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/contract.hpp"
 
@@ -9,11 +12,24 @@ namespace torquescope {
 namespace {
 
 // signals side by side: one recursion waits for its own last sample, several together keep the processor busy
-constexpr Eigen::Index side_by_side = 4;
+constexpr Eigen::Index side_by_side = 8;
 using Block = Eigen::Matrix<double, side_by_side, Eigen::Dynamic>;  // one column per sample
 
-// a state that has decayed to this is zero: numbers below 1e-308 would cost a hundred times as much as others
-constexpr double nothing = 1e-200;
+// Numbers below 1e-308 are zero while this lives: a signal that is zero for long leaves a filter full of them, and each
+// costs a hundred times as much as another number.
+class TinyIsZero {
+ public:
+#ifdef __SSE2__
+  TinyIsZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | flush_to_zero | denormals_are_zero); }
+  ~TinyIsZero() { _mm_setcsr(before_); }
+  TinyIsZero(TinyIsZero const&) = delete;
+  TinyIsZero& operator=(TinyIsZero const&) = delete;
+
+ private:
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  unsigned before_;
+#endif
+};
 
 // in place, transposed direct form II, beginning as if the first sample had always been there; backwards: from the end
 void run(std::vector<FilterSection> const& sections, Block& block, bool backwards) {
@@ -31,10 +47,8 @@ void run(std::vector<FilterSection> const& sections, Block& block, bool backward
     for (Eigen::Index i = 0; i < n; ++i, x += step) {
       for (Eigen::Index k = 0; k < side_by_side; ++k) {
         double const y = s.b0 * x[k] + z1[k];
-        double const next1 = s.b1 * x[k] - s.a1 * y + z2[k];
-        double const next2 = s.b2 * x[k] - s.a2 * y;
-        z1[k] = std::abs(next1) < nothing ? 0.0 : next1;
-        z2[k] = std::abs(next2) < nothing ? 0.0 : next2;
+        z1[k] = s.b1 * x[k] - s.a1 * y + z2[k];
+        z2[k] = s.b2 * x[k] - s.a2 * y;
         x[k] = y;
       }
     }
@@ -55,6 +69,7 @@ Eigen::VectorXd zero_phase(std::vector<FilterSection> const& sections,
 
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals) {
+  TinyIsZero const tiny_is_zero;
   Eigen::Index const n = signals.rows(), pad = padding_of(sections);
   TORQUESCOPE_EXPECT(n > pad);
   Eigen::MatrixXd filtered(n, signals.cols());

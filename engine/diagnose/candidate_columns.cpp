@@ -52,17 +52,33 @@ CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinCompariso
   nuisance_ = orthonormal_basis(all);
 }
 
-Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double const> shape) const {
+// the columns of all shapes, one shape after the other
+Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,
+                                             std::vector<std::vector<double>> const& shapes) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
+  auto const count = static_cast<Eigen::Index>(shapes.size());
   auto const& common = comparison_->common;
-  if (is_fixed_frequency(effect)) {
-    Eigen::MatrixXd out(common.torque.size(), linear);
-    effect.columns({row_motion_, reference_.scales}, shape, out);
-    return out;
-  }
-  Eigen::MatrixXd full_rate(common.motion.q.size(), linear);
-  effect.columns(baseline_.input(comparison_->rows.motion), shape, full_rate);
-  return pipeline_->filtered_columns(full_rate, common);
+  bool const on_rows = is_fixed_frequency(effect);
+  Eigen::MatrixXd all(on_rows ? common.torque.size() : common.motion.q.size(), linear * count);
+  EffectInput const input =
+      on_rows ? EffectInput{row_motion_, reference_.scales} : baseline_.input(comparison_->rows.motion);
+  for (Eigen::Index i = 0; i < count; ++i)
+    effect.columns(input, shapes[static_cast<std::size_t>(i)], all.middleCols(i * linear, linear));
+  return on_rows ? all : pipeline_->filtered_columns(all, common);
+}
+
+Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double const> shape) const {
+  return columns_of(effect, {{shape.begin(), shape.end()}});
+}
+
+std::vector<OrthonormalGroup> CandidateColumns::groups(Effect const& effect,
+                                                       std::vector<std::vector<double>> const& shapes) const {
+  auto const linear = static_cast<Eigen::Index>(effect.n_linear());
+  Eigen::MatrixXd const all = columns_of(effect, shapes);
+  std::vector<OrthonormalGroup> result;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(shapes.size()); ++i)
+    result.push_back(orthonormal_group(all.middleCols(i * linear, linear), nuisance_, signs(effect)));
+  return result;
 }
 
 OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double const> shape) const {

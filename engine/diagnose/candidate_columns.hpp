@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "engine/diagnose/bounded_projection.hpp"
 #include "engine/diagnose/mismatch_rows.hpp"
@@ -35,8 +36,11 @@ class CandidateColumns {
 
   Eigen::MatrixXd columns(Effect const& effect, std::span<double const> shape) const;
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
+  // of several shapes: their columns go through the filter side by side
+  std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
 
  private:
+  Eigen::MatrixXd columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const;
 
   RecordPipeline const* pipeline_;

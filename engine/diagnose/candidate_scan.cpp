@@ -36,12 +36,11 @@ class Scanner {
   }
 
   std::vector<PointResult> points(Effect const& effect, ShapeGrid const& grid, Slice const& slice) const {
-    std::vector<OrthonormalGroup> groups;
+    std::vector<std::vector<double>> shapes;
+    for (std::size_t i = slice.first; i < slice.last; ++i) shapes.push_back(grid.point(i));
+    std::vector<OrthonormalGroup> const groups = columns_.groups(effect, shapes);
     Eigen::Index width = 0;
-    for (std::size_t i = slice.first; i < slice.last; ++i) {
-      groups.push_back(columns_.group(effect, grid.point(i)));
-      width += groups.back().rank();
-    }
+    for (auto const& group : groups) width += group.rank();
     Eigen::MatrixXd q(deviations_.rows(), width);
     Eigen::Index at = 0;
     for (auto const& group : groups) {
