@@ -5,8 +5,8 @@
 // Rival      of the same equivalence families, or with half of its gain in the first scan; its shape refined on that part
 // Excluded   when the advantage of the accepted effect over it is larger than
 //              what chance gives if the rival were the truth: twins' residuals on top of the rival's torque, and
-//              what the accepted effect itself leaves unexplained: a form that is wrong by that much cannot exclude another
-//              that is wrong by little more
+//              what the accepted effect itself leaves unexplained, for a rival that explains nine tenths as much: a form that
+//              is wrong by that much cannot exclude another that is wrong by little more
 // Threads    spreads grid points over `threads`; same bits for any number
 // Source     PHYSICS.md section 2 step 10; non-nested models by simulation: Cox 1962, Williams 1970
 

@@ -68,8 +68,9 @@ class Search {
       : setting_(setting), options_(options), progress_(progress) {}
 
   Selection run() {
-    tell("twins", 0);
+    tell("twins", 0, setting_.twins);
     auto first = make_stage(setting_, setting_.regressor);
+    tell("twins", setting_.twins, setting_.twins);
     validate(first.has_value(), [&] {
       Problem problem{ExitCode::bad_data, setting_.recording.name + ": the fitted joint cannot follow the reference"};
       problem.help = "check recording.columns, units and torque_per_unit: the torque may be another signal";
@@ -91,8 +92,8 @@ class Search {
     BlockedGain cv;
   };
 
-  void tell(char const* what, std::size_t step) const {
-    if (progress_) progress_(what, step, options_.max_effects + 1);
+  void tell(char const* what, std::size_t done, std::size_t total) const {
+    if (progress_) progress_(what, done, total);
   }
 
   double whole() const { return std::max(selection_.first_excess, std::numeric_limits<double>::min()); }
@@ -106,7 +107,7 @@ class Search {
     std::size_t const step = selection_.accepted.size();
     bool const is_first = step == 0;
     if (step >= options_.max_effects) return false;
-    tell("search", step);
+    tell("search", 0, options_.candidates.size());
     CandidateColumns const columns(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters());
     auto scans = scan_candidates(columns, options_.candidates, setting_.threads);
     std::vector<double> const q = hierarchical_q(scans);
@@ -123,8 +124,13 @@ class Search {
       selection_.first_excess = remaining_;
       selection_.is_gate_open = is_open || is_significant(stage_);
     }
-    if (!is_open) return false;
-    for (Trial& trial : refined_trials(columns, scans, q, is_first))
+    if (!is_open) {
+      tell("search", scans.size(), scans.size());
+      return false;
+    }
+    std::vector<Trial> const trials = refined_trials(columns, scans, q, is_first);
+    tell("search", scans.size(), scans.size());
+    for (Trial const& trial : trials)
       if (accept(columns, trial)) return true;
     return false;
   }
@@ -192,8 +198,9 @@ class Search {
     }
     std::vector<ShapedEffect> effects = stage_.model().effects();
     effects.push_back({effect, trial.refined.shape});
-    tell("twins", effects.size());
+    tell("twins", 0, setting_.twins);
     auto next = refined_stage(setting_, stage_.reference(), std::move(effects));
+    tell("twins", setting_.twins, setting_.twins);
     if (!next) {
       reject(effect, "twins with it do not follow the reference");
       return false;

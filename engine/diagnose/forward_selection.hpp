@@ -70,7 +70,7 @@ double mismatch_share(ModelStage const& stage);
 double energy_share(ModelStage const& stage, double energy);
 bool is_significant(ModelStage const& stage);
 
-// told before every piece of work: "twins", "search"; steps done of those that are surely to come
+// told before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
 using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
 
 Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress);

@@ -78,7 +78,7 @@ class JointWork {
     StageSetting const setting{recording,    input_.regressor, input_.filter, input_.filter_section,
                                input_.twins, input_.seed,      input_.threads};
     selection_ = select_effects(setting, input_.selection, progress_);
-    tell("verify", 0, 1);
+    tell("verify", 0, selection_.accepted.size());
     describe_baseline();
     list_candidates();
     Remainder const remainder = judge_remainder(selection_, final_stage());
@@ -88,7 +88,7 @@ class JointWork {
     check_on_unseen(setting);
     budget(remainder);
     decide(remainder);
-    tell("verify", 1, 1);
+    tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
   // the recording by itself; may replace its torque by what the user's simulator cannot say

@@ -156,11 +156,12 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   Eigen::VectorXd const parameters = transferable(augmented, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
-  double const offset = head_offset(left_after);
-  if (offset != 0.0) {
-    left_before.array() -= head_offset(left_before);
+  if (double const offset = head_offset(left_after); offset != 0.0) {
     left_after.array() -= offset;
     result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
+    // the comparison must not gain by it: the baseline takes its own, or none if that is better
+    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before);
+    if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
   }
   result.energy = before.torque.squaredNorm();
   result.before_energy = left_before.squaredNorm();

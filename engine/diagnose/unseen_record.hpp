@@ -5,7 +5,7 @@
 //            parameters that carry the same attenuation)
 // Rows       those of the baseline's mask, for both
 // Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
-//            errors, then for both models, and said so
+//            errors, and said so; the baseline takes its own, or none where that is better for it
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
 // Floor      relerr of 16 twins of this recording under the final model, with the same parameters
 // Units      SI

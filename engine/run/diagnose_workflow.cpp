@@ -15,30 +15,41 @@ namespace {
 Recording const& training_recording(Experiment::Parts const& parts) {
   auto const& recordings = parts.train.recordings;
   validate(recordings.size() == 1, [&] {
-    Problem problem = problem_at(section_or_empty(parts.job, "recording"), "train",
-                                 "a diagnosis is made of one training recording",
-                                 "name one in train, the others in validate");
+    Problem problem =
+        problem_at(section_or_empty(parts.job, "recording"), "train", "a diagnosis is made of one training recording",
+                   "name one in train, the others in validate");
     return problem;
   });
   return recordings.front();
 }
 
-StageSink told_as_progress(ProgressSink const& progress, DiagnoseRequest const& request) {
-  using Clock = std::chrono::steady_clock;
-  auto const start = Clock::now();
-  return [&progress, &request, start](std::string const& stage, std::size_t done, std::size_t total) {
-    if (request.stop_requested && request.stop_requested())
+// seconds of an update count from the stage's beginning
+class Stages {
+ public:
+  Stages(ProgressSink const& progress, DiagnoseRequest const& request) : progress_(progress), request_(request) {}
+
+  void operator()(std::string const& stage, std::size_t done, std::size_t total) {
+    if (request_.stop_requested && request_.stop_requested())
       throw Error(Problem{ExitCode::stopped, "stopped: nothing was written"});
-    if (!progress) return;
+    if (stage != stage_) start_ = Clock::now();
+    stage_ = stage;
+    if (!progress_) return;
     ProgressUpdate update;
     update.stage = stage;
-    update.counted = "effects";
+    update.counted = stage == "twins" ? "clean twins" : "effects";
     update.runs_done = static_cast<std::int64_t>(done);
     update.runs_total = static_cast<std::int64_t>(total);
-    update.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    progress(update);
-  };
-}
+    update.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    progress_(update);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ProgressSink const& progress_;
+  DiagnoseRequest const& request_;
+  std::string stage_;
+  Clock::time_point start_{};
+};
 
 }  // namespace
 
@@ -55,7 +66,10 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   input.twins = static_cast<std::size_t>(parts.diagnose.twins);
   input.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input.threads = request.threads.count;
-  StageSink const sink = told_as_progress(progress, request);
+  Stages stages(progress, request);
+  StageSink const sink = [&stages](std::string const& stage, std::size_t done, std::size_t total) {
+    stages(stage, done, total);
+  };
   return diagnose_into_file(experiment, request, [&] { return diagnose_joint(input, sink); });
 }
 
