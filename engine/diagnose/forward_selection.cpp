@@ -52,6 +52,7 @@ bool is_event(Effect const& effect) { return effect.signature().front() == Signa
 
 // reason against linear parameters, empty when there is none
 std::string implausible(RefinedEffect const& refined, JointScales const& scales) {
+  if (!refined.effect->is_plausible(refined.shape, scales)) return "its best shape is none that it could have";
   auto const bounds = refined.effect->linear_bounds(scales);
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     double const value = refined.parameters[static_cast<Eigen::Index>(k)];

@@ -59,4 +59,6 @@ double Effect::torque(JointState const& state, std::span<double const> parameter
   return runner(parameters, scales)->torque(state, 0.0);
 }
 
+bool Effect::is_plausible(std::span<double const>, JointScales const&) const { return true; }
+
 }  // namespace torquescope

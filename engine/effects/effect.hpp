@@ -131,6 +131,8 @@ class Effect {
   bool needs_baseline() const { return description_.needs_baseline; }
   bool is_dry_friction() const { return description_.is_dry_friction; }
   virtual bool has_memory() const = 0;
+  // false: the law can be computed there, but would be something else than its name says; n_shape()
+  virtual bool is_plausible(std::span<double const> shape, JointScales const& scales) const;
 
   std::size_t n_linear() const { return n_linear_; }
   std::size_t n_shape() const { return parameters().size() - n_linear_; }

@@ -14,9 +14,11 @@ namespace torquescope {
 namespace {
 
 constexpr int largest_shift = 2;
-// differences of the reference: a velocity taken over several samples, a sample of computing time, a feedforward
+// Differences of the reference behind and ahead. The narrow window is for looking at rows the fit has not seen: the
+// higher differences of a smooth reference are nearly dependent, and their coefficients run wild at its corners. The wide
+// one is for the law: a velocity taken over several samples, a sample of computing time, a feedforward.
+constexpr int few_behind = 1, few_ahead = 1;
 constexpr int most_behind = 5, most_ahead = 2;
-constexpr int n_differences = most_behind + most_ahead;
 constexpr std::array<int, 3> lag_ladder{3, 6, 12};
 constexpr int most_lags = lag_ladder.back();
 // two-sided normal quantiles: 1 % over four autocorrelations; 0.1 % for an integral or a shift to be there
@@ -39,11 +41,12 @@ Rows usable_rows(Eigen::Index n) {
 // columns: e, differences of q, differences of r from behind to ahead, 1, t, [sum of e last]
 struct Columns {
   int lags = 0, shift = 0;
+  int behind = few_behind, ahead = few_ahead;
   bool has_integral = true;
 
   Eigen::Index count() const { return integral() + (has_integral ? 1 : 0); }
-  Eigen::Index reference() const { return 1 + lags; }  // r_(i+1) - r_i, i = -most_behind first
-  Eigen::Index constant() const { return reference() + n_differences; }
+  Eigen::Index reference() const { return 1 + lags; }  // r_(i+1) - r_i, i = -behind first
+  Eigen::Index constant() const { return reference() + behind + ahead; }
   Eigen::Index drift() const { return constant() + 1; }
   Eigen::Index integral() const { return drift() + 1; }
 };
@@ -66,8 +69,8 @@ Eigen::MatrixXd regressors(LoopSignals const& s, Columns const& columns, Rows co
     Eigen::Index const k = rows[static_cast<std::size_t>(i)], at = k + columns.shift;
     x(i, 0) = r[at] - q[k];
     for (int lag = 0; lag < columns.lags; ++lag) x(i, 1 + lag) = q[k - lag] - q[k - lag - 1];
-    for (int j = 0; j < n_differences; ++j)
-      x(i, columns.reference() + j) = r[at - most_behind + j + 1] - r[at - most_behind + j];
+    for (int j = 0; j < columns.behind + columns.ahead; ++j)
+      x(i, columns.reference() + j) = r[at - columns.behind + j + 1] - r[at - columns.behind + j];
     x(i, columns.constant()) = 1.0;
     x(i, columns.drift()) = s.time_s[k] - s.time_s[0];
     if (columns.has_integral) x(i, columns.integral()) = sum[k];
@@ -140,7 +143,7 @@ int best_shift(LoopSignals const& s, Rows const& rows) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int shift : {0, -1, 1, -2, 2}) {
-    double const sse = std::max(regress(s, {most_lags, shift, true}, rows).sse, std::numeric_limits<double>::min());
+    double const sse = std::max(regress(s, {most_lags, shift}, rows).sse, std::numeric_limits<double>::min());
     // the neighbouring samples of the reference imitate a small shift: none, unless the likelihood says otherwise
     double const criterion = n * std::log(sse) + (shift == 0 ? 0.0 : z_coefficient * z_coefficient);
     if (criterion < least) {
@@ -156,14 +159,17 @@ Regression best_lags(LoopSignals const& s, int shift, Rows const& rows) {
   double const n = static_cast<double>(rows.size());
   Regression best;
   double least = std::numeric_limits<double>::infinity();
-  for (int lags : lag_ladder) {
-    Regression tried = regress(s, {lags, shift, true}, rows);
-    double const criterion = n * std::log(std::max(tried.sse, std::numeric_limits<double>::min())) + 2.0 * lags;
-    if (criterion < least) {
-      least = criterion;
-      best = std::move(tried);
+  for (int lags : lag_ladder)
+    for (bool const wide : {false, true}) {
+      Columns const columns{lags, shift, wide ? most_behind : few_behind, wide ? most_ahead : few_ahead};
+      Regression tried = regress(s, columns, rows);
+      double const criterion = n * std::log(std::max(tried.sse, std::numeric_limits<double>::min())) +
+                               2.0 * static_cast<double>(columns.count());
+      if (criterion < least) {
+        least = criterion;
+        best = std::move(tried);
+      }
     }
-  }
   return best;
 }
 
@@ -178,10 +184,11 @@ LoopLaw law_of(Regression const& fit) {
     law.position[static_cast<std::size_t>(lag)] += c[1 + lag];
     law.position[static_cast<std::size_t>(lag) + 1] -= c[1 + lag];
   }
-  law.behind = most_behind;
-  law.reference.assign(n_differences + 1, 0.0);
-  law.reference[most_behind] = c[0];
-  for (int j = 0; j < n_differences; ++j) {
+  int const differences = columns.behind + columns.ahead;
+  law.behind = columns.behind;
+  law.reference.assign(static_cast<std::size_t>(differences) + 1, 0.0);
+  law.reference[static_cast<std::size_t>(columns.behind)] = c[0];
+  for (int j = 0; j < differences; ++j) {
     law.reference[static_cast<std::size_t>(j)] -= c[columns.reference() + j];
     law.reference[static_cast<std::size_t>(j) + 1] += c[columns.reference() + j];
   }
@@ -275,7 +282,7 @@ ControllerFit fit_controller(LoopSignals const& signals) {
   int shift = best_shift(signals, rows);
   Limits limits;
   for (int pass = 0; pass < limit_passes; ++pass) {
-    Regression const sofar = regress(signals, {most_lags, shift, true}, rows);
+    Regression const sofar = regress(signals, {most_lags, shift}, rows);
     limits = find_limits(signals, sofar, all);
     rows = limits.any() ? unclipped_rows(signals, sofar, limits, all) : all;
     if (pass == 0) shift = best_shift(signals, rows);

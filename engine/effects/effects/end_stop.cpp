@@ -1,7 +1,7 @@
 // Elastic end stop, or anything the joint leans on at one end of its travel.
 //
 // Equation   tau = (k (q - q_c) + d dq) [q beyond q_c]; beyond: above it when q_c lies in the upper half of the travel,
-//            below it in the lower half; q_c lies in the outer fifth of the travel on either side: what begins in the middle
+//            below it in the lower half. Plausible in the outer fifth of the travel on either side: what begins in the middle
 //            is no stop, and would pass for one as a bent line
 // Parameters end_stop k >= 0 [N m/rad; N/m], end_stop_damping d >= 0 [N m s/rad; N s/m]; end_stop_position q_c [rad; m]
 // Signature  position: one end only
@@ -31,14 +31,14 @@ class EndStop final : public InstantEffect {
                        .signature = {SignatureAxis::position},
                        .parity = Parity::neither}) {}
 
+  bool is_plausible(std::span<double const> shape, JointScales const& scales) const override {
+    constexpr double outer = 0.3;  // of the range, from the centre
+    return std::abs(shape[0] - scales.position_centre) >= outer * scales.position_range;
+  }
+
  private:
   void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
            std::span<double> out) const override {
-    constexpr double outer = 0.3;  // of the range, from the centre
-    if (std::abs(shape[0] - scales.position_centre) < outer * scales.position_range) {
-      out[0] = out[1] = 0.0;
-      return;
-    }
     double const side = shape[0] >= scales.position_centre ? 1.0 : -1.0;
     bool const is_beyond = side * (state.q - shape[0]) > 0.0;
     out[0] = is_beyond ? state.q - shape[0] : 0.0;
