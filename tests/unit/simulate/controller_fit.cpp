@@ -143,3 +143,25 @@ TEST(ControllerFit, RarelyDoubtsATrueLaw) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) doubts += !fit(simulate_joint(plan, seed)).is_white;
   EXPECT_LT(doubts, 4);
 }
+
+// fails: the law of the first look is undetermined at the one kink of the reference (0.5 s), whose few rows the choice by
+// torque leaves out; what it gets wrong there passes for a limit, and half of all rows for clipped
+TEST(ControllerFit, DISABLED_FindsNoLimitBelowTheTorqueThatWasReached) {
+  auto plan = loop_plan("pd");
+  plan.simulation.duration_s = 8.0;
+  plan.reference.amplitude = 1.5;
+  plan.plant = plant({{"inertia", 0.036},
+                      {"viscous", 0.164},
+                      {"coulomb", 1.3},
+                      {"offset", -0.125},
+                      {"stribeck", 0.5},
+                      {"stribeck_speed", 0.3},
+                      {"stribeck_exponent", 1.0}});
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    auto const recording = simulate_joint(plan, seed);
+    auto const found = fit(recording);
+    EXPECT_EQ(found.clipped_rows, 0) << seed;
+    EXPECT_GT(found.law.most, recording.torque.maxCoeff() - 6.0 * torque_noise) << seed;
+    EXPECT_LT(found.law.least, recording.torque.minCoeff() + 6.0 * torque_noise) << seed;
+  }
+}

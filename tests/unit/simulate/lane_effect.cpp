@@ -1,0 +1,156 @@
+// Effects of the catalogue in the lanes act where they say: a sensor's fault shifts its own channel and nothing else.
+
+#include "engine/simulate/lane_effect.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/simulate/clean_twin.hpp"
+
+using namespace torquescope;
+
+namespace {
+
+constexpr double rate_hz = 1000.0;
+constexpr Eigen::Index samples = 2000;
+constexpr double rounding = 1e-12;
+
+// a motor that plays its reference as torque and looks at nothing: whatever a sensor shows, the joint moves alike
+TwinLoop blind_loop() {
+  TwinLoop loop;
+  loop.law.position = {0.0};
+  loop.law.reference = {0.0, 1.0, 0.0};
+  loop.torque_noise = white(0.02);
+  loop.position_noise_std = 1e-4;
+  return loop;
+}
+
+// stiff, with the position fed back
+TwinLoop closed_loop() {
+  TwinLoop loop = blind_loop();
+  loop.law = tracking_law(0.04, 10.0, rate_hz);
+  return loop;
+}
+
+TwinTrack track(double size) {
+  TwinTrack made;
+  made.rate_hz = rate_hz;
+  made.reference.resize(samples);
+  for (Eigen::Index k = 0; k < samples; ++k) made.reference[k] = size * std::sin(0.006 * static_cast<double>(k));
+  return made;
+}
+
+TwinGroup simulated(TwinLoop const& loop, TwinTrack const& reference, std::vector<LaneEffectMaker> effects) {
+  TwinJoint joint;
+  joint.lanes = {0.04, 0.2, 0.0, 0.0};
+  joint.coulomb_forward = 0.3;
+  joint.coulomb_backward = -0.3;
+  joint.effects = std::move(effects);
+  TwinGroup group;
+  CleanTwin(joint, loop, reference, 1e-4).simulate({5, 0, 0}, 0, group);
+  return group;
+}
+
+// slope, step and the time of the step
+constexpr double drift = 0.07, jump = -0.4, jump_s = 0.85;
+LaneEffectMaker sensor_drift() { return lane_effect(*find_effect("sensor_drift"), {drift, jump, jump_s}, {}); }
+
+constexpr double sine = 0.004, cosine = -0.003;
+LaneEffectMaker eccentricity() { return lane_effect(*find_effect("encoder_eccentricity"), {sine, cosine}, {}); }
+
+Eigen::VectorXd reading_error(Eigen::VectorXd const& q) {
+  return (sine * q.array().sin() + cosine * q.array().cos()).matrix();
+}
+
+LaneInstant some_instant() {
+  LaneInstant at;
+  at.time_s = 0.9;
+  at.step_s = 1e-3;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    at.q[lane] = 0.3 * static_cast<double>(lane);
+    at.dq[lane] = 1.0 - 0.2 * static_cast<double>(lane);
+    at.motor_torque[lane] = 0.5;
+  }
+  return at;
+}
+
+}  // namespace
+
+TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
+  LaneInstant const at = some_instant();
+  struct {
+    LaneEffectMaker make;
+    bool is_torque;
+  } const cases[] = {{sensor_drift(), true}, {eccentricity(), false}};
+  for (auto const& [make, is_torque] : cases) {
+    auto const effect = make();
+    LaneDemand demand;
+    double position[twin_lanes] = {}, torque[twin_lanes] = {};
+    effect->add(at, demand);
+    effect->shift_position(at, position);
+    effect->shift_torque(at, torque);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      EXPECT_EQ(demand.smooth[lane], 0.0);
+      EXPECT_EQ(demand.forward[lane], 0.0);
+      EXPECT_EQ(demand.backward[lane], 0.0);
+      double const q = at.q[lane];
+      EXPECT_NEAR(position[lane], is_torque ? 0.0 : sine * std::sin(q) + cosine * std::cos(q), rounding);
+      EXPECT_NEAR(torque[lane], is_torque ? drift * 0.9 + jump : 0.0, rounding);
+    }
+  }
+}
+
+TEST(LaneEffect, OfAJointAddsToNoChannel) {
+  LaneInstant const at = some_instant();
+  auto const effect = lane_effect(*find_effect("viscous"), {0.2}, {})();
+  LaneDemand demand;
+  double position[twin_lanes] = {}, torque[twin_lanes] = {};
+  effect->add(at, demand);
+  effect->shift_position(at, position);
+  effect->shift_torque(at, torque);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    EXPECT_NEAR(demand.smooth[lane], 0.2 * at.dq[lane], rounding);
+    EXPECT_EQ(position[lane], 0.0);
+    EXPECT_EQ(torque[lane], 0.0);
+  }
+}
+
+TEST(SensorDrift, ShiftsTheLoggedTorqueAndNothingElse) {
+  // in a closed loop: a controller that saw it would answer
+  TwinGroup const plain = simulated(closed_loop(), track(0.8), {}),
+                  drifted = simulated(closed_loop(), track(0.8), {sensor_drift()});
+  ASSERT_GT(plain.position[0].maxCoeff(), 0.5);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    EXPECT_EQ(drifted.position[lane], plain.position[lane]);
+    for (Eigen::Index k = 0; k < samples; ++k) {
+      double const time_s = static_cast<double>(k) / rate_hz;
+      double const shift = drift * time_s + (k >= 850 ? jump : 0.0);
+      ASSERT_NEAR(drifted.torque[lane][k] - plain.torque[lane][k], shift, rounding) << k;
+    }
+  }
+}
+
+TEST(EncoderEccentricity, ShiftsTheReadingOfAMotionThatIsTheSame) {
+  // position noise is read with the error, and is none of the angle
+  TwinLoop loop = blind_loop();
+  loop.position_noise_std = 0.0;
+  TwinGroup const plain = simulated(loop, track(1.6), {}), shifted = simulated(loop, track(1.6), {eccentricity()});
+  ASSERT_GT(plain.position[0].maxCoeff() - plain.position[0].minCoeff(), 1.0);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    EXPECT_EQ(shifted.torque[lane], plain.torque[lane]);
+    Eigen::VectorXd const shift = shifted.position[lane] - plain.position[lane];
+    EXPECT_LT((shift - reading_error(plain.position[lane])).cwiseAbs().maxCoeff(), rounding);
+  }
+}
+
+TEST(EncoderEccentricity, IsSeenByTheController) {
+  TwinLoop loop = closed_loop();
+  loop.torque_noise = white(0.0);
+  TwinGroup const plain = simulated(loop, track(0.8), {}), shifted = simulated(loop, track(0.8), {eccentricity()});
+  Eigen::VectorXd const answer = shifted.torque[0] - plain.torque[0];
+  EXPECT_GT(answer.cwiseAbs().maxCoeff(), 0.01);
+  // the loop keeps the reading where it was: the joint itself goes wrong by the error
+  double const reading = (shifted.position[0] - plain.position[0]).tail(samples / 2).norm();
+  EXPECT_LT(reading, 0.5 * reading_error(plain.position[0]).tail(samples / 2).norm());
+}
