@@ -69,7 +69,7 @@ Eigen::VectorXd zero_phase(std::vector<FilterSection> const& sections,
 
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals) {
-  TinyIsZero const tiny_is_zero;
+  [[maybe_unused]] TinyIsZero const tiny_is_zero;
   Eigen::Index const n = signals.rows(), pad = padding_of(sections);
   TORQUESCOPE_EXPECT(n > pad);
   Eigen::MatrixXd filtered(n, signals.cols());

@@ -18,7 +18,7 @@ Eigen::Index padding_of(std::vector<FilterSection> const& sections);
 
 Eigen::VectorXd zero_phase(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::VectorXd const> const& signal);
 
-// every column by itself, four at a time; the bits are those of one at a time
+// every column by itself, eight at a time; the bits are those of one at a time
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals);
 

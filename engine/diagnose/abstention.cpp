@@ -11,10 +11,10 @@ constexpr double most_of_it = 0.5;
 constexpr double enough_named = 2.0 / 3.0;
 constexpr double some_structure = 0.2;
 
-bool is_axis_of(JointModel const& model, SignatureAxis axis) {
+bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
   return std::any_of(model.effects().begin(), model.effects().end(), [&](ShapedEffect const& one) {
     auto const& own = one.effect->signature();
-    return std::find(own.begin(), own.end(), axis) != own.end();
+    return std::find_first_of(own.begin(), own.end(), axis.axes.begin(), axis.axes.end()) != own.end();
   });
 }
 
@@ -34,7 +34,7 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   bool const is_named_enough = 1.0 - result.share >= enough_named;
   if (!is_named_enough && result.axes.front().share > some_structure) result.is_unexplained = true;
   for (auto const& axis : result.axes)
-    if (axis.share > most_of_it && !is_axis_of(final.model(), axis.axis)) result.is_unexplained = true;
+    if (axis.share > most_of_it && !is_axis_of(final.model(), axis)) result.is_unexplained = true;
   return result;
 }
 

@@ -21,8 +21,11 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
   fit_x << x.topRows(before), x.bottomRows(n_after);
   Eigen::VectorXd fit_y(before + n_after);
   fit_y << y.head(before), y.tail(n_after);
+  // what the filter carries out of an event inside the block is no column to fit outside it
+  constexpr double visible = 0.01;  // of a column's length
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    if (fit_x.col(k).norm() < visible * x.col(k).norm()) fit_x.col(k).setZero();
   Eigen::VectorXd const length = fit_x.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
-  // an event that lies in the block alone is no column outside it: least norm gives it nothing
   Eigen::VectorXd const scaled =
       (fit_x * length.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().solve(fit_y);
   Eigen::VectorXd const theta = scaled.cwiseQuotient(length);

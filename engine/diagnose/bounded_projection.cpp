@@ -57,6 +57,9 @@ OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd cons
     left.col(best).setZero();
   }
   group.r = group.q.transpose() * columns;
+  // what is left of a dropped column is rounding: alone it must not count as a direction
+  for (Eigen::Index k = 0; k < columns.cols(); ++k)
+    if (columns.col(k).norm() <= negligible * whole[k]) group.r.col(k).setZero();
   return group;
 }
 

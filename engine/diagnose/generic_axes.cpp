@@ -62,14 +62,14 @@ class Shares {
     apart_ = rows.twins.colwise() - rows.twin_mean;
   }
 
-  void add(std::string name, SignatureAxis axis, Eigen::MatrixXd basis) {
+  void add(std::string name, std::vector<SignatureAxis> axes, Eigen::MatrixXd basis) {
     Eigen::Index const width = basis.cols();
     OrthonormalGroup const group = orthonormal_group(std::move(basis), columns_.nuisance(),
                                                      std::vector<bool>(static_cast<std::size_t>(width), false));
     auto const m = static_cast<double>(apart_.cols());
-    double const noise = (group.q.transpose() * apart_).squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m);
-    double const gain = (group.q.transpose() * mismatch_).squaredNorm() - noise;
-    axes_.push_back({std::move(name), axis, gain / excess_});
+    double const noise = (group.q.transpose() * apart_).squaredNorm() / (m - 1.0);
+    double const gain = (group.q.transpose() * mismatch_).squaredNorm() / (1.0 + 1.0 / m) - noise;
+    axes_.push_back({std::move(name), std::move(axes), gain / excess_});
   }
 
   std::vector<GenericAxis> sorted() && {
@@ -93,21 +93,22 @@ std::vector<GenericAxis> generic_axes(CandidateColumns const& columns, double ex
   Eigen::VectorXd const s = rows.dq.array().sign();
   using enum SignatureAxis;
   Shares shares(columns, excess);
-  shares.add("position", position, hats(rows.q, n_knots));
-  shares.add("velocity", velocity, hats(rows.dq, n_knots));
-  shares.add("acceleration", acceleration, hats(rows.ddq, n_knots));
-  shares.add("time", time, hats(rows.time_s, n_knots));
-  shares.add("friction over position", position, times(hats(rows.q, n_knots), s));
-  shares.add("drag over position", position, times(hats(rows.q, n_knots), rows.dq));
-  shares.add("inertia over position", position, times(hats(rows.q, n_knots), rows.ddq));
-  shares.add("friction over time", time, times(hats(rows.time_s, n_knots), s));
-  shares.add("drag over time", time, times(hats(rows.time_s, n_knots), rows.dq));
-  shares.add("inertia over time", time, times(hats(rows.time_s, n_knots), rows.ddq));
-  shares.add("load", load, hats(rows.load_torque, n_knots));
-  shares.add("friction over load", load, times(hats(rows.load_torque, n_knots), s));
-  shares.add("distance since reversal", since_velocity_reversal, times(hats(rows.since_velocity_reversal, n_knots), s));
-  shares.add("position and velocity", velocity, tensor(rows.q, rows.dq));
-  shares.add("velocity and acceleration", velocity, tensor(rows.dq, rows.ddq));
+  shares.add("position", {position}, hats(rows.q, n_knots));
+  shares.add("velocity", {velocity}, hats(rows.dq, n_knots));
+  shares.add("acceleration", {acceleration}, hats(rows.ddq, n_knots));
+  shares.add("time", {time}, hats(rows.time_s, n_knots));
+  shares.add("friction over position", {position}, times(hats(rows.q, n_knots), s));
+  shares.add("drag over position", {position}, times(hats(rows.q, n_knots), rows.dq));
+  shares.add("inertia over position", {position}, times(hats(rows.q, n_knots), rows.ddq));
+  shares.add("friction over time", {time}, times(hats(rows.time_s, n_knots), s));
+  shares.add("drag over time", {time}, times(hats(rows.time_s, n_knots), rows.dq));
+  shares.add("inertia over time", {time}, times(hats(rows.time_s, n_knots), rows.ddq));
+  shares.add("load", {load}, hats(rows.load_torque, n_knots));
+  shares.add("friction over load", {load}, times(hats(rows.load_torque, n_knots), s));
+  shares.add("distance since reversal", {since_velocity_reversal},
+             times(hats(rows.since_velocity_reversal, n_knots), s));
+  shares.add("position and velocity", {position, velocity}, tensor(rows.q, rows.dq));
+  shares.add("velocity and acceleration", {velocity, acceleration}, tensor(rows.dq, rows.ddq));
   return std::move(shares).sorted();
 }
 

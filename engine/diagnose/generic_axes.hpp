@@ -17,9 +17,9 @@
 namespace torquescope {
 
 struct GenericAxis {
-  std::string name;                              // for people: "velocity", "friction over position"
-  SignatureAxis axis = SignatureAxis::velocity;  // of the mismatch map, the one that varies
-  double share = 0.0;                            // of the excess
+  std::string name;                   // for people: "velocity", "friction over position"
+  std::vector<SignatureAxis> axes{};  // of the mismatch map: those it is a function of
+  double share = 0.0;                 // of the excess
 };
 
 // strongest first; excess: of the stage, above 0

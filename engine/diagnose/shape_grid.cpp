@@ -10,13 +10,13 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
                        JointScales const& scales) {
   constexpr double share_of_resolution = 0.7;
   constexpr std::size_t places = 24;
-  if (parameter.upper.to == RelativeTo::highest_order || parameter.upper.to == RelativeTo::cutoff_frequency) {
-    bool const is_frequency = parameter.lower.to == RelativeTo::slowest_frequency;
-    bool const is_order = parameter.lower.to == RelativeTo::lowest_order;
-    if (is_frequency || is_order) {
-      double const resolution = bound_value({1.0, parameter.lower.to}, scales);
-      return static_cast<std::size_t>(std::ceil((range.upper - range.lower) / (share_of_resolution * resolution))) + 1;
-    }
+  if (parameter.lower.to == RelativeTo::slowest_frequency || parameter.lower.to == RelativeTo::lowest_order) {
+    double const gap = share_of_resolution * bound_value({1.0, parameter.lower.to}, scales);
+    // logarithmic points lie furthest apart at the upper end
+    double const gaps = range.spacing == Spacing::logarithmic
+                            ? std::log(range.upper / range.lower) / -std::log1p(-gap / range.upper)
+                            : (range.upper - range.lower) / gap;
+    return static_cast<std::size_t>(std::ceil(gaps)) + 1;
   }
   if (parameter.lower.to == RelativeTo::instant || parameter.lower.to == RelativeTo::position) return places;
   return n_shape == 1 ? 10 : n_shape == 2 ? 6 : 4;

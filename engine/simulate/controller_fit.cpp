@@ -237,6 +237,8 @@ double upper_limit(Eigen::VectorXd const& asked, Eigen::VectorXd const& torque, 
     double const count = static_cast<double>(i + 1);
     double const gain = by_law - (squares - sum * sum / count);
     if (i + 1 < fewest_clipped || gain <= best) continue;
+    // a torque that was reached lies under the limit, or there is none
+    if (torque.maxCoeff() > origin + sum / count + z_clipped * deviation) continue;
     best = gain;
     limit = origin + sum / count;
   }

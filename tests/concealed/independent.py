@@ -34,6 +34,8 @@ def main(root):
             if not path.is_file() or path.suffix in (".h5", ".gz"):
                 continue
             text = path.read_text(errors="replace")
+            # a person may be told where the truth lies; nothing may open it
+            text = re.sub(r"^echo .*$", "", text, flags=re.MULTILINE)
             if "truth.json" in text or re.search(r'#\s*include\s+"concealed/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
     for path in here.glob("*.py"):

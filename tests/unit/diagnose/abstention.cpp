@@ -150,7 +150,7 @@ class LongAbstention : public Abstention {
 };
 
 // fails: "position and velocity" is counted as an axis of velocity, and holds every function of position alone
-TEST_F(LongAbstention, DISABLED_NamesStandWhenTheRestLiesOnTheirOwnAxisOfPosition) {
+TEST_F(LongAbstention, NamesStandWhenTheRestLiesOnTheirOwnAxisOfPosition) {
   name({find_effect("cogging"), {9.0}});
   leave(0.1, of_position());
   Remainder const found = judge_remainder(selection_of(10.0, true), stage);

@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, EveryWave,
                          [](auto const& one) { return std::string(one.param.effect); });
 
 // fails: its upper bound is relative to the lowest order, so that it counts as any other single parameter
-INSTANTIATE_TEST_SUITE_P(DISABLED_Effects, EveryWave,
+INSTANTIATE_TEST_SUITE_P(Effects, EveryWave,
                          testing::Values(Wave{"position_dependent_friction", "position_friction_order", false}),
                          [](auto const& one) { return std::string(one.param.effect); });
 
