@@ -1,115 +1,217 @@
-// Backlash: when the transmitted torque changes its sign the load is let go, and the motor is alone until a gap of 2 b
-// has been crossed.
+// Backlash: the load hangs behind a gap of 2 b whose flanks give way, and lies on the one or the other only while it is
+// pushed.
 //
-// Equation   tau = -(c_l tau_load + c_f Fc sign) while in the gap, + c_l J (dq - dq_load) as an impulse where they meet
-//            again; tau_load, Fc, J: gravity and inertia, Coulomb levels, inertia of the baseline
-// Memory     place q - q_load within [-b, b] and speed of the load, which slides on by itself in the gap: braked by the
-//            Coulomb and viscous friction of the baseline, pulled by its gravity; the impact is plastic
-// Why        the torque decides, not the velocity: a joint that gravity holds on one flank has no gap at its reversals
-// Parameters backlash_load c_l, backlash_friction c_f [1] from 0 to 1: share of them that lies behind the gap;
-//            backlash_half_gap b [rad; m]
-// Signature  distance since the reversal of the torque: nothing to move for 2 b, then an impact
-// Confused   presliding (reversal of the velocity), delay
+// Equation   tau = J_l y'', y'' = a - ddq - g / J, a = -(w^2 dz(y, b) + 2 zeta w y'), w = 2 pi f: y is the load relative to
+//            the motor, dz its way beyond the gap; a = 0 in the gap and where it would pull. The rigid part J_l ddq and the
+//            gravity g are the baseline's, of which the load has the same share as of the inertia J
+// Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
+//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
+// Why        flanks are soft: a rigid load and a plastic impact miss the ringing after contact, which is most of what shows.
+//            The push decides, not the velocity: a joint that gravity holds on one flank has no gap at its reversals
+// Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; backlash_half_gap b [rad; m];
+//            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1]
+// Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
+// Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/effects/memory_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class LoadInGap final : public EffectMemory {
+// load relative to motor
+struct Place {
+  double y = 0.0, dy = 0.0;
+};
+
+// what the motor and gravity do to the load relative to the motor, on one side: y'' = -(now + jerk t) without contact
+struct Drive {
+  double now = 0.0, jerk = 0.0;
+  Drive after(double time_s) const { return {now + jerk * time_s, jerk}; }
+};
+
+Place fly(Place const& from, Drive const& drive, double time_s) {
+  double const half = 0.5 * time_s;
+  return {from.y + time_s * (from.dy - half * (drive.now + drive.jerk * time_s / 3.0)),
+          from.dy - time_s * (drive.now + half * drive.jerk)};
+}
+
+// a spring and damper whose rest is y = 0
+class Flank {
  public:
-  LoadInGap(double half_gap, JointScales const& scales) : half_gap_(half_gap), scales_(scales) {}
+  Flank(double frequency_hz, double damping)
+      : omega_(2.0 * std::numbers::pi * frequency_hz),
+        decay_(damping * omega_),
+        ringing_(omega_ * std::sqrt(1.0 - damping * damping)) {}
 
-  void start(JointState const& state) override {
-    q_ = state.q;
-    flank_ = transmitted_torque(state) < 0.0 ? -1.0 : 1.0;
-    place_ = flank_ * half_gap_;
-    load_speed_ = state.dq;
-    impact_torque_ = 0.0;
+  double omega() const { return omega_; }
+  double push(Place const& at) const { return omega_ * omega_ * at.y + 2.0 * decay_ * at.dy; }
+  double rest(double drive) const { return -drive / (omega_ * omega_); }
+
+  Place ring(Place const& from, Drive const& drive, double time_s) const {
+    return ring(from, drive, time_s, fading(time_s));
   }
-
-  void advance(JointState const& state, double step_s) override {
-    impact_torque_ = 0.0;
-    if (flank_ == 0.0) {
-      double const travelled = slide_load(step_s);
-      place_ += state.q - q_ - travelled;
-      if (std::abs(place_) >= half_gap_) meet(state, step_s);
-    }
-    q_ = state.q;
-    if (flank_ != 0.0) {
-      load_speed_ = state.dq;
-      if (flank_ * transmitted_torque(state) < 0.0) flank_ = 0.0;
-    }
-  }
-
-  void row(JointState const& state, std::span<double> out) const override {
-    bool const is_free = flank_ == 0.0;
-    out[0] = is_free ? -state.load_torque : impact_torque_;
-    out[1] = is_free ? -coulomb(state.dq) : 0.0;
+  // the same over a time that was told before
+  void remember(double time_s) { remembered_ = fading(time_s); }
+  Place ring_as_remembered(Place const& from, Drive const& drive, double time_s) const {
+    return ring(from, drive, time_s, remembered_);
   }
 
  private:
-  double coulomb(double velocity) const { return scales_.coulomb() * scales_.friction_sign(velocity); }
-  double transmitted_torque(JointState const& state) const { return state.load_torque + coulomb(state.dq); }
-  double gravity(double q) const { return scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q); }
+  struct Fading {
+    double cosine = 1.0, sine = 0.0;
+  };
 
-  // the load by itself for one step; returns how far it came
-  double slide_load(double step_s) {
-    double const weight = gravity(q_ - place_);
-    double const level = scales_.coulomb();
-    double const before = load_speed_;
-    if (!(scales_.inertia > 0.0)) {
-      load_speed_ = 0.0;  // without inertia friction stops it at once
-      return 0.0;
-    }
-    double const direction = before != 0.0 ? std::copysign(1.0, before) : -std::copysign(1.0, weight);
-    bool const is_held = before == 0.0 && std::abs(weight) <= level * std::abs(scales_.friction_sign(direction));
-    if (is_held) return 0.0;
-    double const braking = weight + coulomb(direction) + scales_.viscous * before;
-    double const after = before - braking / scales_.inertia * step_s;
-    // friction brings it to rest, it does not turn it round
-    load_speed_ = before != 0.0 && after * before < 0.0 ? 0.0 : after;
-    return 0.5 * (before + load_speed_) * step_s;
+  Fading fading(double time_s) const {
+    double const faded = std::exp(-decay_ * time_s);
+    return {faded * std::cos(ringing_ * time_s), faded * std::sin(ringing_ * time_s)};
   }
 
-  void meet(JointState const& state, double step_s) {
-    flank_ = std::copysign(1.0, place_);
-    place_ = flank_ * half_gap_;
-    impact_torque_ = scales_.inertia * (state.dq - load_speed_) / step_s;
+  // what remains after the motion that follows a straight drive rings freely
+  Place ring(Place const& from, Drive const& drive, double time_s, Fading const& fading) const {
+    double const square = omega_ * omega_;
+    double const follow = rest(drive.now) + 2.0 * decay_ * drive.jerk / (square * square);
+    double const dfollow = -drive.jerk / square;
+    double const free = from.y - follow, dfree = from.dy - dfollow;
+    double const quadrature = (dfree + decay_ * free) / ringing_;
+    return {free * fading.cosine + quadrature * fading.sine + follow + dfollow * time_s,
+            dfree * fading.cosine - (free * ringing_ + decay_ * quadrature) * fading.sine + dfollow};
+  }
+
+  double omega_, decay_, ringing_;
+  Fading remembered_{};
+};
+
+class LoadBehindGap final : public EffectMemory {
+ public:
+  LoadBehindGap(double half_gap, double frequency_hz, double damping, JointScales const& scales)
+      : half_gap_(half_gap), flank_(frequency_hz, damping), scales_(scales) {}
+
+  // as if the same push had lasted for long
+  void start(JointState const& state) override {
+    drive_ = drive_of(state);
+    at_ = {flank_.rest(drive_) - std::copysign(half_gap_, drive_), 0.0};
+    side_ = side_at(at_);
+  }
+
+  void advance(JointState const& state, double step_s) override {
+    if (step_s != step_s_) remember_step(step_s);
+    double const end = drive_of(state);
+    Drive drive{drive_, (end - drive_) / step_s};
+    for (int i = 0; i < n_sub_steps_; ++i) {
+      sub_step(drive);
+      drive = drive.after(sub_step_s_);
+    }
+    drive_ = end;
+  }
+
+  void row(JointState const& state, std::span<double> out) const override {
+    double const push = side_ == 0.0 ? 0.0 : -flank_.push(on_flank(at_, side_));
+    out[0] = push - drive_of(state);
+  }
+
+ private:
+  static constexpr double largest_angle = 0.25;  // of the contact frequency, in one sub-step
+  static constexpr int most_events = 4;          // in one sub-step; more of them are a load that rests
+  static constexpr int halvings = 20;            // of a sub-step, to find one
+
+  double drive_of(JointState const& state) const { return state.ddq + gravity(state.q); }
+  double gravity(double q) const {
+    if (!(scales_.inertia > 0.0)) return 0.0;
+    return (scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q)) / scales_.inertia;
+  }
+
+  Place on_flank(Place const& at, double side) const { return {at.y - side * half_gap_, at.dy}; }
+  // of the flank that pushes, 0 where none does
+  double side_at(Place const& at) const {
+    double const side = std::copysign(1.0, at.y);
+    Place const beyond = on_flank(at, side);
+    return side * beyond.y > 0.0 && side * flank_.push(beyond) > 0.0 ? side : 0.0;
+  }
+
+  void remember_step(double step_s) {
+    step_s_ = step_s;
+    n_sub_steps_ = std::max(1, static_cast<int>(std::ceil(flank_.omega() * step_s / largest_angle)));
+    sub_step_s_ = step_s / n_sub_steps_;
+    flank_.remember(sub_step_s_);
+  }
+
+  // on the flank of side_ or in the gap, as if the other did not exist
+  Place carry_on(Drive const& drive, double time_s) const {
+    if (side_ == 0.0) return fly(at_, drive, time_s);
+    Place const beyond = on_flank(at_, side_);
+    Place const next =
+        time_s == sub_step_s_ ? flank_.ring_as_remembered(beyond, drive, time_s) : flank_.ring(beyond, drive, time_s);
+    return {next.y + side_ * half_gap_, next.dy};
+  }
+
+  void sub_step(Drive drive) {
+    double left_s = sub_step_s_;
+    for (int event = 0; event < most_events; ++event) {
+      Place const next = carry_on(drive, left_s);
+      if (side_at(next) == side_) {
+        at_ = next;
+        return;
+      }
+      double const until_s = time_of_event(drive, left_s);
+      at_ = carry_on(drive, until_s);
+      side_ = side_at(at_);
+      drive = drive.after(until_s);
+      left_s -= until_s;
+      if (!(left_s > 0.0)) return;
+    }
+    at_ = carry_on(drive, left_s);
+    side_ = side_at(at_);
+  }
+
+  // an instant just after the push begins or ends; it has by late_s
+  double time_of_event(Drive const& drive, double late_s) const {
+    double early_s = 0.0;
+    for (int i = 0; i < halvings; ++i) {
+      double const middle_s = 0.5 * (early_s + late_s);
+      (side_at(carry_on(drive, middle_s)) == side_ ? early_s : late_s) = middle_s;
+    }
+    return late_s;
   }
 
   double half_gap_;
+  Flank flank_;
   JointScales scales_;
-  double flank_ = 0.0;  // side of the gap the load lies on, 0 in between
-  double place_ = 0.0;  // q - q_load
-  double q_ = 0.0, load_speed_ = 0.0, impact_torque_ = 0.0;
+  double side_ = 0.0;  // of the gap on which the load is pushed, 0 while it is not
+  Place at_{};
+  double drive_ = 0.0;
+  double step_s_ = 0.0, sub_step_s_ = 0.0;
+  int n_sub_steps_ = 1;
 };
 
 class Backlash final : public MemoryEffect {
  public:
   Backlash()
-      : MemoryEffect({.name = "backlash",
-                      .title = "lost motion: the load is let go within a gap",
-                      .equation = "-(c_l tau_load + c_f Fc sign(dq)) [in the gap 2 b] + c_l J (dq - dq_load) at impact",
-                      .source = "Nordin, Gutman 2002",
-                      .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
-                      .parameters = {{"backlash_load", "1", "1", {0.0}, {1.0}},
-                                     {"backlash_friction", "1", "1", {0.0}, {1.0}},
-                                     shape_parameter("backlash_half_gap", "rad", "m", {1.0, RelativeTo::resolution},
-                                                     {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
-                      .families = {EffectFamily::reversal},
-                      .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
-                      .parity = Parity::neither,
-                      .needs_baseline = true,
-                      .is_dry_friction = true}) {}
+      : MemoryEffect(
+            {.name = "backlash",
+             .title = "lost motion: the load hangs behind a gap",
+             .equation =
+                 "J_l y'', y'' + [w^2 dz(y, b) + 2 zeta w y' in contact, never pulling] = -ddq - g / J, w = 2 pi f",
+             .source = "Nordin, Gutman 2002",
+             .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
+             .parameters = {{"backlash_load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
+                            shape_parameter("backlash_half_gap", "rad", "m", {1.0, RelativeTo::resolution},
+                                            {0.02, RelativeTo::position_range}, Spacing::logarithmic),
+                            shape_parameter("backlash_frequency", "Hz", "Hz", {0.2, RelativeTo::cutoff_frequency},
+                                            {3.0, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
+                            shape_parameter("backlash_damping", "1", "1", {0.02}, {0.7}, Spacing::logarithmic)},
+             .families = {EffectFamily::reversal},
+             .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
+             .parity = Parity::neither,
+             .needs_baseline = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<LoadInGap>(shape[0], scales);
+    return std::make_unique<LoadBehindGap>(shape[0], shape[1], shape[2], scales);
   }
 };
 

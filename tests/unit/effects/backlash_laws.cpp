@@ -1,0 +1,138 @@
+// Backlash: its limits (play of 2 b, elastic joint), the textbook law, the rule for sub-steps, and the loop of a plant.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/effects/effect.hpp"
+
+namespace torquescope {
+namespace {
+
+JointScales const plain;
+
+// a motor that swings and is driven against its load by two sines; states at any instant
+JointState swinging(double t) {
+  constexpr double slow = 7.0, fast = 31.0;
+  return {t, 0.3 * std::sin(slow * t) + 0.01 * std::sin(fast * t),
+          0.3 * slow * std::cos(slow * t) + 0.01 * fast * std::cos(fast * t),
+          -0.3 * slow * slow * std::sin(slow * t) - 0.01 * fast * fast * std::sin(fast * t)};
+}
+
+TEST(Backlash, HasAPlayOfExactlyTwoB) {
+  // pushed forwards for long, then braked: the load flies across the gap at the acceleration of the motor
+  double const half_gap = 2.5e-3, braking = 10.0, step_s = 1e-4;
+  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, 2000.0, 0.1}, plain);
+  runner->advance({.ddq = braking}, 0.0);
+  EXPECT_NEAR(runner->torque({.ddq = braking}), 0.0, 1e-9);
+  JointState const braked{.ddq = -braking};
+  double flight_s = 0.0;
+  for (; flight_s < 5e-4; flight_s += step_s) runner->advance(braked, step_s);  // the flank lets go
+  for (; flight_s < 1.0 && runner->torque(braked) == braking; flight_s += step_s) runner->advance(braked, step_s);
+  // the flank gave the load a speed of up to 2 braking / w, which it has all the way
+  double const expected = std::sqrt(2.0 * 2.0 * half_gap / braking),
+               pushed_off = 2.0 / (2.0 * std::numbers::pi * 2000.0);
+  EXPECT_NEAR(flight_s, expected, pushed_off + 3.0 * step_s);
+}
+
+TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
+  JointScales scales;
+  scales.inertia = 0.4;
+  scales.gravity_cos = 4.0;  // 10 rad/s2 at q = 0, more than the motion asks for
+  auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1}, scales);
+  auto const spring = find_effect("joint_elasticity")->runner(std::vector<double>{0.3, 20.0, 0.1}, scales);
+  for (int i = 0; i < 5000; ++i) {
+    double const t = 1e-3 * i;
+    JointState const state{.time_s = t, .ddq = 3.0 * std::sin(20.0 * t)};
+    double const step_s = i > 0 ? 1e-3 : 0.0;
+    ASSERT_NEAR(gap->torque(state, step_s), spring->torque(state, step_s), 1e-10) << t;
+  }
+}
+
+TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
+  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, in the load's own coordinate
+  double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3;
+  double const omega = 2.0 * std::numbers::pi * frequency_hz;
+  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping}, plain);
+  constexpr int finer = 2000;
+  constexpr double step_s = 1e-3;
+  auto const start = swinging(0.1);
+  double q_load = start.q - std::copysign(half_gap, start.ddq) - start.ddq / (omega * omega), dq_load = start.dq;
+  double difference = 0.0, size = 0.0;
+  int free_samples = 0;
+  runner->advance(start, 0.0);
+  for (int i = 1; i <= 3000; ++i) {
+    double push = 0.0;
+    for (int k = 1; k <= finer; ++k) {
+      auto const now = swinging(0.1 + step_s * (i - 1 + static_cast<double>(k) / finer));
+      double const apart = now.q - q_load, side = std::copysign(1.0, apart);
+      double const deep = apart - side * half_gap;
+      push = side * deep > 0.0 ? omega * omega * deep + 2.0 * damping * omega * (now.dq - dq_load) : 0.0;
+      if (side * push < 0.0) push = 0.0;
+      dq_load += push * step_s / finer;
+      q_load += dq_load * step_s / finer;
+    }
+    auto const state = swinging(0.1 + step_s * i);
+    double const expected = push - state.ddq;
+    difference += std::pow(runner->torque(state, step_s) - expected, 2);
+    size += expected * expected;
+    free_samples += push == 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(free_samples, 100);
+  EXPECT_LT(std::sqrt(difference / size), 0.01);
+}
+
+TEST(Backlash, DoesNotCareHowASampleIsCutUp) {
+  double const step_s = 1e-3;
+  for (double const frequency_hz : {10.0, 60.0, 180.0}) {
+    std::vector<double> const parameters{1.0, 1e-3, frequency_hz, 0.2};
+    auto const whole = find_effect("backlash")->runner(parameters, plain);
+    auto const cut = find_effect("backlash")->runner(parameters, plain);
+    double difference = 0.0, size = 0.0, before = swinging(0.0).ddq;
+    whole->advance(swinging(0.0), 0.0), cut->advance(swinging(0.0), 0.0);
+    for (int i = 1; i <= 2000; ++i) {
+      auto state = swinging(step_s * i);
+      double const after = state.ddq, at_once = whole->torque(state, step_s);
+      constexpr int pieces = 32;
+      for (int k = 1; k <= pieces; ++k) {
+        state.ddq = before + (after - before) * k / pieces;
+        cut->advance(state, step_s / pieces);
+      }
+      difference += std::pow(cut->torque(state) - at_once, 2);
+      size += at_once * at_once;
+      before = after;
+    }
+    EXPECT_LT(std::sqrt(difference / size), 1e-3) << frequency_hz;
+  }
+}
+
+// As a plant holds it, the torque asked for at the acceleration of the step before: after a push that reaches the motor
+// alone the load rattles in the gap until both go at the speed that the push gave to their sum. That acceleration makes
+// a lag of step share / (1 - share): a load of nine tenths runs away at steps of 1e-4 s and asks for finer ones.
+TEST(Backlash, TakesTheLoadAlongInALoop) {
+  double const inertia = 0.1, push = 5.0, pushed_s = 0.01;
+  for (auto const& [share, step_s] : {std::pair(0.1, 1e-4), std::pair(0.5, 1e-4), std::pair(0.9, 5e-6)}) {
+    auto const runner = find_effect("backlash")->runner(std::vector<double>{share * inertia, 1e-3, 60.0, 0.3}, plain);
+    JointState motor{};
+    runner->advance(motor, 0.0);
+    double const together = push * pushed_s / inertia;
+    double fastest = 0.0, swing = 0.0;
+    auto const steps = static_cast<int>(std::lround(6.0 / step_s));
+    for (int i = 0; i < steps; ++i) {
+      double const torque = runner->torque(motor, step_s);
+      motor.ddq = ((i < std::lround(pushed_s / step_s) ? push : 0.0) - torque) / inertia;
+      motor.dq += motor.ddq * step_s;
+      motor.q += motor.dq * step_s;
+      fastest = std::max(fastest, std::abs(motor.dq));
+      if (i > steps / 6 * 5) swing = std::max(swing, std::abs(motor.dq - together));
+    }
+    EXPECT_LT(fastest, 1.05 * together / (1.0 - share)) << share;  // the whole push in the motor
+    EXPECT_LT(swing, 0.05 * together) << share;
+  }
+}
+
+}  // namespace
+}  // namespace torquescope
