@@ -48,7 +48,11 @@ bool is_wave(EffectParameter const& shape) {
   return shape.lower.to == RelativeTo::lowest_order || shape.lower.to == RelativeTo::slowest_frequency;
 }
 
-bool is_event(Effect const& effect) { return effect.signature().front() == SignatureAxis::time; }
+// it begins at an instant
+bool is_event(Effect const& effect) {
+  return std::any_of(effect.parameters().begin(), effect.parameters().end(),
+                     [](EffectParameter const& one) { return one.lower.to == RelativeTo::instant; });
+}
 
 // reason against linear parameters, empty when there is none
 std::string implausible(RefinedEffect const& refined, JointScales const& scales) {
@@ -191,6 +195,12 @@ class Search {
     }
     if (std::string why = implausible(trial.refined, columns.scales()); !why.empty()) {
       reject(effect, std::move(why));
+      return false;
+    }
+    // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
+    if (is_event(*effect) && gain < least_share_of_rest * whole()) {
+      reject(effect, fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
+                                 100.0 * gain / whole()));
       return false;
     }
     if (!is_event(*effect) && trial.cv.t < least_cv_t) {

@@ -55,7 +55,7 @@ inline Calibration calibrate(std::uint32_t records, std::size_t twins, double di
     joint.plan.noise.disturbance_std = disturbance_share * joint.truth[2];
     Recording const recording = recorded(simulate_joint(joint.plan, 1000 + index));
     RecordPipeline const pipeline = clean_pipeline(recording);
-    BaselineTwin const made = make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 16, index, 0}, threads);
+    BaselineTwin const made = make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 2 * twin_lanes, index, 0}, threads);
     result.not_white += made.loop.source != LoopSource::identified;
 
     Statistics const of_recording = statistics(pipeline, made.record);

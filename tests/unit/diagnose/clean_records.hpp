@@ -54,6 +54,8 @@ inline CleanJoint clean_joint_number(std::uint32_t index) {
   joint.plan.controller.bandwidth_hz = random.uniform(5.0, 12.0);
   joint.plan.controller.velocity_cutoff_hz = index % 2 == 0 ? 0.0 : 100.0;
   joint.plan.noise.torque_std = random.uniform(0.005, 0.02) * coulomb;
+  // where an encoder's steps lie has nothing to do with where a motion begins
+  joint.plan.reference.centre = random.uniform(-0.5, 0.5) * 2.0 * std::numbers::pi / counts_per_revolution;
   return joint;
 }
 
