@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/diagnose/twin_batch.hpp"
@@ -37,11 +38,16 @@ Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& 
   return parameters;
 }
 
+// rows of the head on which nuisances are refitted
+Eigen::Index head_rows(Eigen::Index rows) {
+  constexpr Eigen::Index head_share = 20, fewest = 50;
+  return std::min(rows, std::max(fewest, rows / head_share));
+}
+
 // mean of the head when it is beyond chance, else 0
 double head_offset(Eigen::VectorXd const& residual) {
-  constexpr Eigen::Index head_share = 20, fewest = 50;
   constexpr double beyond = 3.0;
-  Eigen::Index const n = std::min(residual.size(), std::max(fewest, residual.size() / head_share));
+  Eigen::Index const n = head_rows(residual.size());
   Eigen::VectorXd const head = residual.head(n);
   double const mean = head.mean();
   Eigen::VectorXd const apart = head.array() - mean;
@@ -50,6 +56,50 @@ double head_offset(Eigen::VectorXd const& residual) {
   double const error =
       std::sqrt(apart.squaredNorm() / static_cast<double>(n - 1) * (1.0 + r) / (1.0 - r) / static_cast<double>(n));
   return std::abs(mean) > beyond * error ? mean : 0.0;
+}
+
+// Where a counter begins to count is another place in each recording, so a wave that is locked to the position keeps its
+// size and order and may turn its phase: to the one that fits the head best, when that is beyond chance.
+bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
+  constexpr int directions = 360;
+  constexpr double beyond = 9.0;  // three standard deviations, squared
+  Eigen::Index const n = head_rows(left.size());
+  Eigen::MatrixXd const head = wave.topRows(n);
+  Eigen::VectorXd const wanted = left.head(n) + head * amplitudes;
+  double const size = amplitudes.norm(), start = left.head(n).squaredNorm();
+  Eigen::Vector2d best = amplitudes;
+  double least = start;
+  for (int k = 0; k < directions; ++k) {
+    double const angle = 2.0 * std::numbers::pi * k / directions;
+    Eigen::Vector2d const turned(size * std::cos(angle), size * std::sin(angle));
+    double const energy = (wanted - head * turned).squaredNorm();
+    if (energy >= least) continue;
+    least = energy;
+    best = turned;
+  }
+  double const r = std::clamp(autocorrelation(left.head(n), 1), 0.0, 0.99);
+  double const variance = least / static_cast<double>(n) * (1.0 + r) / (1.0 - r);
+  if (start - least <= beyond * variance) return false;
+  amplitudes = best;
+  return true;
+}
+
+// a cosine and a sine of the position, and nothing else
+bool is_position_wave(Effect const& effect) {
+  return effect.n_linear() == 2 && effect.n_shape() == 1 &&
+         effect.parameters()[effect.n_linear()].lower.to == RelativeTo::lowest_order;
+}
+
+void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
+                std::vector<std::string>& nuisances) {
+  auto const& effects = stage.model().effects();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (!is_position_wave(*effects[i].effect)) continue;
+    auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+    Eigen::VectorXd const left = record.torque - record.columns * parameters;
+    if (turn_phase(record.columns.middleCols(first, 2), left, parameters.segment(first, 2)))
+      nuisances.push_back("phase of " + effects[i].effect->name() + " refitted on the first 5 %");
+  }
 }
 
 RecordPipeline pipeline_for(Recording const& recording, StageSetting const& setting, JointModel const& model) {
@@ -153,7 +203,8 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   ProcessedRecord const before = plain.process(recording);
   full.restrict_to(before.kept_rows);
   ProcessedRecord const after = full.process(recording);
-  Eigen::VectorXd const parameters = transferable(augmented, result.nuisances);
+  Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
+  turn_waves(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
   if (double const offset = head_offset(left_after); offset != 0.0) {

@@ -6,6 +6,8 @@
 // Rows       those of the baseline's mask, for both
 // Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
 //            errors, and said so; the baseline takes its own, or none where that is better for it
+// Phase      of waves locked to the position: turned to what fits the first 5 % best when that is beyond three standard
+//            deviations, size and order kept, and said so
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
 // Floor      relerr of 16 twins of this recording under the final model, with the same parameters
 // Units      SI
