@@ -93,11 +93,21 @@ class JointWork {
 
   // the recording by itself; may replace its torque by what the user's simulator cannot say
   std::optional<Hopeless> look_first(Recording& recording) {
+    Motion const motion = differentiate(recording, input_.filter, input_.filter_section);
+    auto const facts = measure_excitation(recording, motion, input_.filter);
+    if (auto why = check_recording(facts, 0.0)) return why;
     RecordPipeline const pipeline(input_.regressor, input_.filter, recording.rate_hz, recording.position.size(),
                                   input_.filter_section);
-    ProcessedRecord const record = pipeline.process(recording);
+    ProcessedRecord record;
+    try {
+      record = pipeline.process(recording);
+    } catch (Error const& error) {
+      auto const& problem = error.problems().front();
+      if (problem.code != ExitCode::bad_data) throw;
+      // columns that the motion cannot tell apart
+      return Hopeless{Verdict::insufficient, problem.what, problem.help};
+    }
     joint_.train_relerr = relative_error(record);
-    auto const facts = measure_excitation(recording, record.motion, input_.filter);
     auto why = check_recording(facts, joint_.train_relerr);
     if (!why && recording.simulated_torque.size() > 0) {
       SimulatorGap gap = gap_to_simulator(recording, pipeline);
