@@ -35,6 +35,20 @@ RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, d
       filter_(options, rate_hz, n_samples, filter) {}
 
 ProcessedRecord RecordPipeline::process(Recording const& recording) const {
+  ProcessedRecord record = prepare(recording);
+  RegressionData data;
+  data.columns = model_.column_owners();
+  data.recording_names = {recording.name};
+  data.phi = std::move(record.columns);
+  data.tau = std::move(record.torque);
+  record.parameters = solve_weighted(data, {});
+  record.residual = data.tau - data.phi * record.parameters;
+  record.columns = std::move(data.phi);
+  record.torque = std::move(data.tau);
+  return record;
+}
+
+ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
   TORQUESCOPE_EXPECT(recording.position.size() == n_samples_ && recording.torque.size() == n_samples_);
   ProcessedRecord record;
   record.motion = differentiate(recording, options_, section_);
@@ -42,17 +56,8 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
                          ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz)
                          : fixed_rows_;
 
-  Eigen::MatrixXd const full_rate = model_.columns(record.motion);
-  RegressionData data;
-  data.columns = model_.column_owners();
-  data.recording_names = {recording.name};
-  data.phi = filtered_columns(full_rate, record);
-  data.tau = filtered(record.motion.torque, record);
-
-  record.parameters = solve_weighted(data, {});
-  record.residual = data.tau - data.phi * record.parameters;
-  record.columns = std::move(data.phi);
-  record.torque = std::move(data.tau);
+  record.columns = filtered_columns(model_.columns(record.motion), record);
+  record.torque = filtered(record.motion.torque, record);
   return record;
 }
 

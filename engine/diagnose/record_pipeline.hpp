@@ -48,6 +48,8 @@ class RecordPipeline {
   void restrict_to(std::vector<Eigen::Index> kept_rows) { fixed_rows_ = std::move(kept_rows); }
 
   ProcessedRecord process(Recording const& recording) const;
+  // all but the least squares: of a recording that need not excite every column; parameters and residual stay empty
+  ProcessedRecord prepare(Recording const& recording) const;
   // any signal of the full rate, filtered like a column, on the rows of that record
   Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
   Eigen::MatrixXd filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,

@@ -200,9 +200,9 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   UnseenResult result;
   RecordPipeline const plain = pipeline_for(recording, setting, baseline.model());
   RecordPipeline full = pipeline_for(recording, setting, augmented.model());
-  ProcessedRecord const before = plain.process(recording);
+  ProcessedRecord const before = plain.prepare(recording);
   full.restrict_to(before.kept_rows);
-  ProcessedRecord const after = full.process(recording);
+  ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
   turn_waves(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
@@ -233,8 +233,13 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   }
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
   result.forward = simulate_forward(recording, baseline, augmented);
-  if (auto const loop = loop_on(recording, augmented))
+  auto const loop = loop_on(recording, augmented);
+  if (!loop) return result;
+  try {
     result.floor = floor_of(recording, setting, augmented, *loop, augmented.comparison.recording.parameters);
+  } catch (Error const&) {
+    // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
+  }
   return result;
 }
 
