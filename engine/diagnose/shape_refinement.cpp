@@ -20,11 +20,6 @@ class Refinement {
   }
 
   RefinedEffect take() && {
-    for (std::size_t k = 0; k < ranges_.size(); ++k) {
-      constexpr double close = 1e-3;
-      double const unit = to_unit(ranges_[k], best_.shape[k]);
-      best_.at_bound = best_.at_bound || unit < close || unit > 1.0 - close;
-    }
     best_.gain -= noise_at(best_.shape);
     return std::move(best_);
   }

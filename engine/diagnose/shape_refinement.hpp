@@ -35,7 +35,6 @@ struct RefinedEffect {
   std::vector<double> shape{};
   Eigen::VectorXd parameters{};  // linear
   double gain = 0.0;             // energy of `mismatch` explained, signs kept, less what noise alone gives there
-  bool at_bound = false;         // a shape ended on its bound
   std::int64_t evaluations = 0;
 };
 
