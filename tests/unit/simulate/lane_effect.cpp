@@ -63,6 +63,21 @@ Eigen::VectorXd reading_error(Eigen::VectorXd const& q) {
   return (sine * q.array().sin() + cosine * q.array().cos()).matrix();
 }
 
+// what a fresh effect adds, and where
+struct Answer {
+  LaneDemand demand{};
+  double position[twin_lanes] = {}, torque[twin_lanes] = {};
+};
+
+Answer answer(LaneEffectMaker const& make, LaneInstant const& at) {
+  auto const effect = make();
+  Answer given;
+  effect->add(at, given.demand);
+  effect->shift_position(at, given.position);
+  effect->shift_torque(at, given.torque);
+  return given;
+}
+
 LaneInstant some_instant() {
   LaneInstant at;
   at.time_s = 0.9;
@@ -84,12 +99,7 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
     bool is_torque;
   } const cases[] = {{sensor_drift(), true}, {eccentricity(), false}};
   for (auto const& [make, is_torque] : cases) {
-    auto const effect = make();
-    LaneDemand demand;
-    double position[twin_lanes] = {}, torque[twin_lanes] = {};
-    effect->add(at, demand);
-    effect->shift_position(at, position);
-    effect->shift_torque(at, torque);
+    auto const [demand, position, torque] = answer(make, at);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       EXPECT_EQ(demand.smooth[lane], 0.0);
       EXPECT_EQ(demand.forward[lane], 0.0);
@@ -103,12 +113,7 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
 
 TEST(LaneEffect, OfAJointAddsToNoChannel) {
   LaneInstant const at = some_instant();
-  auto const effect = lane_effect(*find_effect("viscous"), {0.2}, {})();
-  LaneDemand demand;
-  double position[twin_lanes] = {}, torque[twin_lanes] = {};
-  effect->add(at, demand);
-  effect->shift_position(at, position);
-  effect->shift_torque(at, torque);
+  auto const [demand, position, torque] = answer(lane_effect(*find_effect("viscous"), {0.2}, {}), at);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     EXPECT_NEAR(demand.smooth[lane], 0.2 * at.dq[lane], rounding);
     EXPECT_EQ(position[lane], 0.0);
