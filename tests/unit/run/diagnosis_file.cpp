@@ -11,6 +11,7 @@
 #include "support/example_diagnosis.hpp"
 #include "support/example_diagnosis_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/store/example_result.hpp"
 
 namespace torquescope {
 namespace {
