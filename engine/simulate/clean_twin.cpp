@@ -154,10 +154,18 @@ void foresee(LaneInstant& at) {
   }
 }
 
+// An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
+// beyond this share that stays goes by the acceleration of the step before.
+constexpr double least_inertia_left = 0.05;
+
 // held: torque that acts during the tick
-void load_lanes(TwinJoint const& joint, double const* held, LaneDemand const& demand, LaneTorques& torques) {
+void load_lanes(TwinJoint const& joint, double const* held, LaneDemand const& demand, LaneState const& state,
+                LaneTorques& torques) {
+  double const most_taken = (1.0 - least_inertia_left) * joint.lanes.inertia;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    torques.held[lane] = held[lane] - demand.smooth[lane];
+    torques.added_inertia[lane] = std::max(demand.inertia[lane], -most_taken);
+    double const lagging = (demand.inertia[lane] - torques.added_inertia[lane]) * state.ddq[lane];
+    torques.held[lane] = held[lane] - demand.smooth[lane] - lagging;
     torques.forward[lane] = joint.coulomb_forward + demand.forward[lane];
     // friction that an effect turned into a drive is none at all
     torques.backward[lane] = std::min(joint.coulomb_backward + demand.backward[lane], torques.forward[lane]);
@@ -247,7 +255,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (auto const& effect : effects)
       if (!effect->follows_steps()) effect->add(middle, of_tick);
     if (!any_follows_steps) {
-      load_lanes(joint_, noise, of_tick, torques);
+      load_lanes(joint_, noise, of_tick, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
@@ -257,7 +265,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       LaneDemand demand = of_tick;
       for (auto const& effect : effects)
         if (effect->follows_steps()) effect->add(at, demand);
-      load_lanes(joint_, noise, demand, torques);
+      load_lanes(joint_, noise, demand, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }
   }
