@@ -191,11 +191,18 @@ class LaneFriction {
   double level_[twin_lanes], size_[twin_lanes];
 };
 
+// An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
+// beyond this share that stays goes by the acceleration of the step before.
+constexpr double least_inertia_left = 0.05;
+
 // held: torque that acts during the tick; friction: level of the joint's own
 void load_lanes(TwinJoint const& joint, double const* held, double const* friction, LaneDemand const& demand,
-                LaneTorques& torques) {
+                LaneState const& state, LaneTorques& torques) {
+  double const most_taken = (1.0 - least_inertia_left) * joint.lanes.inertia;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    torques.held[lane] = held[lane] - demand.smooth[lane];
+    torques.added_inertia[lane] = std::max(demand.inertia[lane], -most_taken);
+    double const lagging = (demand.inertia[lane] - torques.added_inertia[lane]) * state.ddq[lane];
+    torques.held[lane] = held[lane] - demand.smooth[lane] - lagging;
     torques.forward[lane] = friction[lane] * joint.coulomb_forward + demand.forward[lane];
     // friction that an effect turned into a drive is none at all
     torques.backward[lane] =
@@ -300,7 +307,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (auto const& effect : effects)
       if (!effect->follows_steps()) effect->add(middle, of_tick);
     if (!any_follows_steps) {
-      load_lanes(joint_, noise, friction.level(), of_tick, torques);
+      load_lanes(joint_, noise, friction.level(), of_tick, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
@@ -310,7 +317,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       LaneDemand demand = of_tick;
       for (auto const& effect : effects)
         if (effect->follows_steps()) effect->add(at, demand);
-      load_lanes(joint_, noise, friction.level(), demand, torques);
+      load_lanes(joint_, noise, friction.level(), demand, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }
   }

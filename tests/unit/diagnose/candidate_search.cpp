@@ -10,10 +10,7 @@
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
-using torquescope::test::clean_filter;
-using torquescope::test::clean_joint;
-using torquescope::test::clean_regressor;
-using torquescope::test::recorded;
+using namespace torquescope::test;
 
 namespace {
 
@@ -23,13 +20,13 @@ class CandidateSearch : public testing::Test {
   static Recording stribeck_recording() {
     auto joint = clean_joint();
     joint.plan.simulation.duration_s = 4.0;
-    joint.plan.plant = test::plant({{"inertia", 0.036},
-                                    {"viscous", 0.164},
-                                    {"coulomb", 1.3},
-                                    {"offset", -0.125},
-                                    {"stribeck", 0.5},
-                                    {"stribeck_speed", 0.1},
-                                    {"stribeck_exponent", 1.0}});
+    joint.plan.plant = plant({{"inertia", 0.036},
+                              {"viscous", 0.164},
+                              {"coulomb", 1.3},
+                              {"offset", -0.125},
+                              {"stribeck", 0.5},
+                              {"stribeck_speed", 0.1},
+                              {"stribeck_exponent", 1.0}});
     return recorded(simulate_joint(joint.plan, 3));
   }
 

@@ -4,12 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "engine/run/experiment_parts.hpp"
+#include "support/simulated_job.hpp"
 
 namespace torquescope {
 namespace {
@@ -18,25 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using Purpose = Experiment::Purpose;
 
-std::string const simulated_joint = R"(
-[model]
-terms = ["inertia", "viscous", "coulomb", "offset"]
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = 200
-duration_s = 5
-[simulate.plant]
-inertia = 0.5
-viscous = 0.2
-coulomb = 0.1
-)";
-
 Experiment load(std::string const& more, Purpose purpose) {
-  auto const path = std::filesystem::temp_directory_path() / ("diagnose_options_" + std::to_string(getpid()) + ".toml");
-  std::ofstream(path) << more << simulated_joint;
-  auto experiment = Experiment::load(path, purpose);
-  std::filesystem::remove(path);
-  return experiment;
+  return test::load_job(more + test::joint_model + test::simulated_joint, purpose);
 }
 
 std::vector<Problem> problems_of(std::string const& more, Purpose purpose) {
