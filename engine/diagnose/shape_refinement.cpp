@@ -79,6 +79,7 @@ class Refinement {
     if (best_.evaluations > 1 && gain.gain <= best_.gain) return;
     best_.shape = shape;
     best_.gain = gain.gain;
+    best_.improvements.push_back({best_.evaluations, gain.gain});
     best_.parameters = gain.parameters;
   }
 

@@ -36,6 +36,12 @@ struct RefinedEffect {
   Eigen::VectorXd parameters{};  // linear
   double gain = 0.0;             // energy of `mismatch` explained, signs kept, less what noise alone gives there
   std::int64_t evaluations = 0;
+  // whenever a shape explained more: evaluations until then, and what it explains before chance is taken off
+  struct Improvement {
+    std::int64_t evaluations = 0;
+    double gain = 0.0;
+  };
+  std::vector<Improvement> improvements{};
 };
 
 // mismatch: n rows

@@ -72,4 +72,20 @@ TEST_F(CandidateSearch, RefinesAShapeWithTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+// what diagnose.shape_optimiser promises
+TEST_F(CandidateSearch, RefinesAShapeWithEveryOptimiserOfTheRegistry) {
+  auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
+  for (auto const& choice : optimiser_choices()) {
+    auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search(choice.name, 1), 2);
+    EXPECT_GT(refined.gain, scan.gain) << choice.name;
+    ASSERT_FALSE(refined.improvements.empty());
+    EXPECT_EQ(refined.improvements.front().evaluations, 1);
+    EXPECT_LE(refined.improvements.back().evaluations, refined.evaluations);
+    for (std::size_t i = 1; i < refined.improvements.size(); ++i)
+      EXPECT_GT(refined.improvements[i].gain, refined.improvements[i - 1].gain);
+    // the gain that is reported has had chance taken off
+    EXPECT_LT(refined.gain, refined.improvements.back().gain);
+  }
+}
+
 }  // namespace

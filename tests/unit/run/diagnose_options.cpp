@@ -41,6 +41,7 @@ TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
   EXPECT_EQ(options.twins, 200);
   EXPECT_EQ(options.q, 0.05);
   EXPECT_EQ(options.max_effects, 5);
+  EXPECT_EQ(options.shape_optimiser, "de");
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 clean twins"));
 }
@@ -76,6 +77,20 @@ TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
       load("[diagnose]\neffects = [\"presliding\", \"stribeck\"]\ntwins = 60\n", Purpose::diagnose);
   EXPECT_EQ(names_of(experiment.parts().effects), (std::vector<std::string>{"presliding", "stribeck"}));
   EXPECT_EQ(experiment.parts().diagnose.twins, 60);
+}
+
+TEST(DiagnoseOptions, ShapesAreSearchedByAnyOptimiserOfTheRegistry) {
+  for (auto const& choice : optimiser_choices()) {
+    Experiment const experiment = load("[diagnose]\nshape_optimiser = \"" + choice.name + "\"\n", Purpose::diagnose);
+    EXPECT_EQ(experiment.parts().diagnose.shape_optimiser, choice.name);
+  }
+  auto const unknown = problems_of("[diagnose]\nshape_optimiser = \"fad\"\n", Purpose::diagnose);
+  ASSERT_THAT(unknown, SizeIs(1));
+  EXPECT_EQ(unknown[0].what, "shape_optimiser = \"fad\" is not one of its words");
+  EXPECT_EQ(unknown[0].caret_note, "did you mean \"fade\"?");
+  EXPECT_EQ(unknown[0].place.line, 2);
+  // least squares estimates, it does not search
+  EXPECT_THAT(problems_of("[diagnose]\nshape_optimiser = \"ols\"\n", Purpose::diagnose), SizeIs(1));
 }
 
 TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {
