@@ -37,14 +37,13 @@ double ParallelFilter::kept_rate_hz() const { return state_->rate_hz; }
 
 Eigen::VectorXd ParallelFilter::apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const {
   TORQUESCOPE_EXPECT(signal.size() == state_->n_samples);
-  return state_->sections.empty() ? pick(signal) : pick(zero_phase(state_->sections, signal));
+  return state_->sections.empty() ? pick(signal) : apply_columns(signal).col(0);
 }
 
 Eigen::MatrixXd ParallelFilter::apply_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals) const {
   TORQUESCOPE_EXPECT(signals.rows() == state_->n_samples);
-  auto const kept = Eigen::seqN(state_->edge, state_->kept, state_->factor);
-  if (state_->sections.empty()) return signals(kept, Eigen::all);
-  return zero_phase_columns(state_->sections, signals)(kept, Eigen::all);
+  if (state_->sections.empty()) return signals(Eigen::seqN(state_->edge, state_->kept, state_->factor), Eigen::all);
+  return zero_phase_columns(state_->sections, signals, {state_->edge, state_->kept, state_->factor});
 }
 
 Eigen::VectorXd ParallelFilter::pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const {

@@ -5,6 +5,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include "engine/base/contract.hpp"
 #include "kernels/section_cascade.hpp"
@@ -36,6 +37,18 @@ void run(std::vector<FilterSection> const& sections, Block& block, kernels::Casc
                        direction);
 }
 
+// `width` columns from `from` on, each in its lane; the other lanes are silent
+void load(Eigen::Ref<Eigen::MatrixXd const> const& signals, Eigen::Index from, Eigen::Index width, Eigen::Index pad,
+          Block& block) {
+  std::array<double const*, static_cast<std::size_t>(side_by_side)> column{};
+  for (Eigen::Index k = 0; k < width; ++k) column[static_cast<std::size_t>(k)] = signals.col(from + k).data();
+  double* out = block.data() + pad * side_by_side;
+  for (Eigen::Index i = 0; i < signals.rows(); ++i, out += side_by_side) {
+    for (Eigen::Index k = 0; k < width; ++k) out[k] = column[static_cast<std::size_t>(k)][i];
+    for (Eigen::Index k = width; k < side_by_side; ++k) out[k] = 0.0;
+  }
+}
+
 }  // namespace
 
 Eigen::Index padding_of(std::vector<FilterSection> const& sections) {
@@ -50,22 +63,28 @@ Eigen::VectorXd zero_phase(std::vector<FilterSection> const& sections,
 
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals) {
+  return zero_phase_columns(sections, signals, {0, signals.rows(), 1});
+}
+
+Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
+                                   Eigen::Ref<Eigen::MatrixXd const> const& signals, KeptSamples const& kept) {
   [[maybe_unused]] TinyIsZero const tiny_is_zero;
   Eigen::Index const n = signals.rows(), pad = padding_of(sections);
-  TORQUESCOPE_EXPECT(n > pad);
-  Eigen::MatrixXd filtered(n, signals.cols());
+  TORQUESCOPE_EXPECT(n > pad && kept.first >= 0 && kept.step >= 1);
+  TORQUESCOPE_EXPECT(kept.count == 0 || kept.first + (kept.count - 1) * kept.step < n);
+  Eigen::MatrixXd filtered(kept.count, signals.cols());
   Block block(side_by_side, n + 2 * pad);
   for (Eigen::Index from = 0; from < signals.cols(); from += side_by_side) {
     Eigen::Index const width = std::min(side_by_side, signals.cols() - from);
-    if (width < side_by_side) block.setZero();
-    block.topRows(width).middleCols(pad, n) = signals.middleCols(from, width).transpose();
+    load(signals, from, width, pad, block);
     for (Eigen::Index i = 1; i <= pad; ++i) {
       block.col(pad - i) = 2 * block.col(pad) - block.col(pad + i);
       block.col(pad + n - 1 + i) = 2 * block.col(pad + n - 1) - block.col(pad + n - 1 - i);
     }
     run(sections, block, kernels::CascadeDirection::forwards);
     run(sections, block, kernels::CascadeDirection::backwards);
-    filtered.middleCols(from, width) = block.topRows(width).middleCols(pad, n).transpose();
+    for (Eigen::Index k = 0; k < width; ++k)
+      for (Eigen::Index i = 0; i < kept.count; ++i) filtered(i, from + k) = block(k, pad + kept.first + i * kept.step);
   }
   return filtered;
 }

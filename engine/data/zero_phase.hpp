@@ -18,8 +18,16 @@ Eigen::Index padding_of(std::vector<FilterSection> const& sections);
 
 Eigen::VectorXd zero_phase(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::VectorXd const> const& signal);
 
+// samples of the result that are wanted: first, first + step, ...
+struct KeptSamples {
+  Eigen::Index first = 0, count = 0, step = 1;
+};
+
 // every column by itself, eight at a time; the bits are those of one at a time
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals);
+
+Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
+                                   Eigen::Ref<Eigen::MatrixXd const> const& signals, KeptSamples const& kept);
 
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 
 namespace torquescope {
 
-BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLoop const& loop, TwinTrack const& track,
+BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start, TwinLoop const& loop, TwinTrack const& track,
                                     RecordPipeline const& pipeline, double step_s, TwinAddress const& address,
                                     std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
@@ -15,7 +15,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLo
   constexpr double small_mismatch = 0.2;  // standard deviations
   BaselineCorrection result;
   result.least_squares = recording_fit;
-  result.parameters = recording_fit;
+  result.parameters = start;
   auto const n = static_cast<Eigen::Index>(twins);
   Eigen::MatrixXd fits(n, recording_fit.size());
   std::vector<char> ran_away(twins);

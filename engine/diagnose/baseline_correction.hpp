@@ -28,8 +28,8 @@ struct BaselineCorrection {
   bool ran_away = false;  // the loop could not hold the joint: the recording's loop is not what was identified
 };
 
-// recording_fit: what the pipeline gives for the recording; twins >= 8
-BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, TwinLoop const& loop, TwinTrack const& track,
+// recording_fit: what the pipeline gives for the recording; start: where the search begins; twins >= 8
+BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start, TwinLoop const& loop, TwinTrack const& track,
                                     RecordPipeline const& pipeline, double step_s, TwinAddress const& address,
                                     std::size_t twins, int threads);
 

@@ -20,11 +20,11 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   TwinAddress const level_set{options.seed, options.recording, 1};
   TwinAddress const wander_set{options.seed, options.recording, 2};
   Attempt result{std::move(loop)};
-  auto const correct = [&] {
-    result.baseline = correct_baseline(record.parameters, result.loop.loop, result.loop.track, pipeline, options.step_s,
+  auto const correct_from = [&](Eigen::VectorXd const& start) {
+    result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline, options.step_s,
                                        correction_set, options.twins, threads);
   };
-  correct();
+  correct_from(record.parameters);
   if (result.baseline.ran_away) return result;
   TwinLoop& law = result.loop.loop;
   auto const twin = [&] {
@@ -39,7 +39,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   if (result.friction_wander.ran_away) return result;
   law.friction_wander = result.friction_wander.std;
   law.friction_wander_variance_error = result.friction_wander.variance_error;
-  if (law.disturbance_std > 0.0 || law.friction_wander > 0.0) correct();
+  if (law.disturbance_std > 0.0 || law.friction_wander > 0.0) correct_from(Eigen::VectorXd(result.baseline.parameters));
   return result;
 }
 

@@ -45,7 +45,7 @@ std::string implausible(RefinedEffect const& refined, JointScales const& scales)
 
 class Search {
  public:
-  Search(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress)
+  Search(StageSetting setting, SelectionOptions const& options, StageSink const& progress)
       : setting_(setting), options_(options), progress_(progress) {}
 
   Selection run() {
@@ -58,7 +58,6 @@ class Search {
       return problem;
     });
     stage_ = std::move(*first);
-    selection_.first_energy = stage_.energy;
     while (take_one()) {
     }
     if (!selection_.accepted.empty()) drop_superfluous();
@@ -97,6 +96,7 @@ class Search {
     bool const is_open =
         found > 0.0 && (is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share);
     if (is_first) {
+      selection_.first_energy = stage_.energy;
       selection_.first_scan = scans;
       selection_.first_q = q;
       selection_.first_cv_gain.assign(scans.size(), std::numeric_limits<double>::quiet_NaN());
@@ -155,6 +155,7 @@ class Search {
   // waves may be named again: a second order is another wave
   bool is_taken(Effect const* effect) const { return !effect->is_wave() && selection_.has_accepted(effect); }
 
+  // false: the next best may be tried
   bool accept(CandidateColumns const& columns, Trial const& trial) {
     auto const* effect = trial.refined.effect;
     double const gain = trial.refined.gain;
@@ -177,9 +178,9 @@ class Search {
       reject(effect, "does not help on blocks it was not fitted to");
       return false;
     }
-    if (effect->family() == EffectFamily::time && !stands_against_wander(effect)) {
+    if (effect->family() == EffectFamily::time && is_mere_wander(effect)) {
       reject(effect, "friction wanders by as much without it");
-      return false;
+      return true;
     }
     std::vector<ShapedEffect> effects = stage_.model().effects();
     effects.push_back({effect, trial.refined.shape});
@@ -202,14 +203,19 @@ class Search {
     return true;
   }
 
-  // against twins whose friction wanders as much as the recording's may at most
-  bool stands_against_wander(Effect const* effect) {
+  // Is it within chance of twins whose friction wanders as much as the recording's may at most? Then the search goes on
+  // among these: what they do by themselves is not unexplained either.
+  bool is_mere_wander(Effect const* effect) {
+    if (setting_.wander == WanderReading::by_itself) return false;
     StageSetting wandering = setting_;
     wandering.wander = WanderReading::by_itself;
-    auto const stage = make_stage(wandering, stage_.model());
+    auto stage = make_stage(wandering, stage_.model());
     if (!stage) return false;
     CandidateColumns const columns(*stage->pipeline, stage->comparison, stage->reference(), stage->parameters());
-    return scan_candidates(columns, {effect}, setting_.threads).front().p <= options_.q;
+    if (scan_candidates(columns, {effect}, setting_.threads).front().p <= options_.q) return false;
+    setting_.wander = WanderReading::by_itself;
+    stage_ = std::move(*stage);
+    return true;
   }
 
   // the first stage is asked for again at the end
@@ -255,7 +261,7 @@ class Search {
     return std::move(selection_);
   }
 
-  StageSetting const& setting_;
+  StageSetting setting_;
   SelectionOptions const& options_;
   StageSink const& progress_;
   ModelStage stage_;

@@ -1,0 +1,116 @@
+// Friction that changes by itself: how much of it a recording shows, that nothing else is counted, and that it is neither
+// named as a drift nor left unexplained.
+
+#include "engine/diagnose/friction_wander.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "engine/diagnose/baseline_twin.hpp"
+#include "engine/diagnose/forward_selection.hpp"
+#include "unit/diagnose/clean_records.hpp"
+
+using namespace torquescope;
+using namespace torquescope::test;
+
+namespace {
+
+class FrictionWanders : public testing::Test {
+ protected:
+  static constexpr double duration_s = 48.0, coulomb = 1.3;
+
+  static Recording steady_recording() {
+    auto joint = clean_joint();
+    joint.plan.simulation.duration_s = duration_s;
+    return recorded(simulate_joint(joint.plan, 12));
+  }
+
+  static BaselineTwin made_from(Recording const& recording, RecordPipeline const& pipeline) {
+    return make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 16, 1, 0}, 2);
+  }
+
+  // a twin is the only plant here whose friction wanders; whoever reads the recording is not told
+  Recording wandering_recording(double wander, std::size_t lane) const {
+    TwinLoop loop = made.twin.loop();
+    loop.friction_wander = wander;
+    CleanTwin const twin(made.twin.joint(), loop, made.twin.track(), made.twin.step_s());
+    TwinGroup group;
+    twin.simulate({5, 0, 0}, 0, group);
+    Recording recording = steady;
+    recording.position = group.position[lane];
+    recording.torque = group.torque[lane];
+    return recording;
+  }
+
+  static Selection selected_from(Recording const& recording, std::vector<Effect const*> candidates) {
+    Section const no_section;
+    FilterOptions const filter = clean_filter();
+    SelectionOptions options;
+    options.candidates = std::move(candidates);
+    StageSetting const setting{recording, clean_regressor(), filter, no_section, 64, 1, 2};
+    return select_effects(setting, options, {});
+  }
+
+  Recording steady = steady_recording();
+  RecordPipeline pipeline = clean_pipeline(steady);
+  BaselineTwin made = made_from(steady, pipeline);
+};
+
+}  // namespace
+
+TEST_F(FrictionWanders, NotWhereItDoesNot) {
+  EXPECT_LT(made.friction_wander.z, 4.0);
+  EXPECT_LT(made.friction_wander.std, 0.001);  // by chance a little
+}
+
+TEST_F(FrictionWanders, AsMuchAsIsFound) {
+  double const wander = 0.01;
+  double sum = 0.0;
+  for (std::size_t lane : {0U, 5U, 11U}) {
+    auto const found = made_from(wandering_recording(wander, lane), pipeline).friction_wander;
+    EXPECT_GT(found.z, 5.0);
+    sum += found.std * found.std / 3.0;
+  }
+  EXPECT_NEAR(std::sqrt(sum), wander, 0.3 * wander);
+}
+
+TEST_F(FrictionWanders, NotWhenItDriftsOnNorWithTheMotion) {
+  FrictionWander const statistic(made.record, pipeline, made.twin.joint(), WanderReading::beside_motion);
+  ASSERT_TRUE(statistic.is_measurable());
+  ProcessedRecord drifting = made.record, slow = made.record, jumping = made.record;
+  Eigen::VectorXd const time = pipeline.picked(drifting.motion.time_s, drifting);
+  Eigen::VectorXd const dq = pipeline.picked(drifting.motion.dq, drifting);
+  for (Eigen::Index k = 0; k < time.size(); ++k) {
+    double const friction = dq[k] > 0.0 ? coulomb : -coulomb;
+    drifting.residual[k] += friction * 0.2 * time[k] / duration_s;                   // a fifth more at the end
+    slow.residual[k] += friction * 0.2 * std::exp(-std::abs(dq[k]));                 // Stribeck
+    jumping.residual[k] += friction * (std::fmod(time[k], 6.0) < 3.0 ? 0.02 : 0.0);  // this is one
+  }
+  // changes by a fifth count for less than a wander of 0.2 % in a second does, one of 2 % within three seconds for more
+  double const small = 0.002 * 0.002 * statistic.duration_s() / 60.0;
+  EXPECT_LT(statistic(drifting), small);
+  EXPECT_LT(statistic(slow), small);
+  EXPECT_GT(statistic(jumping), 10.0 * small);
+}
+
+TEST_F(FrictionWanders, AndIsNeitherADriftNorUnexplained) {
+  for (std::size_t lane : {0U, 1U, 2U}) {
+    Selection const selection = selected_from(wandering_recording(0.02, lane),
+                                              {find_effect("friction_drift"), find_effect("thermal_friction")});
+    EXPECT_TRUE(selection.accepted.empty());
+    EXPECT_FALSE(selection.is_gate_open);
+  }
+}
+
+TEST_F(FrictionWanders, NotSoMuchThatADriftIsHidden) {
+  // three tenths more friction at the end, in the torque channel: the loop has nothing to answer
+  Recording recording = steady;
+  auto const& dq = made.record.motion.dq;
+  for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
+    recording.torque[k] += coulomb * std::tanh(dq[k] / 0.01) * 0.3 * recording.time_s[k] / duration_s;
+  Selection const selection = selected_from(recording, {find_effect("friction_drift"), find_effect("stribeck")});
+  ASSERT_EQ(selection.accepted.size(), 1U);
+  EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
+}
