@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/problem/least_squares.hpp"
+#include "kernels/levelled_energy.hpp"
 #include "kernels/residual_energy.hpp"
 
 namespace torquescope {
@@ -14,6 +15,11 @@ Eigen::MatrixXd triangular_root(RegressionData const& data) {
   Eigen::HouseholderQR<Eigen::MatrixXd> const qr(data.phi);
   Eigen::MatrixXd root = qr.matrixQR().topRows(data.parameters()).triangularView<Eigen::Upper>();
   return root / std::sqrt(static_cast<double>(data.rows()));
+}
+
+double* room(Workspace& workspace, std::size_t needed) {
+  if (workspace.numbers.size() < needed) workspace.numbers.resize(needed);
+  return workspace.numbers.data();
 }
 
 }  // namespace
@@ -28,6 +34,8 @@ ResidualObjective::ResidualObjective(RegressionData const& data, Bounds bounds, 
       root_(triangular_root(data)) {
   TORQUESCOPE_EXPECT(bounds_.dimension() == static_cast<std::size_t>(data.parameters()));
   TORQUESCOPE_EXPECT(loss_.delta > 0.0);
+  levelled_ = LevelledRecording::make(data.phi, data.tau);
+  if (levelled_) return;
   auto const rows = static_cast<std::size_t>(data.rows());
   packed_.resize(kernels::packed_size(rows, dimension()));
   tiles_ = kernels::pack_tiles(data.phi.data(), static_cast<std::size_t>(data.phi.outerStride()), data.tau.data(), rows,
@@ -37,17 +45,33 @@ ResidualObjective::ResidualObjective(RegressionData const& data, Bounds bounds, 
 void ResidualObjective::evaluate(MatrixView<double const> candidates, std::span<double> fitness,
                                  Workspace& workspace) const {
   TORQUESCOPE_EXPECT(candidates.columns() == dimension() && fitness.size() == candidates.rows());
-  auto const needed = kernels::energy_workspace_size(tiles_.n_samples, tiles_.n_regressors, candidates.rows());
-  if (workspace.numbers.size() < needed) workspace.numbers.resize(needed);
-
   kernels::Candidates const block{candidates.data(), candidates.rows(), candidates.columns()};
-  if (loss_.kind == LossKind::squares)
-    kernels::residual_energy(tiles_, block, fitness.data(), workspace.numbers.data());
+  if (levelled_)
+    evaluate_levelled(block, fitness.data(), workspace);
   else
-    kernels::huber_energy(tiles_, block, loss_.delta, fitness.data(), workspace.numbers.data());
+    evaluate_in_time(block, fitness.data(), workspace);
 
   if (scale_ == FitnessScale::mse)
     for (auto& value : fitness) value /= n_rows_;
+}
+
+void ResidualObjective::evaluate_levelled(kernels::Candidates const& block, double* energy,
+                                          Workspace& workspace) const {
+  auto const tiles = levelled_->tiles();
+  double* const numbers = room(workspace, kernels::levelled_workspace_size(tiles, block.n_members));
+  if (loss_.kind == LossKind::squares)
+    kernels::levelled_residual_energy(tiles, block, energy, numbers);
+  else
+    kernels::levelled_huber_energy(tiles, block, loss_.delta, energy, numbers);
+}
+
+void ResidualObjective::evaluate_in_time(kernels::Candidates const& block, double* energy, Workspace& workspace) const {
+  double* const numbers =
+      room(workspace, kernels::energy_workspace_size(tiles_.n_samples, tiles_.n_regressors, block.n_members));
+  if (loss_.kind == LossKind::squares)
+    kernels::residual_energy(tiles_, block, energy, numbers);
+  else
+    kernels::huber_energy(tiles_, block, loss_.delta, energy, numbers);
 }
 
 double ResidualObjective::gap(std::span<double const> candidate) const {
