@@ -1,21 +1,11 @@
 #include "engine/problem/residual_objective.hpp"
 
-#include <Eigen/QR>
-#include <cmath>
-
 #include "engine/base/contract.hpp"
-#include "engine/problem/least_squares.hpp"
 #include "kernels/levelled_energy.hpp"
 #include "kernels/residual_energy.hpp"
 
 namespace torquescope {
 namespace {
-
-Eigen::MatrixXd triangular_root(RegressionData const& data) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(data.phi);
-  Eigen::MatrixXd root = qr.matrixQR().topRows(data.parameters()).triangularView<Eigen::Upper>();
-  return root / std::sqrt(static_cast<double>(data.rows()));
-}
 
 double* room(Workspace& workspace, std::size_t needed) {
   if (workspace.numbers.size() < needed) workspace.numbers.resize(needed);
@@ -25,13 +15,7 @@ double* room(Workspace& workspace, std::size_t needed) {
 }  // namespace
 
 ResidualObjective::ResidualObjective(RegressionData const& data, Bounds bounds, Loss loss, FitnessScale scale)
-    : bounds_(std::move(bounds)),
-      loss_(loss),
-      scale_(scale),
-      n_rows_(static_cast<double>(data.rows())),
-      least_squares_(solve_weighted(data, {})),
-      floor_mse_(prediction_metrics(data, least_squares_).mse),
-      root_(triangular_root(data)) {
+    : bounds_(std::move(bounds)), loss_(loss), scale_(scale), n_rows_(static_cast<double>(data.rows())) {
   TORQUESCOPE_EXPECT(bounds_.dimension() == static_cast<std::size_t>(data.parameters()));
   TORQUESCOPE_EXPECT(loss_.delta > 0.0);
   levelled_ = LevelledRecording::make(data.phi, data.tau);
@@ -72,12 +56,6 @@ void ResidualObjective::evaluate_in_time(kernels::Candidates const& block, doubl
     kernels::residual_energy(tiles_, block, energy, numbers);
   else
     kernels::huber_energy(tiles_, block, loss_.delta, energy, numbers);
-}
-
-double ResidualObjective::gap(std::span<double const> candidate) const {
-  TORQUESCOPE_EXPECT(candidate.size() == dimension());
-  Eigen::Map<Eigen::VectorXd const> const x(candidate.data(), static_cast<Eigen::Index>(candidate.size()));
-  return (root_.triangularView<Eigen::Upper>() * (x - least_squares_)).squaredNorm();
 }
 
 }  // namespace torquescope

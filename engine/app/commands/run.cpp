@@ -44,6 +44,7 @@ void print_before_start(Session const& session, Experiment const& experiment, Th
   session.note(session.topic_line("data", experiment.data_line()));
   session.note(session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason,
                                                          vector_target(), experiment.seed())));
+  for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
   for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
 }
