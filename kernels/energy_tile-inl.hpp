@@ -48,7 +48,7 @@ struct Huber {
 // Asks for a later tile while this one is computed, a little in each step of the inner loop. Addresses, not pointers:
 // they may run past the end, where a prefetch does nothing.
 //
-// Measured on a shared AMD Zen 4 (bench_residual_energy, medians, AVX2, n = 1e6, 30 members, R = 4 11 24 60; % of FMA
+// Measured on a shared AMD Zen 4 (bench_kernels, medians, AVX2, n = 1e6, 30 members, R = 4 11 24 60; % of FMA
 // peak): one prefetch per step, evenly spread, 84 90 92 93; all of them during the first group 84 70 59 56, since a
 // burst fills the queue of outstanding lines and stops the arithmetic. On AVX-512 with fewer than 5 groups a step is
 // longer than a cache line and one prefetch leaves lines out. Two per step or a loop over the lines repair that about

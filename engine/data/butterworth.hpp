@@ -9,12 +9,12 @@
 
 #include <vector>
 
+#include "kernels/section_cascade.hpp"
+
 namespace torquescope {
 
-struct FilterSection {
-  double b0, b1, b2;
-  double a1, a2;  // a0 = 1; an odd order ends with a section of order one (b2 = a2 = 0)
-};
+// a0 = 1; an odd order ends with a section of order one (b2 = a2 = 0)
+using FilterSection = kernels::CascadeSection;
 
 std::vector<FilterSection> butterworth_lowpass(int order, double cutoff_hz, double rate_hz);
 

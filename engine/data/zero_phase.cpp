@@ -7,12 +7,12 @@
 #include <algorithm>
 
 #include "engine/base/contract.hpp"
+#include "kernels/section_cascade.hpp"
 
 namespace torquescope {
 namespace {
 
-// signals side by side: one recursion waits for its own last sample, several together keep the processor busy
-constexpr Eigen::Index side_by_side = 8;
+constexpr auto side_by_side = static_cast<Eigen::Index>(kernels::cascade_signals);
 using Block = Eigen::Matrix<double, side_by_side, Eigen::Dynamic>;  // one column per sample
 
 // Numbers below 1e-308 are zero while this lives: a signal that is zero for long leaves a filter full of them, and each
@@ -31,28 +31,9 @@ class TinyIsZero {
 #endif
 };
 
-// in place, transposed direct form II, beginning as if the first sample had always been there; backwards: from the end
-void run(std::vector<FilterSection> const& sections, Block& block, bool backwards) {
-  Eigen::Index const n = block.cols();
-  double* const first = block.data() + (backwards ? (n - 1) * side_by_side : 0);
-  Eigen::Index const step = backwards ? -side_by_side : side_by_side;
-  for (auto const& s : sections) {
-    // states for which a constant input of 1 gives the constant output 1
-    double z1[side_by_side], z2[side_by_side];
-    for (Eigen::Index k = 0; k < side_by_side; ++k) {
-      z1[k] = (1 - s.b0) * first[k];
-      z2[k] = (s.b2 - s.a2) * first[k];
-    }
-    double* x = first;
-    for (Eigen::Index i = 0; i < n; ++i, x += step) {
-      for (Eigen::Index k = 0; k < side_by_side; ++k) {
-        double const y = s.b0 * x[k] + z1[k];
-        z1[k] = s.b1 * x[k] - s.a1 * y + z2[k];
-        z2[k] = s.b2 * x[k] - s.a2 * y;
-        x[k] = y;
-      }
-    }
-  }
+void run(std::vector<FilterSection> const& sections, Block& block, kernels::CascadeDirection direction) {
+  kernels::run_cascade(sections.data(), sections.size(), block.data(), static_cast<std::size_t>(block.cols()),
+                       direction);
 }
 
 }  // namespace
@@ -82,8 +63,8 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
       block.col(pad - i) = 2 * block.col(pad) - block.col(pad + i);
       block.col(pad + n - 1 + i) = 2 * block.col(pad + n - 1) - block.col(pad + n - 1 - i);
     }
-    run(sections, block, false);
-    run(sections, block, true);
+    run(sections, block, kernels::CascadeDirection::forwards);
+    run(sections, block, kernels::CascadeDirection::backwards);
     filtered.middleCols(from, width) = block.topRows(width).middleCols(pad, n).transpose();
   }
   return filtered;

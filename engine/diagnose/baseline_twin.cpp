@@ -10,14 +10,15 @@ namespace {
 struct Attempt {
   RecordedLoop loop;
   BaselineCorrection baseline{};
-  DisturbanceLevel disturbance{};
-  bool ran_away() const { return baseline.ran_away || disturbance.ran_away; }
+  NoiseLevel disturbance{}, friction_wander{};
+  bool ran_away() const { return baseline.ran_away || disturbance.ran_away || friction_wander.ran_away; }
 };
 
 Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
                 TwinOptions const& options, int threads) {
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
+  TwinAddress const wander_set{options.seed, options.recording, 2};
   Attempt result{std::move(loop)};
   auto const correct = [&] {
     result.baseline = correct_baseline(record.parameters, result.loop.loop, result.loop.track, pipeline, options.step_s,
@@ -25,13 +26,19 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   };
   correct();
   if (result.baseline.ran_away) return result;
-  CleanTwin const twin(pipeline.model().twin_joint(result.baseline.parameters), result.loop.loop, result.loop.track,
-                       options.step_s);
-  result.disturbance = disturbance_level(record, twin, pipeline, options.step_s, level_set, options.twins, threads);
-  if (result.disturbance.ran_away || result.disturbance.std == 0.0) return result;
-  result.loop.loop.disturbance_std = result.disturbance.std;
-  result.loop.loop.disturbance_variance_error = result.disturbance.variance_error;
-  correct();
+  TwinLoop& law = result.loop.loop;
+  auto const twin = [&] {
+    return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
+  };
+  result.disturbance = disturbance_level(record, twin(), pipeline, level_set, options.twins, threads);
+  if (result.disturbance.ran_away) return result;
+  law.disturbance_std = result.disturbance.std;
+  law.disturbance_variance_error = result.disturbance.variance_error;
+  result.friction_wander = friction_wander(record, twin(), pipeline, wander_set, options.twins, threads);
+  if (result.friction_wander.ran_away) return result;
+  law.friction_wander = result.friction_wander.std;
+  law.friction_wander_variance_error = result.friction_wander.variance_error;
+  if (law.disturbance_std > 0.0 || law.friction_wander > 0.0) correct();
   return result;
 }
 
@@ -75,7 +82,8 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   });
   CleanTwin twin(pipeline.model().twin_joint(made.baseline.parameters), made.loop.loop, made.loop.track,
                  options.step_s);
-  return {std::move(record), std::move(made.loop), std::move(made.baseline), made.disturbance, std::move(twin)};
+  return {std::move(record), std::move(made.loop), std::move(made.baseline),
+          made.disturbance,  made.friction_wander, std::move(twin)};
 }
 
 }  // namespace torquescope

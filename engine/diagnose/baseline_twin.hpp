@@ -2,9 +2,10 @@
 // The clean twin of a recording, ready to be multiplied: loop found, baseline corrected, noise and disturbance levelled.
 //
 // Steps      least squares on the recording's rows; loop (recorded_loop.hpp); parameters by indirect inference; level of
-//            the disturbance, and when there is one the parameters again under it. A loop that runs away is replaced by
+//            the disturbance and of what dry friction wanders, and when there is one of them the parameters again under it.
+//            A loop that runs away is replaced by
 //            the tracking loop
-// Sets       twin sets 0 and 1 of (seed, recording) are used up here; a null distribution takes another set
+// Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
 // Errors     Error 65 as the parts; also when twins run away in the tracking loop too
 // Units      SI
 // Threads    spreads twins over `threads`; same bits for any number; result is a plain record
@@ -14,6 +15,7 @@
 
 #include "engine/diagnose/baseline_correction.hpp"
 #include "engine/diagnose/disturbance_level.hpp"
+#include "engine/diagnose/friction_wander.hpp"
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
 
@@ -30,11 +32,12 @@ struct BaselineTwin {
   ProcessedRecord record;  // of the recording itself
   RecordedLoop loop;       // its `loop` includes the disturbance found
   BaselineCorrection baseline;
-  DisturbanceLevel disturbance;
+  NoiseLevel disturbance;
+  NoiseLevel friction_wander;
   CleanTwin twin;
 };
 
-inline constexpr std::uint32_t first_free_twin_set = 2;
+inline constexpr std::uint32_t first_free_twin_set = 3;
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, int threads);

@@ -1,10 +1,11 @@
 #include "engine/diagnose/blocked_cv.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {
@@ -25,17 +26,14 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
   constexpr double visible = 0.01;  // of a column's length
   for (Eigen::Index k = 0; k < x.cols(); ++k)
     if (fit_x.col(k).norm() < visible * x.col(k).norm()) fit_x.col(k).setZero();
-  Eigen::VectorXd const length = fit_x.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
-  Eigen::VectorXd const scaled =
-      (fit_x * length.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().solve(fit_y);
-  Eigen::VectorXd const theta = scaled.cwiseQuotient(length);
+  Eigen::VectorXd const theta = solve_scaled(std::move(fit_x), fit_y);
   return (y.segment(from, to - from) - x.middleRows(from, to - from) * theta).squaredNorm();
 }
 
 }  // namespace
 
 double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows) {
-  TORQUESCOPE_EXPECT(signal.size() >= 100 && columns.rows() == signal.size());
+  TORQUESCOPE_EXPECT(signal.size() >= fewest_rows && columns.rows() == signal.size());
   double sum = 0.0;
   for (Eigen::Index block = 0; block < n_blocks; ++block)
     sum += left_inside(signal, columns, signal.size() * block / n_blocks, signal.size() * (block + 1) / n_blocks,
@@ -45,7 +43,8 @@ double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd co
 
 BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
                          Eigen::Index guard_rows) {
-  TORQUESCOPE_EXPECT(mismatch.size() >= 100 && model.rows() == mismatch.size() && effect.rows() == mismatch.size());
+  TORQUESCOPE_EXPECT(mismatch.size() >= fewest_rows && model.rows() == mismatch.size() &&
+                     effect.rows() == mismatch.size());
   Eigen::MatrixXd both(mismatch.size(), model.cols() + effect.cols());
   both << model, effect;
   BlockedGain result;

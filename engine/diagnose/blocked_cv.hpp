@@ -6,7 +6,7 @@
 // Gain       per block: energy of the mismatch predicted by the model's columns alone less that with the effect
 // t          mean gain over its standard error, blocks as the sample
 // Shapes     mismatch: n; model: n x k; effect: n x L
-// Requires   n >= 100
+// Requires   n >= fewest_rows
 // Threads    free function
 // Source     PHYSICS.md section 2 step 9; blocked cross-validation: Burman, Chow, Nolan 1994
 
@@ -14,6 +14,8 @@
 #include <vector>
 
 namespace torquescope {
+
+inline constexpr Eigen::Index fewest_rows = 100;  // ten in each block
 
 struct BlockedGain {
   double gain = 0.0;  // energy, over all blocks

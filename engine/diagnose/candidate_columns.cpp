@@ -11,7 +11,7 @@ namespace {
 
 // a wave of fixed time frequency: the zero-phase filter changes its size alone, which a linear parameter takes up
 bool is_fixed_frequency(Effect const& effect) {
-  return effect.n_shape() == 1 && effect.parameters()[effect.n_linear()].lower.to == RelativeTo::slowest_frequency;
+  return effect.n_shape() == 1 && effect.parameters()[effect.n_linear()].is_frequency();
 }
 
 std::vector<bool> signs(Effect const& effect) {
@@ -47,9 +47,13 @@ CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinCompariso
     model_columns_.middleCols(first, after) = model_columns_.rightCols(after).eval();
     model_columns_.conservativeResize(Eigen::NoChange, first + after);
   }
+  nuisance_ = orthonormal_basis(with_tangents());
+}
+
+Eigen::MatrixXd CandidateColumns::with_tangents() const {
   Eigen::MatrixXd all(model_columns_.rows(), model_columns_.cols() + tangents_.cols());
   all << model_columns_, tangents_;
-  nuisance_ = orthonormal_basis(all);
+  return all;
 }
 
 // the columns of all shapes, one shape after the other

@@ -33,6 +33,7 @@ class CandidateColumns {
   // columns of the model, then tangents: what a shape's step is fitted with
   Eigen::MatrixXd const& model_columns() const { return model_columns_; }
   Eigen::MatrixXd const& tangents() const { return tangents_; }  // one per shape of the model, in its order
+  Eigen::MatrixXd with_tangents() const;                         // both, side by side
 
   Eigen::MatrixXd columns(Effect const& effect, std::span<double const> shape) const;
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;

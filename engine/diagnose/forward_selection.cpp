@@ -20,38 +20,14 @@ constexpr double nearly_all = 0.97;
 constexpr double least_cv_t = 2.0;
 constexpr std::size_t n_refined = 5;
 
-std::vector<double> hierarchical_q(std::vector<EffectScan> const& scans) {
+std::vector<double> q_of(std::vector<EffectScan> const& scans) {
   std::vector<double> p;
   std::vector<std::string> family;
   for (auto const& scan : scans) {
     p.push_back(scan.p);
     family.push_back(word(scan.effect->family()));
   }
-  // a member is found at level q only with its family: the larger of both
-  std::vector<double> q(p.size(), 1.0);
-  for (auto const& test : hierarchical_test(p, family, 1.0)) {
-    std::vector<double> own;
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < p.size(); ++i)
-      if (family[i] == test.family) {
-        own.push_back(p[i]);
-        members.push_back(i);
-      }
-    std::vector<double> const inside = benjamini_hochberg_q(own);
-    for (std::size_t k = 0; k < members.size(); ++k) q[members[k]] = std::max(test.q, inside[k]);
-  }
-  return q;
-}
-
-// its scan is over waves, each of which stands for itself
-bool is_wave(EffectParameter const& shape) {
-  return shape.lower.to == RelativeTo::lowest_order || shape.lower.to == RelativeTo::slowest_frequency;
-}
-
-// it begins at an instant
-bool is_event(Effect const& effect) {
-  return std::any_of(effect.parameters().begin(), effect.parameters().end(),
-                     [](EffectParameter const& one) { return one.lower.to == RelativeTo::instant; });
+  return hierarchical_q(p, family);
 }
 
 // reason against linear parameters, empty when there is none
@@ -103,9 +79,7 @@ class Search {
 
   double whole() const { return std::max(selection_.first_excess, std::numeric_limits<double>::min()); }
 
-  void reject(Effect const* effect, std::string reason) {
-    selection_.rejected.push_back({effect, selection_.accepted.size(), std::move(reason)});
-  }
+  void reject(Effect const* effect, std::string reason) { selection_.rejected.push_back({effect, std::move(reason)}); }
 
   // one round of search; false when nothing more is to be found
   bool take_one() {
@@ -115,7 +89,7 @@ class Search {
     tell("search", 0, options_.candidates.size());
     CandidateColumns const columns(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters());
     auto scans = scan_candidates(columns, options_.candidates, setting_.threads);
-    std::vector<double> const q = hierarchical_q(scans);
+    std::vector<double> const q = q_of(scans);
     double found = 0.0;  // most that a candidate beyond chance explains
     for (std::size_t i = 0; i < scans.size(); ++i)
       if (q[i] <= options_.q) found = std::max(found, scans[i].gain);
@@ -145,7 +119,7 @@ class Search {
                                     std::vector<double> const& q, bool is_first) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < scans.size(); ++i)
-      if (scans[i].is_testable && q[i] <= options_.q && scans[i].gain > 0.0 && !has_accepted(scans[i].effect))
+      if (scans[i].is_testable && q[i] <= options_.q && scans[i].gain > 0.0 && !is_taken(scans[i].effect))
         order.push_back(i);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return scans[a].gain > scans[b].gain; });
     order.resize(std::min(order.size(), n_refined));
@@ -179,11 +153,7 @@ class Search {
   }
 
   // waves may be named again: a second order is another wave
-  bool has_accepted(Effect const* effect) const {
-    auto const& effects = stage_.model().effects();
-    if (effect->n_shape() > 0 && is_wave(effect->parameters()[effect->n_linear()])) return false;
-    return std::any_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; });
-  }
+  bool is_taken(Effect const* effect) const { return !effect->is_wave() && selection_.has_accepted(effect); }
 
   bool accept(CandidateColumns const& columns, Trial const& trial) {
     auto const* effect = trial.refined.effect;
@@ -198,12 +168,12 @@ class Search {
       return false;
     }
     // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
-    if (is_event(*effect) && gain < least_share_of_rest * whole()) {
+    if (effect->is_event() && gain < least_share_of_rest * whole()) {
       reject(effect, fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                                  100.0 * gain / whole()));
       return false;
     }
-    if (!is_event(*effect) && trial.cv.t < least_cv_t) {
+    if (!effect->is_event() && trial.cv.t < least_cv_t) {
       reject(effect, "does not help on blocks it was not fitted to");
       return false;
     }
@@ -222,7 +192,7 @@ class Search {
       reject(effect, "twins with it leave as much as twins without it");
       return false;
     }
-    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.t, trial.cv.gain});
+    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.gain});
     keep_baseline();
     stage_ = std::move(*next);
     return true;
@@ -280,6 +250,10 @@ class Search {
 };
 
 }  // namespace
+
+bool Selection::has_accepted(Effect const* effect) const {
+  return std::any_of(accepted.begin(), accepted.end(), [&](auto const& one) { return one.effect == effect; });
+}
 
 double energy_share(ModelStage const& stage, double energy) {
   double const whole = stage.comparison.rows.torque.squaredNorm();

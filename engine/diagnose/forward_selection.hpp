@@ -38,14 +38,12 @@ struct AcceptedEffect {
   EffectScan scan{};     // of the step at which it was accepted
   double q = 1.0;        // hierarchical, there
   double gain = 0.0;     // energy of the mismatch it explained there
-  double cv_t = 0.0;     // of the improvement on blocks it was not fitted to
-  double cv_gain = 0.0;  // energy
+  double cv_gain = 0.0;  // energy, on blocks it was not fitted to
 };
 
 // why a refined candidate was not taken
 struct RejectedEffect {
   Effect const* effect = nullptr;
-  std::size_t step = 0;
   std::string reason{};
 };
 
@@ -61,6 +59,8 @@ struct Selection {
   ModelStage baseline;           // without effects
   ModelStage final;              // with all of them; a second copy of the baseline's when there are none
   std::int64_t evaluations = 0;  // of shapes
+
+  bool has_accepted(Effect const* effect) const;
 };
 
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms

@@ -1,45 +1,16 @@
 #include "engine/diagnose/generic_axes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/hat_functions.hpp"
 
 namespace torquescope {
 namespace {
 
 constexpr Eigen::Index n_knots = 12;
 constexpr Eigen::Index n_knots_of_two = 8;
-
-// at most one row per value: equal quantiles of a discrete axis fall together
-std::vector<double> quantile_knots(Eigen::VectorXd const& x, Eigen::Index count) {
-  std::vector<double> sorted(x.data(), x.data() + x.size());
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> knots;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    double const at = sorted[static_cast<std::size_t>((x.size() - 1) * k / (count - 1))];
-    if (knots.empty() || at > knots.back()) knots.push_back(at);
-  }
-  return knots;
-}
-
-// piecewise linear, 1 at their own knot, 0 at all others
-Eigen::MatrixXd hats(Eigen::VectorXd const& x, Eigen::Index count) {
-  std::vector<double> const knots = quantile_knots(x, count);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), static_cast<Eigen::Index>(knots.size()));
-  if (knots.size() < 2) return out;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    auto const above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x[i]);
-    auto const right = static_cast<Eigen::Index>(above - knots.begin());
-    double const left_knot = knots[static_cast<std::size_t>(right - 1)],
-                 right_knot = knots[static_cast<std::size_t>(right)];
-    double const part = (x[i] - left_knot) / (right_knot - left_knot);
-    out(i, right - 1) = 1.0 - part;
-    out(i, right) = part;
-  }
-  return out;
-}
 
 Eigen::MatrixXd times(Eigen::MatrixXd basis, Eigen::VectorXd const& factor) {
   basis.array().colwise() *= factor.array();

@@ -9,11 +9,11 @@
 #include "engine/data/excitation.hpp"
 #include "engine/diagnose/abstention.hpp"
 #include "engine/diagnose/blocked_cv.hpp"
+#include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/detection_power.hpp"
-#include "engine/diagnose/effect_account.hpp"
-#include "engine/diagnose/equivalent_effects.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
 #include "engine/diagnose/mismatch_map.hpp"
+#include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/parameter_intervals.hpp"
 #include "engine/diagnose/recording_checks.hpp"
 #include "engine/diagnose/sentences.hpp"
@@ -37,6 +37,18 @@ std::string source_word(LoopSource source) {
   return "tracking";
 }
 
+// what work() says of the recording, or what stopped it when that is the recording's fault
+template <typename Work>
+std::optional<Hopeless> verdict_of(Verdict verdict, Work const& work) {
+  try {
+    return work();
+  } catch (Error const& error) {
+    auto const& problem = error.problems().front();
+    if (problem.code != ExitCode::bad_data) throw;
+    return Hopeless{verdict, problem.what, problem.help};
+  }
+}
+
 class JointWork {
  public:
   JointWork(DiagnosisInput const& input, StageSink const& progress) : input_(input), progress_(progress) {
@@ -48,14 +60,7 @@ class JointWork {
   }
 
   Diagnosis run() {
-    try {
-      diagnose();
-    } catch (Error const& error) {
-      auto const& problem = error.problems().front();
-      // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
-      if (problem.code != ExitCode::bad_data) throw;
-      hopeless({Verdict::data_fault, problem.what, problem.help});
-    }
+    diagnose();
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
     return std::move(diagnosis_);
@@ -74,13 +79,19 @@ class JointWork {
 
   void diagnose() {
     Recording recording = from_zero(input_.train);
-    if (auto const why = look_first(recording)) return hopeless(*why);
     StageSetting const setting{recording,    input_.regressor, input_.filter, input_.filter_section,
                                input_.twins, input_.seed,      input_.threads};
-    selection_ = select_effects(setting, input_.selection, progress_);
+    // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
+    auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
+    if (!why)
+      why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
+        selection_ = select_effects(setting, input_.selection, progress_);
+        return std::nullopt;
+      });
+    if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
     describe_baseline();
-    list_candidates();
+    joint_.candidates = candidate_table(selection_);
     Remainder const remainder = judge_remainder(selection_, final_stage());
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
@@ -98,17 +109,11 @@ class JointWork {
     if (auto why = check_recording(facts, 0.0)) return why;
     RecordPipeline const pipeline(input_.regressor, input_.filter, recording.rate_hz, recording.position.size(),
                                   input_.filter_section);
-    ProcessedRecord record;
-    try {
-      record = pipeline.process(recording);
-    } catch (Error const& error) {
-      auto const& problem = error.problems().front();
-      if (problem.code != ExitCode::bad_data) throw;
-      // columns that the motion cannot tell apart
-      return Hopeless{Verdict::insufficient, problem.what, problem.help};
-    }
-    joint_.train_relerr = relative_error(record);
-    auto why = check_recording(facts, joint_.train_relerr);
+    // columns that the motion cannot tell apart
+    auto why = verdict_of(Verdict::insufficient, [&] {
+      joint_.train_relerr = relative_error(pipeline.process(recording));
+      return check_recording(facts, joint_.train_relerr);
+    });
     if (!why && recording.simulated_torque.size() > 0) {
       SimulatorGap gap = gap_to_simulator(recording, pipeline);
       parameter_share_ = gap.parameter_share;
@@ -153,99 +158,12 @@ class JointWork {
                      record.torque.squaredNorm());
   }
 
-  bool is_named(Effect const* effect) const {
-    return std::any_of(selection_.accepted.begin(), selection_.accepted.end(),
-                       [&](AcceptedEffect const& one) { return one.effect == effect; });
-  }
-
-  void list_candidates() {
-    double const excess = std::max(selection_.first_excess, std::numeric_limits<double>::min());
-    for (std::size_t i = 0; i < selection_.first_scan.size(); ++i) {
-      auto const& scan = selection_.first_scan[i];
-      Candidate candidate;
-      candidate.name = scan.effect->name();
-      candidate.family = word(scan.effect->family());
-      candidate.decision = scan.is_testable ? Decision::rejected : Decision::not_tested;
-      if (!scan.is_testable) candidate.reason = "the model's own columns explain it on this motion";
-      candidate.z = scan.z;
-      candidate.p = scan.p;
-      candidate.q = selection_.first_q[i];
-      candidate.chance_z = scan.chance_z;
-      // without a mismatch there is nothing to have a share of
-      candidate.gain = selection_.is_gate_open ? std::max(0.0, scan.gain / excess) : 0.0;
-      if (selection_.is_gate_open) candidate.cv_gain = selection_.first_cv_gain[i] / excess;
-      for (auto const& rejected : selection_.rejected)
-        if (rejected.effect == scan.effect) candidate.reason = rejected.reason;
-      if (is_named(scan.effect))
-        candidate.decision = scan.effect->acts_on() == ActsOn::joint ? Decision::named : Decision::measurement;
-      joint_.candidates.push_back(std::move(candidate));
-    }
-    std::stable_sort(joint_.candidates.begin(), joint_.candidates.end(), [&](auto const& a, auto const& b) {
-      return selection_.is_gate_open ? a.gain > b.gain : a.z - a.chance_z > b.z - b.chance_z;
-    });
-  }
-
   void account_for_effects() {
-    ModelEstimate const estimate = estimate_parameters(final_stage());
-    joint_.augmented = estimate.baseline;
     ShapeSearch const search = shape_search(input_.selection.shape_optimiser, input_.seed);
-    for (std::size_t i = 0; i < selection_.accepted.size(); ++i) {
-      joint_.augmented.insert(joint_.augmented.end(), estimate.effects[i].begin(), estimate.effects[i].end());
-      add_effect(i, estimate.effects[i], search);
-    }
-  }
-
-  void add_effect(std::size_t i, std::vector<ParameterEstimate> const& parameters, ShapeSearch const& search) {
-    auto const& accepted = selection_.accepted[i];
-    auto const& effect = *accepted.effect;
-    double const residual = selection_.first_energy.residual;
-    NamedEffect named;
-    named.name = effect.name();
-    // a second wave of the same kind belongs to the first
-    auto const same = std::find_if(joint_.effects.begin(), joint_.effects.end(),
-                                   [&](NamedEffect const& one) { return one.name == named.name; });
-    if (same != joint_.effects.end()) {
-      same->parameters.insert(same->parameters.end(), parameters.begin(), parameters.end());
-      same->gain.train += accepted.gain / residual;
-      same->gain.cv += accepted.cv_gain / residual;
-      place_.push_back(static_cast<std::size_t>(same - joint_.effects.begin()));
-      return;
-    }
-    EffectAccount account = account_of(final_stage(), i);
-    named.family = word(effect.family());
-    named.title = effect.title();
-    named.equation = effect.equation();
-    named.acts_on = word(effect.acts_on());
-    named.p = accepted.scan.p;
-    named.q = accepted.q;
-    named.z = accepted.scan.z;
-    named.p_is_bound = accepted.scan.p_is_bound;
-    named.gain.train = accepted.gain / residual;
-    named.gain.cv = accepted.cv_gain / residual;
-    named.region = account.region;
-    named.curve = std::move(account.curve);
-    named.rms = account.rms;
-    named.peak = account.peak;
-    named.parameters = parameters;
-    for (auto const& rival : rivals_of(final_stage(), i, rivals_for(accepted), search, input_.threads))
-      if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
-    place_.push_back(joint_.effects.size());
-    joint_.effects.push_back(std::move(named));
-  }
-
-  // of the same families, or nearly as good when nothing was named yet
-  std::vector<Effect const*> rivals_for(AcceptedEffect const& accepted) const {
-    std::vector<Effect const*> rivals;
-    auto const& own = accepted.effect->families();
-    for (auto const& scan : selection_.first_scan) {
-      if (!scan.is_testable || is_named(scan.effect)) continue;
-      auto const& theirs = scan.effect->families();
-      bool const is_family = std::any_of(theirs.begin(), theirs.end(), [&](EffectFamily one) {
-        return std::find(own.begin(), own.end(), one) != own.end();
-      });
-      if (is_family || scan.gain > 0.5 * accepted.gain) rivals.push_back(scan.effect);
-    }
-    return rivals;
+    NamedEffects named = name_effects(selection_, search, input_.threads);
+    joint_.effects = std::move(named.effects);
+    joint_.augmented = std::move(named.parameters);
+    place_ = std::move(named.place);
   }
 
   void check_on_unseen(StageSetting const& setting) {
@@ -327,10 +245,7 @@ class JointWork {
       withdraw();
       return;
     }
-    for (auto& candidate : joint_.candidates)
-      for (auto const& effect : joint_.effects)
-        if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) != effect.equivalent.end())
-          candidate.decision = Decision::equivalent;
+    mark_equivalent(joint_.candidates, joint_.effects);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
     bool const is_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                       [](NamedEffect const& one) { return !one.equivalent.empty(); });
@@ -343,11 +258,7 @@ class JointWork {
 
   // nothing that was named stands
   void withdraw() {
-    for (auto& candidate : joint_.candidates)
-      if (candidate.decision == Decision::named || candidate.decision == Decision::measurement) {
-        candidate.decision = Decision::rejected;
-        candidate.reason = "withdrawn: it leaves too much that has a structure of its own";
-      }
+    withdraw_names(joint_.candidates);
     joint_.budget.unexplained += joint_.budget.missing_physics;
     joint_.budget.missing_physics = 0.0;
     joint_.effects.clear();

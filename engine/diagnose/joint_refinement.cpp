@@ -1,10 +1,11 @@
 #include "engine/diagnose/joint_refinement.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "engine/diagnose/parameter_intervals.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
 #include "engine/diagnose/shape_grid.hpp"
 
 namespace torquescope {
@@ -17,20 +18,11 @@ struct ShapeSteps {
 
 ShapeSteps stepped(ModelStage const& stage) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  auto const& rows = stage.comparison.rows;
   ShapeSteps result{stage.model().effects()};
   Eigen::Index const n_shapes = columns.tangents().cols();
   if (n_shapes == 0) return result;
-  Eigen::Index const n_model = columns.model_columns().cols();
-  Eigen::MatrixXd all(rows.size(), n_model + n_shapes);
-  all << columns.model_columns(), columns.tangents();
-  Eigen::VectorXd const length = all.colwise().norm().cwiseMax(1e-300);
-  auto const solver = (all * length.cwiseInverse().asDiagonal()).colPivHouseholderQr();
-  Eigen::VectorXd const step = Eigen::VectorXd(solver.solve(stage.mismatch())).cwiseQuotient(length).tail(n_shapes);
-  Eigen::MatrixXd const apart = rows.twins.colwise() - rows.twin_mean;
-  Eigen::MatrixXd const noise =
-      (length.cwiseInverse().asDiagonal() * Eigen::MatrixXd(solver.solve(apart))).bottomRows(n_shapes);
-  Eigen::VectorXd const std = (noise.rowwise().squaredNorm() / static_cast<double>(rows.n_twins() - 1)).cwiseSqrt();
+  Eigen::VectorXd const step = Eigen::VectorXd(solve_scaled(columns.with_tangents(), stage.mismatch())).tail(n_shapes);
+  Eigen::VectorXd const std = parameter_deviations(stage, columns).tail(n_shapes);
 
   constexpr double small = 0.5;  // standard deviations
   Eigen::Index at = 0;

@@ -5,22 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/blocked_cv.hpp"
 #include "engine/diagnose/twin_batch.hpp"
 
 namespace torquescope {
 namespace {
-
-CleanTwin without_noise(CleanTwin const& twin, double step_s) {
-  TwinLoop loop = twin.loop();
-  loop.encoder_step = 0.0;
-  loop.torque_noise = white(0.0);
-  loop.disturbance_std = 0.0;
-  loop.disturbance_variance_error = 0.0;
-  loop.position_noise_std = 0.0;
-  return {twin.joint(), loop, twin.track(), step_s};
-}
 
 std::vector<Eigen::Index> common(std::vector<Eigen::Index> const& a, std::vector<Eigen::Index> const& b) {
   std::vector<Eigen::Index> both;
@@ -30,8 +22,11 @@ std::vector<Eigen::Index> common(std::vector<Eigen::Index> const& a, std::vector
 
 void check_rows(std::vector<Eigen::Index> const& rows, RecordPipeline const& pipeline, std::string const& name) {
   constexpr std::size_t fewest_per_parameter = 10;
-  validate(rows.size() >= fewest_per_parameter * pipeline.model().size(), [&] {
-    Problem problem{ExitCode::bad_data, fmt::format("{}: only {} rows are left between reversals", name, rows.size())};
+  std::size_t const wanted =
+      std::max(static_cast<std::size_t>(fewest_rows), fewest_per_parameter * pipeline.model().size());
+  validate(rows.size() >= wanted, [&] {
+    Problem problem{ExitCode::bad_data, fmt::format("{}: only {} rows are left between reversals, {} are needed", name,
+                                                    rows.size(), wanted)};
     problem.help = "record a longer motion with fewer reversals per second, or raise filter.parallel_cutoff_hz";
     return problem;
   });
@@ -72,30 +67,31 @@ void fill_axes(MismatchRows& rows, RecordPipeline const& pipeline, ProcessedReco
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
                                   TwinAddress const& address, std::size_t twins, int threads) {
   TwinComparison result;
-  CleanTwin const noiseless = without_noise(twin, twin.step_s());
-  for_each_twin(noiseless, pipeline, address, 1, 1, [&](VisitedTwin const& visited) {
+  CleanTwin const quiet(twin.joint(), noiseless(twin.loop()), twin.track(), twin.step_s());
+  for_each_twin(quiet, pipeline, address, 1, 1, [&](VisitedTwin const& visited) {
     result.ran_away = visited.ran_away;
     result.common = visited.record;
   });
   if (result.ran_away) return result;
 
   // pilots: rows at which a twin may turn are not safe in any
-  std::size_t const pilots = std::min<std::size_t>(twins, twin_lanes);
-  std::vector<std::vector<Eigen::Index>> kept(pilots);
+  std::size_t const n_pilots = std::min<std::size_t>(twins, twin_lanes);
+  std::vector<ProcessedRecord> pilots(n_pilots);
   std::vector<char> ran_away(twins, 0);
-  for_each_twin(twin, pipeline, address, pilots, threads, [&](VisitedTwin const& visited) {
+  for_each_twin(twin, pipeline, address, n_pilots, threads, [&](VisitedTwin const& visited) {
     ran_away[visited.index] = visited.ran_away;
-    kept[visited.index] = visited.record.kept_rows;
+    auto const& [motion, kept_rows, columns, torque, parameters, residual] = visited.record;
+    pilots[visited.index] = {{}, kept_rows, columns, torque, {}, {}};
   });
-  std::vector<Eigen::Index> safe = common(pipeline.process(recording).kept_rows, result.common.kept_rows);
-  for (std::size_t i = 0; i < pilots; ++i)
-    if (ran_away[i] == 0) safe = common(safe, kept[i]);
+  result.recording = pipeline.process(recording);
+  std::vector<Eigen::Index> safe = common(result.recording.kept_rows, result.common.kept_rows);
+  for (std::size_t i = 0; i < n_pilots; ++i)
+    if (ran_away[i] == 0) safe = common(safe, pilots[i].kept_rows);
   check_rows(safe, pipeline, recording.name);
   pipeline.restrict_to(safe);
 
-  result.recording = pipeline.process(recording);
-  for_each_twin(noiseless, pipeline, address, 1, 1,
-                [&](VisitedTwin const& visited) { result.common = visited.record; });
+  result.recording = pipeline.restricted(std::move(result.recording), safe, recording.name);
+  result.common = pipeline.restricted(std::move(result.common), safe, "twin");
   auto& rows = result.rows;
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = safe;
@@ -107,11 +103,15 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   auto const n = static_cast<Eigen::Index>(safe.size());
   rows.twins.resize(n, static_cast<Eigen::Index>(twins));
   result.twin_fits.resize(static_cast<Eigen::Index>(twins), static_cast<Eigen::Index>(pipeline.model().size()));
-  for_each_twin(twin, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
+  auto const take = [&](std::size_t index, ProcessedRecord const& record) {
+    rows.twins.col(static_cast<Eigen::Index>(index)) = record.residual;
+    result.twin_fits.row(static_cast<Eigen::Index>(index)) = record.parameters;
+  };
+  for (std::size_t i = 0; i < n_pilots; ++i)
+    if (ran_away[i] == 0) take(i, pipeline.restricted(std::move(pilots[i]), safe, "twin"));
+  for_each_twin(twin, pipeline, address, TwinRange{n_pilots, twins}, threads, [&](VisitedTwin const& visited) {
     ran_away[visited.index] = visited.ran_away;
-    if (visited.ran_away) return;
-    rows.twins.col(static_cast<Eigen::Index>(visited.index)) = visited.record.residual;
-    result.twin_fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+    if (!visited.ran_away) take(visited.index, visited.record);
   });
   result.ran_away = std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; });
   if (!result.ran_away) rows.twin_mean = rows.twins.rowwise().mean();

@@ -47,7 +47,7 @@ struct TwinComparison {
 };
 
 // pipeline: its rows become the common ones.  twins >= 8
-// Errors     as the pipeline; Error 65 when fewer than 10 rows per parameter are left
+// Errors     as the pipeline; Error 65 when fewer than 100 rows, or 10 per parameter, are left
 // Threads    spreads twins over `threads`; same bits for any number
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
                                   TwinAddress const& address, std::size_t twins, int threads);

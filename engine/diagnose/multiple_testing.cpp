@@ -17,6 +17,25 @@ std::vector<std::size_t> order_of(std::span<double const> values) {
   return order;
 }
 
+struct Family {
+  std::string name;
+  std::vector<std::size_t> members{};  // indices into all p
+  std::vector<double> p{};             // of the members
+};
+
+// in the order of their first member
+std::vector<Family> families_of(std::span<double const> p, std::span<std::string const> family) {
+  std::vector<Family> families;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    auto known =
+        std::find_if(families.begin(), families.end(), [&](Family const& one) { return one.name == family[i]; });
+    if (known == families.end()) known = families.insert(families.end(), {family[i]});
+    known->members.push_back(i);
+    known->p.push_back(p[i]);
+  }
+  return families;
+}
+
 }  // namespace
 
 std::vector<double> benjamini_hochberg_q(std::span<double const> p) {
@@ -37,48 +56,29 @@ double simes_p(std::span<double const> p) {
   return *std::min_element(q.begin(), q.end());
 }
 
-std::vector<FamilyTest> hierarchical_test(std::span<double const> p, std::span<std::string const> family,
-                                          double level) {
+std::vector<double> hierarchical_q(std::span<double const> p, std::span<std::string const> family) {
   TORQUESCOPE_EXPECT(p.size() == family.size());
-  std::vector<FamilyTest> tests;
-  std::vector<std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    auto const known =
-        std::find_if(tests.begin(), tests.end(), [&](FamilyTest const& test) { return test.family == family[i]; });
-    if (known == tests.end()) {
-      tests.push_back({family[i]});
-      members.push_back({i});
-    } else {
-      members[static_cast<std::size_t>(known - tests.begin())].push_back(i);
+  std::vector<Family> const families = families_of(p, family);
+  std::vector<double> family_p;
+  for (auto const& one : families) family_p.push_back(simes_p(one.p));
+  std::vector<double> const family_q = benjamini_hochberg_q(family_p);
+  std::vector<double> selected_from = family_q;  // [s - 1]: the level from which on s families are selected
+  std::sort(selected_from.begin(), selected_from.end());
+
+  auto const count = static_cast<double>(families.size());
+  std::vector<double> q(p.size(), 1.0);
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    std::vector<double> const inside = benjamini_hochberg_q(families[f].p);
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      double& best = q[families[f].members[k]];
+      // with s families selected, its own among them, members are tested at level * s / count
+      for (std::size_t s = 1; s <= families.size(); ++s) {
+        double const level = std::max({family_q[f], selected_from[s - 1], inside[k] * count / static_cast<double>(s)});
+        best = std::min(best, level);
+      }
     }
   }
-  auto const p_of = [&](std::vector<std::size_t> const& indices) {
-    std::vector<double> values;
-    for (std::size_t i : indices) values.push_back(p[i]);
-    return values;
-  };
-
-  // which families
-  std::vector<double> family_p;
-  for (std::size_t f = 0; f < tests.size(); ++f) family_p.push_back(tests[f].p = simes_p(p_of(members[f])));
-  auto const family_q = benjamini_hochberg_q(family_p);
-  std::size_t selected = 0;
-  for (std::size_t f = 0; f < tests.size(); ++f) {
-    tests[f].q = family_q[f];
-    tests[f].selected = family_q[f] <= level;
-    selected += tests[f].selected ? 1 : 0;
-  }
-
-  // which members of the selected ones, at a level that pays for the selection
-  double const member_level =
-      level * static_cast<double>(selected) / static_cast<double>(std::max<std::size_t>(1, tests.size()));
-  for (std::size_t f = 0; f < tests.size(); ++f) {
-    if (!tests[f].selected) continue;
-    auto const q = benjamini_hochberg_q(p_of(members[f]));
-    for (std::size_t k = 0; k < q.size(); ++k)
-      if (q[k] <= member_level) tests[f].rejected.push_back(members[f][k]);
-  }
-  return tests;
+  return q;
 }
 
 }  // namespace torquescope

@@ -4,7 +4,7 @@
 // q          the smallest level at which the test would still be rejected by Benjamini-Hochberg: q_(i) = min_{j >= i} p_(j) m / j
 // Families   first which families (Simes p of each, BH over families at level q), then which members of the selected ones
 //            (BH at level q * selected / families): the expected average of false discoveries over selected families is
-//            at most q
+//            at most q. The hierarchical q of a member is the smallest level at which both steps find it
 // Requires   p in (0, 1]; independence or positive dependence, which statistics of one residual have in good approximation
 // Threads    free functions
 // Source     Benjamini, Hochberg 1995; Simes 1986; Benjamini, Bogomolov 2014 (JRSS B 76) section 3
@@ -22,15 +22,7 @@ std::vector<double> benjamini_hochberg_q(std::span<double const> p);
 // combined p of one family
 double simes_p(std::span<double const> p);
 
-struct FamilyTest {
-  std::string family;
-  double p = 1.0;  // Simes
-  double q = 1.0;  // over the families
-  bool selected = false;
-  std::vector<std::size_t> rejected{};  // indices into the given p, members of this family
-};
-
-// family[i] is the family of p[i]; families in the order of their first member
-std::vector<FamilyTest> hierarchical_test(std::span<double const> p, std::span<std::string const> family, double level);
+// in the order of p; family[i] is the family of p[i]
+std::vector<double> hierarchical_q(std::span<double const> p, std::span<std::string const> family);
 
 }  // namespace torquescope

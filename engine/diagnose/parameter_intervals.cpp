@@ -1,28 +1,11 @@
 #include "engine/diagnose/parameter_intervals.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {
-
-// standard deviation of every parameter over twins: model columns first, then one per tangent
-Eigen::VectorXd deviations(ModelStage const& stage, CandidateColumns const& columns) {
-  auto const& rows = stage.comparison.rows;
-  Eigen::Index const n_model = columns.model_columns().cols(), n_shapes = columns.tangents().cols();
-  Eigen::MatrixXd all(rows.size(), n_model + n_shapes);
-  all << columns.model_columns(), columns.tangents();
-  Eigen::VectorXd const length = all.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
-  // what the twin's own fit took up is put back: residual + columns (fit - mean fit)
-  Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
-  Eigen::MatrixXd const apart = (rows.twins.colwise() - rows.twin_mean) +
-                                columns.model_columns() * (fits.colwise() - fits.rowwise().mean().eval());
-  Eigen::MatrixXd const moved =
-      length.cwiseInverse().asDiagonal() *
-      Eigen::MatrixXd((all * length.cwiseInverse().asDiagonal()).completeOrthogonalDecomposition().solve(apart));
-  auto const m = static_cast<double>(rows.n_twins());
-  return (moved.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
-}
 
 ParameterEstimate estimate(std::string name, std::string unit, double value, double std) {
   constexpr double two_sided = 1.96;
@@ -31,9 +14,20 @@ ParameterEstimate estimate(std::string name, std::string unit, double value, dou
 
 }  // namespace
 
+Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns const& columns) {
+  auto const& rows = stage.comparison.rows;
+  // what the twin's own fit took up is put back: residual + columns (fit - mean fit)
+  Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
+  Eigen::MatrixXd const apart = (rows.twins.colwise() - rows.twin_mean) +
+                                columns.model_columns() * (fits.colwise() - fits.rowwise().mean().eval());
+  Eigen::MatrixXd const moved = solve_scaled(columns.with_tangents(), apart);
+  auto const m = static_cast<double>(rows.n_twins());
+  return (moved.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
+}
+
 ModelEstimate estimate_parameters(ModelStage const& stage) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  Eigen::VectorXd const std = deviations(stage, columns);
+  Eigen::VectorXd const std = parameter_deviations(stage, columns);
   auto const& model = stage.model();
   ModelEstimate result;
   auto const owners = model.regressor().column_owners();

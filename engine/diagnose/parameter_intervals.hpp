@@ -19,6 +19,9 @@ struct ModelEstimate {
   std::vector<std::vector<ParameterEstimate>> effects{};  // of each effect: linear ones, then shapes
 };
 
+// standard deviation over twins: columns of the model first, then one per tangent
+Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns const& columns);
+
 ModelEstimate estimate_parameters(ModelStage const& stage);
 
 }  // namespace torquescope

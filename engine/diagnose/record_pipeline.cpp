@@ -36,15 +36,35 @@ RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, d
 
 ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   ProcessedRecord record = prepare(recording);
+  fit(record, recording.name);
+  return record;
+}
+
+void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const {
   RegressionData data;
   data.columns = model_.column_owners();
-  data.recording_names = {recording.name};
+  data.recording_names = {name};
   data.phi = std::move(record.columns);
   data.tau = std::move(record.torque);
   record.parameters = solve_weighted(data, {});
   record.residual = data.tau - data.phi * record.parameters;
   record.columns = std::move(data.phi);
   record.torque = std::move(data.tau);
+}
+
+ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,
+                                           std::string const& name) const {
+  std::vector<Eigen::Index> places;
+  std::size_t at = 0;
+  for (Eigen::Index row : kept_rows) {
+    while (at < record.kept_rows.size() && record.kept_rows[at] < row) ++at;
+    TORQUESCOPE_EXPECT(at < record.kept_rows.size() && record.kept_rows[at] == row);
+    places.push_back(static_cast<Eigen::Index>(at));
+  }
+  record.columns = record.columns(places, Eigen::all).eval();
+  record.torque = record.torque(places).eval();
+  record.kept_rows = kept_rows;
+  fit(record, name);
   return record;
 }
 
@@ -56,8 +76,15 @@ ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
                          ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz)
                          : fixed_rows_;
 
-  record.columns = filtered_columns(model_.columns(record.motion), record);
-  record.torque = filtered(record.motion.torque, record);
+  // the torque goes through the filter beside the columns: eight signals cost as much as one
+  Eigen::MatrixXd signals = model_.columns(record.motion);
+  Eigen::Index const last = signals.cols();
+  signals.conservativeResize(Eigen::NoChange, last + 1);
+  signals.col(last) = record.motion.torque;
+  signals = filtered_columns(signals, record);
+  record.torque = signals.col(last);
+  signals.conservativeResize(Eigen::NoChange, last);
+  record.columns = std::move(signals);
   return record;
 }
 

@@ -11,6 +11,7 @@
 // Source     LESSONS item 3; parallel filtering: Gautier 1997
 
 #include <Eigen/Core>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,9 @@ class RecordPipeline {
   ProcessedRecord process(Recording const& recording) const;
   // all but the least squares: of a recording that need not excite every column; parameters and residual stay empty
   ProcessedRecord prepare(Recording const& recording) const;
+  // the same record on fewer of its rows, fitted again; name: of the recording, for the message when that fails
+  ProcessedRecord restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,
+                             std::string const& name) const;
   // any signal of the full rate, filtered like a column, on the rows of that record
   Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
   Eigen::MatrixXd filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,
@@ -58,6 +62,8 @@ class RecordPipeline {
   Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
 
  private:
+  void fit(ProcessedRecord& record, std::string const& name) const;
+
   JointModel model_;
   FilterOptions options_;
   Section section_;

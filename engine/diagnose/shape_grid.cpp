@@ -6,11 +6,20 @@
 namespace torquescope {
 namespace {
 
+constexpr double share_of_resolution = 0.7;
+
+// a long recording resolves more waves than anybody can look at: the fastest ones are left out
+ParameterRange affordable(ParameterRange range, EffectParameter const& parameter, JointScales const& scales) {
+  if (!parameter.is_order() && !parameter.is_frequency()) return range;
+  double const gap = share_of_resolution * bound_value({1.0, parameter.lower.to}, scales);
+  range.upper = std::min(range.upper, range.lower + static_cast<double>(most_waves - 1) * gap);
+  return range;
+}
+
 std::size_t points_for(EffectParameter const& parameter, ParameterRange const& range, std::size_t n_shape,
                        JointScales const& scales) {
-  constexpr double share_of_resolution = 0.7;
   constexpr std::size_t places = 24;
-  if (parameter.lower.to == RelativeTo::slowest_frequency || parameter.lower.to == RelativeTo::lowest_order) {
+  if (parameter.is_order() || parameter.is_frequency()) {
     double const gap = share_of_resolution * bound_value({1.0, parameter.lower.to}, scales);
     // logarithmic points lie furthest apart at the upper end
     double const gaps = range.spacing == Spacing::logarithmic
@@ -18,7 +27,7 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
                             : (range.upper - range.lower) / gap;
     return static_cast<std::size_t>(std::ceil(gaps)) + 1;
   }
-  if (parameter.lower.to == RelativeTo::instant || parameter.lower.to == RelativeTo::position) return places;
+  if (parameter.is_instant() || parameter.lower.to == RelativeTo::position) return places;
   return n_shape == 1 ? 10 : n_shape == 2 ? 6 : 4;
 }
 
@@ -69,8 +78,8 @@ ShapeGrid shape_grid(Effect const& effect, JointScales const& scales) {
   ShapeGrid grid;
   grid.ranges = effect.shape_bounds(scales);
   for (std::size_t k = 0; k < grid.ranges.size(); ++k) {
-    auto const& range = grid.ranges[k];
     auto const& parameter = effect.parameters()[effect.n_linear() + k];
+    auto const& range = grid.ranges[k] = affordable(grid.ranges[k], parameter, scales);
     std::size_t const points = range.upper > range.lower
                                    ? std::max<std::size_t>(2, points_for(parameter, range, effect.n_shape(), scales))
                                    : 1;

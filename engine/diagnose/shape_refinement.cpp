@@ -20,11 +20,6 @@ class Refinement {
   }
 
   RefinedEffect take() && {
-    for (std::size_t k = 0; k < ranges_.size(); ++k) {
-      constexpr double close = 1e-3;
-      double const unit = to_unit(ranges_[k], best_.shape[k]);
-      best_.at_bound = best_.at_bound || unit < close || unit > 1.0 - close;
-    }
     best_.gain -= noise_at(best_.shape);
     return std::move(best_);
   }
@@ -84,6 +79,7 @@ class Refinement {
     if (best_.evaluations > 1 && gain.gain <= best_.gain) return;
     best_.shape = shape;
     best_.gain = gain.gain;
+    best_.improvements.push_back({best_.evaluations, gain.gain});
     best_.parameters = gain.parameters;
   }
 

@@ -35,8 +35,13 @@ struct RefinedEffect {
   std::vector<double> shape{};
   Eigen::VectorXd parameters{};  // linear
   double gain = 0.0;             // energy of `mismatch` explained, signs kept, less what noise alone gives there
-  bool at_bound = false;         // a shape ended on its bound
   std::int64_t evaluations = 0;
+  // whenever a shape explained more: evaluations until then, and what it explains before chance is taken off
+  struct Improvement {
+    std::int64_t evaluations = 0;
+    double gain = 0.0;
+  };
+  std::vector<Improvement> improvements{};
 };
 
 // mismatch: n rows

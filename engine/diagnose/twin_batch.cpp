@@ -9,21 +9,23 @@
 
 namespace torquescope {
 
-void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address, std::size_t count,
-                   int threads, std::function<void(VisitedTwin const&)> const& visit) {
+void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
+                   TwinRange const& range, int threads, std::function<void(VisitedTwin const&)> const& visit) {
   TORQUESCOPE_EXPECT(twin.samples() == pipeline.samples());
+  if (range.to <= range.from) return;
+  TORQUESCOPE_EXPECT(range.from % twin_lanes == 0);
   Eigen::VectorXd const time_s =
       Eigen::VectorXd::LinSpaced(twin.samples(), 0.0, static_cast<double>(twin.samples() - 1) / pipeline.rate_hz());
-  std::size_t const groups = (count + twin_lanes - 1) / twin_lanes;
+  std::size_t const first_group = range.from / twin_lanes, groups = (range.to + twin_lanes - 1) / twin_lanes;
   std::size_t const wave = static_cast<std::size_t>(std::max(1, threads));
-  std::vector<TwinGroup> simulated(std::min(wave, groups));
-  for (std::size_t first = 0; first < groups; first += wave) {
+  std::vector<TwinGroup> simulated(std::min(wave, groups - first_group));
+  for (std::size_t first = first_group; first < groups; first += wave) {
     // as many groups as there are threads, then all their twins: the pipeline is the longer part and spreads evenly
     std::size_t const now = std::min(wave, groups - first);
     parallel_for(now, threads, [&](std::size_t i, int) {
       twin.simulate(address, static_cast<std::uint32_t>(first + i), simulated[i]);
     });
-    std::size_t const twins = std::min(count - first * twin_lanes, now * twin_lanes);
+    std::size_t const twins = std::min(range.to - first * twin_lanes, now * twin_lanes);
     parallel_for(twins, threads, [&](std::size_t i, int thread) {
       TwinGroup const& group = simulated[i / twin_lanes];
       std::size_t const lane = i % twin_lanes;

@@ -23,7 +23,18 @@ struct VisitedTwin {
   ProcessedRecord const& record;
 };
 
-void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address, std::size_t count,
-                   int threads, std::function<void(VisitedTwin const&)> const& visit);
+// which twins of an address: [from, to), from a multiple of twin_lanes
+struct TwinRange {
+  std::size_t from = 0, to = 0;
+};
+
+void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
+                   TwinRange const& range, int threads, std::function<void(VisitedTwin const&)> const& visit);
+
+// the first `count`
+inline void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
+                          std::size_t count, int threads, std::function<void(VisitedTwin const&)> const& visit) {
+  for_each_twin(twin, pipeline, address, TwinRange{0, count}, threads, visit);
+}
 
 }  // namespace torquescope

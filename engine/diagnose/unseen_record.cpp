@@ -16,19 +16,12 @@
 namespace torquescope {
 namespace {
 
-// it begins at an instant of one recording
-bool is_event(Effect const& effect) {
-  for (std::size_t k = effect.n_linear(); k < effect.parameters().size(); ++k)
-    if (effect.parameters()[k].lower.to == RelativeTo::instant) return true;
-  return false;
-}
-
 // the training parameters, those of events taken out
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
   Eigen::VectorXd parameters = stage.comparison.recording.parameters;
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_event(*effects[i].effect)) continue;
+    if (!effects[i].effect->is_event()) continue;
     parameters
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                  static_cast<Eigen::Index>(effects[i].effect->n_linear()))
@@ -86,8 +79,7 @@ bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen:
 
 // a cosine and a sine of the position, and nothing else
 bool is_position_wave(Effect const& effect) {
-  return effect.n_linear() == 2 && effect.n_shape() == 1 &&
-         effect.parameters()[effect.n_linear()].lower.to == RelativeTo::lowest_order;
+  return effect.n_linear() == 2 && effect.n_shape() == 1 && effect.parameters()[effect.n_linear()].is_order();
 }
 
 void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
@@ -102,16 +94,17 @@ void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::V
   }
 }
 
-RecordPipeline pipeline_for(Recording const& recording, StageSetting const& setting, JointModel const& model) {
-  return {model, setting.filter, recording.rate_hz, recording.position.size(), setting.filter_section};
+void check_rows(ProcessedRecord const& record, std::string const& name) {
+  validate(static_cast<Eigen::Index>(record.kept_rows.size()) >= fewest_rows, [&] {
+    Problem problem{ExitCode::bad_data, fmt::format("{}: only {} rows are left between reversals, {} are needed", name,
+                                                    record.kept_rows.size(), fewest_rows)};
+    problem.help = "give a longer recording as validate, or none";
+    return problem;
+  });
 }
 
-TwinLoop quiet(TwinLoop loop) {
-  loop.encoder_step = 0.0;
-  loop.torque_noise = white(0.0);
-  loop.disturbance_std = 0.0;
-  loop.disturbance_variance_error = 0.0;
-  return loop;
+RecordPipeline pipeline_for(Recording const& recording, StageSetting const& setting, JointModel const& model) {
+  return {model, setting.filter, recording.rate_hz, recording.position.size(), setting.filter_section};
 }
 
 // the training's loop on another recording's reference
@@ -122,11 +115,13 @@ std::optional<RecordedLoop> loop_on(Recording const& recording, ModelStage const
   RecordedLoop loop = recorded_loop(recording, 1.0, {});
   loop.loop.disturbance_std = trained.loop.disturbance_std;
   loop.loop.disturbance_variance_error = trained.loop.disturbance_variance_error;
+  loop.loop.friction_wander = trained.loop.friction_wander;
+  loop.loop.friction_wander_variance_error = trained.loop.friction_wander_variance_error;
   return loop;
 }
 
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), quiet(loop.loop), loop.track,
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
                        stage.twin->twin.step_s());
   TwinGroup group;
   twin.simulate({}, 0, group);
@@ -201,13 +196,16 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   RecordPipeline const plain = pipeline_for(recording, setting, baseline.model());
   RecordPipeline full = pipeline_for(recording, setting, augmented.model());
   ProcessedRecord const before = plain.prepare(recording);
+  check_rows(before, recording.name);
   full.restrict_to(before.kept_rows);
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
   turn_waves(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
-  if (double const offset = head_offset(left_after); offset != 0.0) {
+  if (augmented.model().effects().empty()) {
+    left_after = left_before;  // one model: nothing to compare, nothing to refit
+  } else if (double const offset = head_offset(left_after); offset != 0.0) {
     left_after.array() -= offset;
     result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
     // the comparison must not gain by it: the baseline takes its own, or none if that is better
@@ -217,8 +215,6 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   result.energy = before.torque.squaredNorm();
   result.before_energy = left_before.squaredNorm();
   result.after_energy = left_after.squaredNorm();
-  result.before = std::sqrt(result.before_energy / result.energy);
-  result.after = std::sqrt(result.after_energy / result.energy);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i) {
     auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(i));
     auto const width = static_cast<Eigen::Index>(augmented.model().effects()[i].effect->n_linear());

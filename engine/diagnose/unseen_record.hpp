@@ -5,7 +5,8 @@
 //            parameters that carry the same attenuation)
 // Rows       those of the baseline's mask, for both
 // Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
-//            errors, and said so; the baseline takes its own, or none where that is better for it
+//            errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
+//            named both are one and take none
 // Phase      of waves locked to the position: turned to what fits the first 5 % best when that is beyond three standard
 //            deviations, size and order kept, and said so
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
@@ -20,7 +21,7 @@
 namespace torquescope {
 
 struct UnseenResult {
-  double before = unknown, after = unknown, floor = unknown;     // relerr
+  double floor = unknown;                                        // relerr
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
   std::vector<double> without{};                                 // residual energy with all effects but one, per effect
   TorqueTrace trace{};
@@ -28,7 +29,7 @@ struct UnseenResult {
   std::vector<std::string> nuisances{};
 };
 
-// Errors     as the pipeline
+// Errors     as the pipeline; Error 65 when fewer than 100 rows are left between reversals
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented);
 

@@ -43,6 +43,14 @@ bool Effect::exists_on(JointKind joint) const {
   });
 }
 
+bool Effect::is_event() const {
+  return std::any_of(parameters().begin(), parameters().end(), [](auto const& one) { return one.is_instant(); });
+}
+
+bool Effect::is_wave() const {
+  return n_shape() > 0 && (parameters()[n_linear_].is_order() || parameters()[n_linear_].is_frequency());
+}
+
 std::vector<ParameterRange> Effect::shape_bounds(JointScales const& scales) const {
   return ranges(std::span(parameters()).subspan(n_linear_), scales);
 }

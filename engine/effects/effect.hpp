@@ -54,6 +54,10 @@ struct EffectParameter {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
   }
   Sign sign() const { return lower.factor == 0.0 ? Sign::non_negative : Sign::any; }
+  // what the parameter is, told by what its bounds are relative to
+  bool is_instant() const { return is_shape && lower.to == RelativeTo::instant; }              // of this recording
+  bool is_order() const { return is_shape && lower.to == RelativeTo::lowest_order; }           // waves per turn or m
+  bool is_frequency() const { return is_shape && lower.to == RelativeTo::slowest_frequency; }  // waves per second
 };
 
 inline EffectParameter shape_parameter(std::string name, std::string unit_revolute, std::string unit_prismatic,
@@ -136,7 +140,9 @@ class Effect {
 
   std::size_t n_linear() const { return n_linear_; }
   std::size_t n_shape() const { return parameters().size() - n_linear_; }
-  bool exists_on(JointKind joint) const;                                // false: it needs an angle
+  bool exists_on(JointKind joint) const;  // false: it needs an angle
+  bool is_event() const;                  // it begins at an instant: it belongs to one recording
+  bool is_wave() const;  // of an order or a frequency: several may be there at once, each stands for itself
   std::vector<ParameterRange> shape_bounds(JointScales const&) const;   // n_shape()
   std::vector<ParameterRange> linear_bounds(JointScales const&) const;  // n_linear()
   // least squares can fit it and a plant can hold it as it is: no shape, no memory, nothing but the motion

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/optim/optimiser.hpp"
+
 namespace torquescope {
 
 namespace {
@@ -15,6 +17,12 @@ bool contains(std::vector<std::string> const& names, std::string const& name) {
 std::vector<std::string> catalogue_names() {
   std::vector<std::string> names;
   for (Effect const* effect : effect_choices()) names.push_back(effect->name());
+  return names;
+}
+
+std::vector<std::string> optimiser_names() {
+  std::vector<std::string> names;
+  for (auto const& choice : optimiser_choices()) names.push_back(choice.name);
   return names;
 }
 
@@ -51,7 +59,9 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"twins", &DiagnoseOptions::twins, "1", 60.0, 100000.0,
         "clean twins that say what chance does; p-values reach down to 1 / (twins + 1)"},
        {"q", &DiagnoseOptions::q, "1", 1e-6, 0.5, "share of false names that is put up with among the names given"},
-       {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"}});
+       {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"},
+       {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
+        "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"}});
   return table;
 }
 

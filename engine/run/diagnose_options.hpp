@@ -17,6 +17,7 @@ struct DiagnoseOptions {
   std::int64_t twins = 200;
   double q = 0.05;
   std::int64_t max_effects = 5;
+  std::string shape_optimiser = "de";
 
   static OptionTable<DiagnoseOptions> const& table();
 };

@@ -63,6 +63,7 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   input.selection.candidates = parts.effects;
   input.selection.q = parts.diagnose.q;
   input.selection.max_effects = static_cast<std::size_t>(parts.diagnose.max_effects);
+  input.selection.shape_optimiser = parts.diagnose.shape_optimiser;
   input.twins = static_cast<std::size_t>(parts.diagnose.twins);
   input.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input.threads = request.threads.count;

@@ -12,7 +12,16 @@ namespace torquescope {
 namespace {
 
 // numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t { torque = 0, disturbance = 1, position = 2, level = 3, start = 4, phase = 5 };
+enum class TwinStream : std::uint32_t {
+  torque = 0,
+  disturbance = 1,
+  position = 2,
+  level = 3,
+  start = 4,
+  phase = 5,
+  wander = 6,
+  wander_level = 7
+};
 
 std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
   constexpr std::uint32_t most_streams = 8;
@@ -57,12 +66,13 @@ class LaneNoise {
   std::size_t newest_ = 0;
 };
 
-// how much larger than the loop's each twin's disturbance is
-void draw_levels(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* level) {
+// how much larger than the loop's each twin's noise of this standard deviation is
+void draw_levels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std, double variance_error,
+                 double* level) {
   std::fill_n(level, twin_lanes, 1.0);
-  double const variance = loop.disturbance_std * loop.disturbance_std;
-  if (variance == 0.0 || loop.disturbance_variance_error == 0.0) return;
-  LaneNoise error(address, TwinStream::level, group, white(loop.disturbance_variance_error));
+  double const variance = std * std;
+  if (variance == 0.0 || variance_error == 0.0) return;
+  LaneNoise error(address, stream, group, white(variance_error));
   error.next(level);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane)
     level[lane] = std::sqrt(std::max(0.0, variance + level[lane]) / variance);
@@ -154,17 +164,64 @@ void foresee(LaneInstant& at) {
   }
 }
 
-// held: torque that acts during the tick
-void load_lanes(TwinJoint const& joint, double const* held, LaneDemand const& demand, LaneTorques& torques) {
+// the level of dry friction in all lanes, 1 at the start
+class LaneFriction {
+ public:
+  LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s)
+      : wanders_(loop.friction_wander > 0.0),
+        change_(address, TwinStream::wander, group, white(loop.friction_wander * std::sqrt(tick_s))) {
+    std::fill_n(level_, twin_lanes, 1.0);
+    draw_levels(address, TwinStream::wander_level, group, loop.friction_wander, loop.friction_wander_variance_error,
+                size_);
+  }
+
+  // at this tick
+  double const* level() const { return level_; }
+  void next() {
+    if (!wanders_) return;
+    double change[twin_lanes];
+    change_.next(change);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      level_[lane] = std::max(0.0, level_[lane] + size_[lane] * change[lane]);
+  }
+
+ private:
+  bool wanders_;
+  LaneNoise change_;
+  double level_[twin_lanes], size_[twin_lanes];
+};
+
+// An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
+// beyond this share that stays goes by the acceleration of the step before.
+constexpr double least_inertia_left = 0.05;
+
+// held: torque that acts during the tick; friction: level of the joint's own
+void load_lanes(TwinJoint const& joint, double const* held, double const* friction, LaneDemand const& demand,
+                LaneState const& state, LaneTorques& torques) {
+  double const most_taken = (1.0 - least_inertia_left) * joint.lanes.inertia;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    torques.held[lane] = held[lane] - demand.smooth[lane];
-    torques.forward[lane] = joint.coulomb_forward + demand.forward[lane];
+    torques.added_inertia[lane] = std::max(demand.inertia[lane], -most_taken);
+    double const lagging = (demand.inertia[lane] - torques.added_inertia[lane]) * state.ddq[lane];
+    torques.held[lane] = held[lane] - demand.smooth[lane] - lagging;
+    torques.forward[lane] = friction[lane] * joint.coulomb_forward + demand.forward[lane];
     // friction that an effect turned into a drive is none at all
-    torques.backward[lane] = std::min(joint.coulomb_backward + demand.backward[lane], torques.forward[lane]);
+    torques.backward[lane] =
+        std::min(friction[lane] * joint.coulomb_backward + demand.backward[lane], torques.forward[lane]);
   }
 }
 
 }  // namespace
+
+TwinLoop noiseless(TwinLoop loop) {
+  loop.encoder_step = 0.0;
+  loop.torque_noise = white(0.0);
+  loop.disturbance_std = 0.0;
+  loop.disturbance_variance_error = 0.0;
+  loop.position_noise_std = 0.0;
+  loop.friction_wander = 0.0;
+  loop.friction_wander_variance_error = 0.0;
+  return loop;
+}
 
 CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
     : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)) {
@@ -196,9 +253,11 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneNoise disturbance(address, TwinStream::disturbance, group, white(loop_.disturbance_std));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
   double disturbance_level[twin_lanes];
-  draw_levels(address, group, loop_, disturbance_level);
+  draw_levels(address, TwinStream::level, group, loop_.disturbance_std, loop_.disturbance_variance_error,
+              disturbance_level);
   double encoder_phase[twin_lanes];
   draw_phases(address, group, loop_, encoder_phase);
+  LaneFriction friction(address, group, loop_, 1.0 / track_.rate_hz);
   LaneController controller(loop_.law, track_);
   std::vector<std::unique_ptr<LaneEffect>> effects;
   for (auto const& make : joint_.effects) effects.push_back(make());
@@ -238,6 +297,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     }
 
     // move on to the next tick
+    friction.next();
     disturbance.next(noise);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       noise[lane] = command[lane] + disturbance_level[lane] * noise[lane] - joint_.offset;
@@ -247,7 +307,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (auto const& effect : effects)
       if (!effect->follows_steps()) effect->add(middle, of_tick);
     if (!any_follows_steps) {
-      load_lanes(joint_, noise, of_tick, torques);
+      load_lanes(joint_, noise, friction.level(), of_tick, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
@@ -257,7 +317,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       LaneDemand demand = of_tick;
       for (auto const& effect : effects)
         if (effect->follows_steps()) effect->add(at, demand);
-      load_lanes(joint_, noise, demand, torques);
+      load_lanes(joint_, noise, friction.level(), demand, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }
   }

@@ -3,7 +3,7 @@
 // encoder and its noise. What the pipeline finds in them is what it finds when nothing is missing.
 //
 // At a tick  (one sample) the encoder reads position + position noise; the law answers and holds its torque until the next
-//            tick; torque noise is added to what is logged, disturbance to what acts
+//            tick; torque noise is added to what is logged, disturbance to what acts; dry friction may wander
 // Start      at the recording's first velocity, anywhere within the encoder step of its first position
 // Encoder    where its steps lie is drawn anew for every twin: with the steps in one place all twins of an undisturbed joint
 //            share nearly every reading, and the recording's own rounding passes for physics
@@ -34,7 +34,14 @@ struct TwinLoop {
   // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder
+  // the level of dry friction as a random walk: standard deviation of its change in one second, as a share of it; every
+  // twin draws a size of its own, as above
+  double friction_wander = 0.0;
+  double friction_wander_variance_error = 0.0;
 };
+
+// the same law with nothing random about it
+TwinLoop noiseless(TwinLoop loop);
 
 // what the recording prescribes
 struct TwinTrack {

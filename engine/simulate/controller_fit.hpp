@@ -25,15 +25,9 @@
 
 #include "engine/simulate/autoregression.hpp"
 #include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/loop_signals.hpp"
 
 namespace torquescope {
-
-struct LoopSignals {
-  Eigen::VectorXd const& time_s;
-  Eigen::VectorXd const& reference;
-  Eigen::VectorXd const& position;
-  Eigen::VectorXd const& torque;
-};
 
 struct ControllerFit {
   LoopLaw law;

@@ -34,7 +34,10 @@ class CatalogueEffect final : public LaneEffect {
         demand.forward[lane] += sliding(*runners_[lane], state, 1.0);
         demand.backward[lane] += sliding(*runners_[lane], state, -1.0);
       } else {
-        demand.smooth[lane] += std::as_const(*runners_[lane]).torque(state);
+        // with the acceleration of the step before, what goes with the acceleration would lag behind it
+        double const coasting = at_acceleration(*runners_[lane], state, 0.0);
+        demand.smooth[lane] += coasting;
+        demand.inertia[lane] += at_acceleration(*runners_[lane], state, 1.0) - coasting;
       }
     }
   }
@@ -59,6 +62,11 @@ class CatalogueEffect final : public LaneEffect {
   void shift(LaneInstant const& tick, double* channel) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       channel[lane] += runners_[lane]->torque(state_of(tick, lane), tick.step_s);
+  }
+
+  static double at_acceleration(EffectRunner const& runner, JointState state, double ddq) {
+    state.ddq = ddq;
+    return runner.torque(state);
   }
 
   // the branch that moves in `direction`, continued to rest

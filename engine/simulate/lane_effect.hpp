@@ -1,7 +1,7 @@
 #pragma once
 // A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the twin.
 //
-// Joint      add(): the joint needs smooth + (forward while dq > 0, backward while dq < 0, anything between them at rest);
+// Joint      add(): the joint needs smooth + inertia ddq + (forward while dq > 0, backward while dq < 0, anything between them at rest);
 //            called once per integration step or tick, in the order of time, so that a memory can advance by step_s
 // Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
 //            controller sees it) and to the torque that is logged (nobody else does); called once per tick
@@ -29,6 +29,7 @@ struct LaneInstant {
 
 struct LaneDemand {
   alignas(64) double smooth[twin_lanes] = {};
+  alignas(64) double inertia[twin_lanes] = {};
   alignas(64) double forward[twin_lanes] = {};
   alignas(64) double backward[twin_lanes] = {};
 };

@@ -18,7 +18,7 @@ struct LaneAccelerations {
   alignas(64) double from[twin_lanes];
   alignas(64) double weight[twin_lanes];
   alignas(64) double weight_slope[twin_lanes];
-  double damping;
+  alignas(64) double damping[twin_lanes];
 };
 }  // namespace torquescope
 #endif
@@ -43,7 +43,7 @@ struct Field {
   HWY_INLINE Field(LaneAccelerations const& a, std::size_t lane)
       : held_forward(hn::Load(d, a.held_forward + lane)),
         held_backward(hn::Load(d, a.held_backward + lane)),
-        damping(hn::Set(d, a.damping)),
+        damping(hn::Load(d, a.damping + lane)),
         from(hn::Load(d, a.from + lane)),
         weight(hn::Load(d, a.weight + lane)),
         weight_slope(hn::Load(d, a.weight_slope + lane)),
@@ -177,11 +177,12 @@ void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double st
                    LaneState& state) {
   bool const has_weight = joint.gravity_sin != 0.0 || joint.gravity_cos != 0.0;
   LaneAccelerations a;
-  double const per_inertia = 1.0 / joint.inertia;
-  a.damping = joint.viscous * per_inertia;
+  alignas(64) double per_inertia[twin_lanes];
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    a.held_forward[lane] = (torques.held[lane] - torques.forward[lane]) * per_inertia;
-    a.held_backward[lane] = (torques.held[lane] - torques.backward[lane]) * per_inertia;
+    per_inertia[lane] = 1.0 / (joint.inertia + torques.added_inertia[lane]);
+    a.damping[lane] = joint.viscous * per_inertia[lane];
+    a.held_forward[lane] = (torques.held[lane] - torques.forward[lane]) * per_inertia[lane];
+    a.held_backward[lane] = (torques.held[lane] - torques.backward[lane]) * per_inertia[lane];
     a.from[lane] = state.q[lane];
     a.weight[lane] = 0.0;
     a.weight_slope[lane] = 0.0;
@@ -189,8 +190,8 @@ void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double st
   if (has_weight) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       double const sine = std::sin(state.q[lane]), cosine = std::cos(state.q[lane]);
-      a.weight[lane] = (joint.gravity_sin * sine + joint.gravity_cos * cosine) * per_inertia;
-      a.weight_slope[lane] = (joint.gravity_sin * cosine - joint.gravity_cos * sine) * per_inertia;
+      a.weight[lane] = (joint.gravity_sin * sine + joint.gravity_cos * cosine) * per_inertia[lane];
+      a.weight_slope[lane] = (joint.gravity_sin * cosine - joint.gravity_cos * sine) * per_inertia[lane];
     }
     HWY_DYNAMIC_DISPATCH(advance_heavy)(a, step_s, steps, state);
   } else {

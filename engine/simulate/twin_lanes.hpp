@@ -2,7 +2,7 @@
 // The equation of motion of a joint for many twins at once, side by side in vector registers: the inner loop of every
 // clean twin.
 //
-// Equation   inertia ddq = held - viscous dq - (g_sin sin q + g_cos cos q) - dry,
+// Equation   (inertia + added) ddq = held - viscous dq - (g_sin sin q + g_cos cos q) - dry,
 //              dry = forward while dq > 0, backward while dq < 0, anything in [backward, forward] at rest
 // Steps      second-order Taylor while sliding; where a velocity meets zero the step is cut, the velocity set to zero,
 //            and the rest of the step begins with the question whether friction holds (set-valued, no smoothing)
@@ -11,7 +11,7 @@
 // Shapes     twin_lanes twins, one lane each; unused lanes may hold anything finite
 // Units      SI; held, forward, backward in N m or N
 // Bits       the same on every instruction set: additions and multiplications only, one rounding each, no fused ones
-// Requires   inertia > 0, backward <= forward, viscous step / inertia < 1
+// Requires   inertia + added > 0, backward <= forward, viscous step / (inertia + added) < 1
 // Threads    any number, each with its own state; does not allocate
 
 #include <cstddef>
@@ -31,6 +31,7 @@ struct LaneTorques {
   alignas(64) double held[twin_lanes] = {};  // motor and disturbance, less whatever else does not depend on dq here
   alignas(64) double forward[twin_lanes] = {};
   alignas(64) double backward[twin_lanes] = {};
+  alignas(64) double added_inertia[twin_lanes] = {};
 };
 
 struct LaneJoint {

@@ -11,7 +11,7 @@
     fade.gap_history                                   all runs: array [run][generation]
     fade["population"][3, -1]                          of the last generation of run 3 only
     fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
-    result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found, read_diagnosis.py
+    result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found, diagnosis_records.py
 
 On the command line, `read_result.py R.h5` prints a summary.
 """
@@ -113,7 +113,7 @@ class Result(Group):
     """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
 
     `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the records
-    of read_diagnosis.py. Whatever else the file has is there under its own name: `result.data.regressor_health`.
+    of diagnosis_records.py. Whatever else the file has is there under its own name: `result.data.regressor_health`.
     Use it in a `with` block, or close() it.
     """
 

@@ -107,7 +107,7 @@ class Study:
         self.job, self.model = View(self._result.job), View(self._result.model)
         self.job_text = str(np.atleast_1d(self.job.text)[0])
         self.provenance = View(self._result.provenance)
-        self.diagnosis = self._result.diagnosis  # read_diagnosis.py; None for an identification
+        self.diagnosis = self._result.diagnosis  # diagnosis_records.py; None for an identification
         self.train = Recording(self._result.train)
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
         self.health = View(self._result.data.regressor_health)

@@ -201,12 +201,18 @@ TorqueTrace invented_trace() {
   return trace;
 }
 
-JointDiagnosis invented_joint() {
+// as far as a fit alone goes
+JointDiagnosis fitted_joint() {
   JointDiagnosis joint;
   joint.unit_position = "rad";
   joint.unit_torque = "N m";
   joint.baseline = invented_parameters(0.41, 0.52);
   joint.train_relerr = 0.1182;
+  return joint;
+}
+
+JointDiagnosis invented_joint() {
+  JointDiagnosis joint = fitted_joint();
   joint.validation_relerr = 0.1213;
   joint.cv_relerr = 0.1196;
   joint.map = invented_map();
@@ -304,11 +310,7 @@ Diagnosis invented_unexplained() {
 }
 
 Diagnosis invented_insufficient() {
-  JointDiagnosis joint;
-  joint.unit_position = "rad";
-  joint.unit_torque = "N m";
-  joint.baseline = invented_parameters(0.41, 0.52);
-  joint.train_relerr = 0.1182;
+  JointDiagnosis joint = fitted_joint();
   joint.excitation = {{"the other direction of motion", {"viscous", "coulomb"}}};
   return of(Verdict::insufficient, std::move(joint), "only one direction of motion was recorded",
             "record both directions");

@@ -37,7 +37,9 @@ void add_colour_option(CLI::App& command, ChosenCommand& chosen);
 void add_quiet_option(CLI::App& command, ChosenCommand& chosen);
 void add_json_option(CLI::App& command, ChosenCommand& chosen);
 void add_progress_option(CLI::App& command, ChosenCommand& chosen);
-// for --threads: refuses everything but 1 .. 100 000, in our words
-std::function<std::string(std::string const&)> whole_number_from_one();
+// --out of the commands that write a result file
+void add_result_option(CLI::App& command, std::string& out);
+// refuses everything but 1 .. 100 000, in our words; 0 stays for "not given"
+void add_threads_option(CLI::App& command, int& threads);
 
 }  // namespace torquescope

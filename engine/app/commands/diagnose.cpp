@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/commands/notes.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
 #include "engine/app/session_progress.hpp"
@@ -63,15 +64,6 @@ class StageTotals {
   ProgressUpdate current_{};
 };
 
-void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
-  session.note(session.topic_line("job", experiment.diagnose_line()));
-  session.note(session.topic_line("data", experiment.data_line()));
-  session.note(session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason,
-                                                         vector_target(), experiment.seed())));
-  if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
-  for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
-}
-
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     std::string line =
@@ -95,16 +87,6 @@ void print_diagnosis(Session const& session, Diagnosis const& diagnosis, std::st
   session.document(json);
 }
 
-void print_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& output) {
-  Ink const& ink = session.note_ink();
-  std::string const file = ink.name(printable(output.string()));
-  std::string line = fmt::format("{}{}  {}", pad_right(word, 7), file, bytes_text(std::filesystem::file_size(output)));
-  std::string const& json = session.options().json;
-  if (!json.empty() && json != "-") line += ", " + ink.name(printable(json));
-  session.note(line + "\n");
-  session.note(fmt::format("look   torquescope report {}\n", file));
-}
-
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
   Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
   std::filesystem::path const output =
@@ -115,7 +97,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     session.note(session.topic_line("done", "already diagnosed: nothing runs again"));
     ResultReader const reader(output);
     print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
-    print_whereabouts(session, "kept", output);
+    note_whereabouts(session, "kept", output, session.options().json);
     return ExitCode::ok;
   }
 
@@ -123,7 +105,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.threads = choose_threads(arguments.threads);
   request.output = output;
   request.stop_requested = stop_requested;
-  print_before_start(session, experiment, request.threads);
+  note_start(session, experiment.diagnose_line(), experiment, request.threads);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   StageTotals totals;
   Diagnosis diagnosis;
@@ -137,7 +119,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   print_baseline(session, diagnosis);
   print_stages(session, totals.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
-  print_whereabouts(session, "wrote", output);
+  note_whereabouts(session, "wrote", output, session.options().json);
   // whatever the verdict: the diagnosis itself succeeded
   return ExitCode::ok;
 }
@@ -154,15 +136,10 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       "  torquescope diagnose lab.toml --all --out lab_diagnosis.h5\n"
       "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
-  command->add_option("--out", arguments->out, "result file, HDF5 [NAME.h5 in this folder]")
-      ->type_name("R.h5")
-      ->group("results");
+  add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
   command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
-  command->add_option("--threads", arguments->threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
-      ->type_name("N")
-      ->check(whole_number_from_one())
-      ->group("machine");
+  add_threads_option(*command, arguments->threads);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

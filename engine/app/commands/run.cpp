@@ -3,16 +3,14 @@
 #include <CLI/Formatter.hpp>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "engine/app/commands/command.hpp"
+#include "engine/app/commands/notes.hpp"
 #include "engine/app/result/finished_result.hpp"
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
 #include "engine/app/result/result_tables.hpp"
 #include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/interrupt.hpp"
-#include "engine/app/terminal/plain_text.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
@@ -32,23 +30,6 @@ void print_results(Session const& session, ResultSummary const& summary) {
   session.document(result_json(summary));
 }
 
-void print_whereabouts(Session const& session, std::string const& word, ResultSummary const& summary) {
-  std::string const file = printable(summary.file.string());
-  Ink const& ink = session.note_ink();
-  session.note(fmt::format("{}{}  {}\n", pad_right(word, 7), ink.name(file), bytes_text(summary.bytes)));
-  session.note(fmt::format("look   torquescope report {}\n", ink.name(file)));
-}
-
-void print_before_start(Session const& session, Experiment const& experiment, ThreadChoice const& threads) {
-  session.note(session.topic_line("job", experiment.job_line()));
-  session.note(session.topic_line("data", experiment.data_line()));
-  session.note(session.topic_line("threads", fmt::format("{} ({}), {}, seed {}", threads.count, threads.reason,
-                                                         vector_target(), experiment.seed())));
-  for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
-  if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
-  for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
-}
-
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
   Experiment const experiment = Experiment::load(arguments.job);
   std::filesystem::path const output =
@@ -59,7 +40,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
-    print_whereabouts(session, "kept", summary);
+    note_whereabouts(session, "kept", output);
     return ExitCode::ok;
   }
 
@@ -67,7 +48,8 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   options.threads = choose_threads(arguments.threads);
   options.output = output;
   options.stop_requested = stop_requested;
-  print_before_start(session, experiment, options.threads);
+  note_start(session, experiment.job_line(), experiment, options.threads);
+  for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   {
     ProgressPrinter print_progress(progress_settings(session));
@@ -75,7 +57,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   }
   ResultSummary const summary = read_summary(output);
   print_results(session, summary);
-  print_whereabouts(session, "wrote", summary);
+  note_whereabouts(session, "wrote", output);
   return ExitCode::ok;
 }
 
@@ -90,14 +72,9 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope run lab.toml --threads 4 --out lab_4.h5\n"
       "  torquescope run lab.toml --quiet --json - | jq .estimators\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
-  command->add_option("--out", arguments->out, "result file, HDF5 [NAME.h5 in this folder]")
-      ->type_name("R.h5")
-      ->group("results");
+  add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
-  command->add_option("--threads", arguments->threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
-      ->type_name("N")
-      ->check(whole_number_from_one())
-      ->group("machine");
+  add_threads_option(*command, arguments->threads);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -27,6 +27,14 @@ void add_word_option(CLI::App& command, std::string const& name, Choice& target,
       ->group("terminal");
 }
 
+// why CLI11 must refuse the text; empty: it need not
+std::string no_whole_number_from_one(std::string const& text) {
+  int value = 0;
+  auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  bool const fits = failure == std::errc{} && end == text.data() + text.size() && value >= 1 && value <= 100'000;
+  return fits ? "" : fmt::format("\"{}\" is no whole number from 1 to 100000", text);
+}
+
 }  // namespace
 
 void add_colour_option(CLI::App& command, ChosenCommand& chosen) {
@@ -55,13 +63,15 @@ void add_json_option(CLI::App& command, ChosenCommand& chosen) {
       ->group("results");
 }
 
-std::function<std::string(std::string const&)> whole_number_from_one() {
-  return [](std::string const& text) {
-    int value = 0;
-    auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    bool const fits = failure == std::errc{} && end == text.data() + text.size() && value >= 1 && value <= 100'000;
-    return fits ? "" : fmt::format("\"{}\" is no whole number from 1 to 100000", text);
-  };
+void add_result_option(CLI::App& command, std::string& out) {
+  command.add_option("--out", out, "result file, HDF5 [NAME.h5 in this folder]")->type_name("R.h5")->group("results");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
+      ->type_name("N")
+      ->check(no_whole_number_from_one)
+      ->group("machine");
 }
 
 }  // namespace torquescope

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
@@ -15,18 +17,17 @@ namespace fs = std::filesystem;
 class CrsStudy : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    path_ = fs::temp_directory_path() / "torquescope_crs_study.h5";
-    fs::remove(path_);
+    folder_ = std::make_unique<test::TemporaryFolder>();
     IdentifyOptions options;
     options.threads = {2, "test"};
-    options.output = path_;
+    options.output = *folder_ / "R.h5";
     identify(Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs/crs_a465_joint.toml"), options, ProgressSink{});
   }
-  static void TearDownTestSuite() { fs::remove(path_); }
-  ResultReader const result{path_};
+  static void TearDownTestSuite() { folder_.reset(); }
+  ResultReader const result{*folder_ / "R.h5"};
 
  private:
-  static inline fs::path path_;
+  static inline std::unique_ptr<test::TemporaryFolder> folder_;
 };
 
 TEST_F(CrsStudy, OlsGivesTheRowOfTable3AndItsMse) {

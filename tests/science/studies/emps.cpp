@@ -1,50 +1,38 @@
 // The real axis as a whole job: the published parameters and errors (Janot, Gautier, Brunot 2019) come out.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <string>
 
 #include "engine/run/workflows.hpp"
 #include "engine/store/result_reader.hpp"
+#include "support/recordings_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path recordings_folder() {
-  if (char const* folder = std::getenv("TORQUESCOPE_RECORDINGS")) return folder;
-  return fs::path(TORQUESCOPE_SOURCE_DIR) / "../shared/recordings";
-}
-
 // jobs/emps.toml, pointed at the recordings of this machine
-fs::path job_for(fs::path const& recordings) {
-  std::ifstream file(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs/emps.toml");
-  std::stringstream text;
-  text << file.rdbuf();
-  std::string job = text.str();
+std::string job_for(fs::path const& recordings) {
+  std::string job = test::bytes_of(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs/emps.toml");
   std::string const published = "../../shared/recordings";
   for (auto at = job.find(published); at != std::string::npos; at = job.find(published))
     job.replace(at, published.size(), fs::absolute(recordings).lexically_normal().string());
-  fs::path const path = fs::temp_directory_path() / "torquescope_emps.toml";
-  std::ofstream(path) << job;
-  return path;
+  return job;
 }
 
 TEST(Emps, GivesThePublishedParametersAndErrors) {
-  fs::path const recordings = recordings_folder();
-  if (!fs::exists(recordings / "emps/emps_train.csv.gz"))
-    GTEST_SKIP() << "no EMPS recording: set TORQUESCOPE_RECORDINGS (README, real recordings)";
-  fs::path const output = fs::temp_directory_path() / "torquescope_emps.h5";
-  fs::remove(output);
+  fs::path const recordings = test::recordings_folder();
+  SKIP_WITHOUT(recordings / "emps/emps_train.csv.gz");
+  test::TemporaryFolder const folder;
   IdentifyOptions options;
   options.threads = {2, "test"};
-  options.output = output;
-  identify(Experiment::load(job_for(recordings)), options, ProgressSink{});
+  options.output = folder / "emps.h5";
+  identify(Experiment::load(folder.write("emps.toml", job_for(recordings))), options, ProgressSink{});
 
-  ResultReader const result(output);
+  ResultReader const result(options.output);
   auto const parameters = result.numbers("/runs/ols/parameters").values;
   EXPECT_NEAR(parameters[0], 95.1, 0.3);
   EXPECT_NEAR(parameters[1], 203.5, 0.5);
@@ -59,7 +47,6 @@ TEST(Emps, GivesThePublishedParametersAndErrors) {
   // the population methods find the same optimum
   for (std::string const label : {"de", "fade"})
     EXPECT_NEAR(result.attribute<double>("/runs/" + label, "relerr_median"), train, 1e-5) << label;
-  fs::remove(output);
 }
 
 }  // namespace

@@ -6,28 +6,26 @@
 
 #include "engine/run/workflows.hpp"
 #include "kernels/dispatch.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string digest_of(std::string const& job, int threads, std::string const& tag) {
-  fs::path const output = fs::temp_directory_path() / ("torquescope_same_bits_" + tag + ".h5");
-  fs::remove(output);
+std::string digest_of(std::string const& job, int threads) {
+  test::TemporaryFolder const folder;
   IdentifyOptions options;
   options.threads = {threads, "test"};
-  options.output = output;
-  auto const report =
-      identify(Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job), options, ProgressSink{});
-  fs::remove(output);
-  return report.content_sha256;
+  options.output = folder / "R.h5";
+  auto const experiment = Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job);
+  return identify(experiment, options, ProgressSink{}).content_sha256;
 }
 
 TEST(SameBits, ForOneTwoAndThreeThreads) {
   for (std::string const job : {"smoke.toml", "crs_a465_joint.toml"}) {
     std::set<std::string> digests;
-    for (int threads : {1, 2, 3}) digests.insert(digest_of(job, threads, std::to_string(threads)));
+    for (int threads : {1, 2, 3}) digests.insert(digest_of(job, threads));
     EXPECT_EQ(digests.size(), 1u) << job;
     EXPECT_EQ(digests.begin()->size(), 64u);
   }
@@ -35,7 +33,7 @@ TEST(SameBits, ForOneTwoAndThreeThreads) {
 
 TEST(SameBits, ForMoreThreadsThanRuns) {
   // smoke has 4 runs: nine threads make teams of two that split each population
-  EXPECT_EQ(digest_of("smoke.toml", 1, "alone"), digest_of("smoke.toml", 9, "teams"));
+  EXPECT_EQ(digest_of("smoke.toml", 1), digest_of("smoke.toml", 9));
 }
 
 TEST(SameBits, ForEveryInstructionSetWithFma) {
@@ -44,7 +42,7 @@ TEST(SameBits, ForEveryInstructionSetWithFma) {
   for (auto const target : kernels::supported_instruction_sets()) {
     ASSERT_TRUE(kernels::force_instruction_set(target));
     if (!kernels::instruction_set_has_fma()) continue;
-    digests.insert(digest_of("smoke.toml", 2, std::string(target)));
+    digests.insert(digest_of("smoke.toml", 2));
     ++tried;
   }
   kernels::release_instruction_set();

@@ -4,7 +4,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +13,8 @@
 #include "engine/run/diagnosis_reader.hpp"
 #include "engine/run/diagnosis_result.hpp"
 #include "support/example_diagnosis.hpp"
-#include "unit/store/example_result.hpp"
+#include "support/simulated_job.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
@@ -28,18 +28,7 @@ using ::testing::internal::CaptureStdout;
 using ::testing::internal::GetCapturedStderr;
 using ::testing::internal::GetCapturedStdout;
 
-std::string const job_text = R"(
-[model]
-terms = ["inertia", "viscous", "coulomb", "offset"]
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = 200
-duration_s = 5
-[simulate.plant]
-inertia = 0.5
-viscous = 0.2
-coulomb = 0.1
-)";
+std::string const job_text = test::joint_model + test::simulated_joint;
 
 struct Outcome {
   ExitCode code = ExitCode::ok;
@@ -50,7 +39,7 @@ class DiagnoseCommand : public ::testing::Test {
  protected:
   DiagnoseCommand() { write_job(job_text); }
 
-  void write_job(std::string const& text) const { std::ofstream(folder / "job.toml") << text; }
+  void write_job(std::string const& text) const { folder.write("job.toml", text); }
 
   // torquescope diagnose job.toml --out R.h5 ...
   Outcome run(std::vector<std::string> const& more = {}) {
@@ -84,7 +73,7 @@ class DiagnoseCommand : public ::testing::Test {
 
   std::filesystem::path result() const { return folder / "R.h5"; }
 
-  example::Folder folder{};
+  test::TemporaryFolder folder{};
   Diagnosis found = example::invented_diagnosis();
   int diagnosed = 0;
 };
@@ -128,7 +117,7 @@ TEST_F(DiagnoseCommand, JsonOnStdoutIsThatDocumentOnly) {
 TEST_F(DiagnoseCommand, JsonFileIsWrittenAndNamed) {
   std::string const file = (folder / "V.json").string();
   Outcome const outcome = run({"--json", file});
-  EXPECT_EQ(example::bytes_of(file), diagnosis_json(found));
+  EXPECT_EQ(test::bytes_of(file), diagnosis_json(found));
   EXPECT_THAT(outcome.err, HasSubstr("V.json"));
 }
 

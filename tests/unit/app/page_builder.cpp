@@ -1,9 +1,8 @@
 #include "engine/app/report/page_builder.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
@@ -12,17 +11,11 @@ namespace fs = std::filesystem;
 
 class PageProgram : public testing::Test {
  protected:
-  PageProgram() {
-    char pattern[] = "/tmp/torquescope_page_XXXXXX";
-    folder_ = ::mkdtemp(pattern);
-  }
-  ~PageProgram() override { fs::remove_all(folder_); }
   fs::path make(std::string const& name) const {
     fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << "";
-    return folder_ / name;
+    return folder_.write(name, "");
   }
-  fs::path folder_;
+  test::TemporaryFolder folder_{};
 };
 
 TEST_F(PageProgram, IsFoundInTheSourceTreeAboveTheBuildFolder) {

@@ -2,42 +2,24 @@
 // Files, job sections and caught problems for the tests of engine/data.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "engine/base/error.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope::data_test {
 
-// a folder of its own per test process, gone at its end
-class TempFolder {
- public:
-  TempFolder() : path_(std::filesystem::temp_directory_path() / ("torquescope_data_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~TempFolder() { std::filesystem::remove_all(path_); }
-  TempFolder(TempFolder const&) = delete;
-  TempFolder& operator=(TempFolder const&) = delete;
-  std::filesystem::path operator/(std::string const& name) const { return path_ / name; }
-  std::filesystem::path const& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline TempFolder const& folder() {
-  static TempFolder const one;
+// one per test process
+inline test::TemporaryFolder const& folder() {
+  static test::TemporaryFolder const one;
   return one;
 }
 
 inline std::filesystem::path write(std::string const& name, std::string const& bytes) {
-  auto const path = folder() / name;
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
+  return folder().write(name, bytes);
 }
 
 // the job's [recording] with a place for every key

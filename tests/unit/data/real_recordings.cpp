@@ -1,28 +1,19 @@
-// Real machines, where their recordings are at hand ($TORQUESCOPE_RECORDINGS, or ../shared/recordings beside the
-// sources).
+// Real machines, where their recordings are at hand (tests/support/recordings_folder.hpp).
 
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
 #include <cmath>
-#include <cstdlib>
 
 #include "engine/data/excitation.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "support/recordings_folder.hpp"
 
 namespace torquescope {
 namespace {
 
-std::filesystem::path recordings() {
-  char const* folder = std::getenv("TORQUESCOPE_RECORDINGS");
-  return folder != nullptr ? std::filesystem::path(folder)
-                           : std::filesystem::path(TORQUESCOPE_SOURCE_DIR) / ".." / "shared" / "recordings";
-}
-
-#define SKIP_WITHOUT(path)            \
-  if (!std::filesystem::exists(path)) \
-  GTEST_SKIP() << "no " << (path) << ": set TORQUESCOPE_RECORDINGS to the folder of recordings"
+using test::recordings_folder;
 
 Section section() {
   Section recording;
@@ -53,7 +44,7 @@ struct Regression {
 
 Regression emps(std::string const& name) {
   auto const recording =
-      read(recordings() / "emps" / name, {{"time", "t_s"}, {"position", "q_m"}, {"torque", "u_V"}}, 35.15065);
+      read(recordings_folder() / "emps" / name, {{"time", "t_s"}, {"position", "q_m"}, {"torque", "u_V"}}, 35.15065);
   auto const motion = differentiate(recording, emps_filter(), section());
   ParallelFilter const filter(emps_filter(), motion.rate_hz, motion.q.size(), section());
   Regression regression{{filter.kept_samples(), 4}, filter.apply(motion.torque)};
@@ -70,7 +61,7 @@ double relative_error(Regression const& regression, Eigen::Vector4d const& theta
 // published: M 95.1089, Fv 203.5034, Fc 20.3935, offset -3.1648; 4.0834 % on train, 5.9824 % on pulses
 // (Janot, Gautier, Brunot 2019; their decimation filter is a Chebyshev, ours a Butterworth)
 TEST(EmpsBenchmark, LeastSquaresFindsThePublishedParameters) {
-  SKIP_WITHOUT(recordings() / "emps" / "emps_train.csv.gz");
+  SKIP_WITHOUT(recordings_folder() / "emps" / "emps_train.csv.gz");
   auto const train = emps("emps_train.csv.gz");
   Eigen::Vector4d const theta = train.columns.colPivHouseholderQr().solve(train.torque);
   EXPECT_NEAR(theta[0], 95.1, 0.3);
@@ -86,7 +77,7 @@ TEST(EmpsBenchmark, LeastSquaresFindsThePublishedParameters) {
 }
 
 TEST(EmpsBenchmark, StampsPrintedWithRoundingNeedNoResampling) {
-  auto const path = recordings() / "emps" / "emps_train.csv.gz";
+  auto const path = recordings_folder() / "emps" / "emps_train.csv.gz";
   SKIP_WITHOUT(path);
   auto const recording = read(path, {{"time", "t_s"}, {"position", "q_m"}, {"torque", "F_N"}});
   EXPECT_EQ(recording.rate_hz, 1000);
@@ -99,7 +90,7 @@ TEST(EmpsBenchmark, StampsPrintedWithRoundingNeedNoResampling) {
 }
 
 TEST(PandaRecording, JitteredClockIsResampledAt1000Hz) {
-  auto const path = recordings() / "panda" / "panda_exciting_traj1.csv.gz";
+  auto const path = recordings_folder() / "panda" / "panda_exciting_traj1.csv.gz";
   SKIP_WITHOUT(path);
   auto const recording = read(path, {{"time", "t_s"}, {"position", "q1_rad"}, {"torque", "tau1_Nm"}});
   EXPECT_EQ(recording.rate_hz, 1000);
@@ -110,7 +101,7 @@ TEST(PandaRecording, JitteredClockIsResampledAt1000Hz) {
 }
 
 TEST(Ur10eRecording, EveryJointReadsAt100Hz) {
-  auto const path = recordings() / "ur10e" / "ident_20_02_10_30sec_12harm.csv.gz";
+  auto const path = recordings_folder() / "ur10e" / "ident_20_02_10_30sec_12harm.csv.gz";
   SKIP_WITHOUT(path);
   for (std::string const joint : {"1", "2", "3", "4", "5", "6"}) {
     auto const recording = read(path,
@@ -125,7 +116,7 @@ TEST(Ur10eRecording, EveryJointReadsAt100Hz) {
 }
 
 TEST(KinovaRecording, ConstantSpeedIsWarnedOf) {
-  auto const path = recordings() / "kinova_gen3" / "kinova_j7_v0.50.csv";
+  auto const path = recordings_folder() / "kinova_gen3" / "kinova_j7_v0.50.csv";
   SKIP_WITHOUT(path);
   RecordingOptions options;
   options.columns = {{"position", "q_rad"}, {"torque", "tau_sensor_Nm"}};
@@ -140,7 +131,7 @@ TEST(KinovaRecording, ConstantSpeedIsWarnedOf) {
 }
 
 TEST(BamRecordings, AllReadDespiteTheirClocks) {
-  auto const folder = recordings() / "bam";
+  auto const folder = recordings_folder() / "bam";
   SKIP_WITHOUT(folder);
   for (auto const& entry : std::filesystem::directory_iterator(folder)) {
     bool const has_load = entry.path().filename().string().starts_with("xl330");

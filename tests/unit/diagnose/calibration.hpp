@@ -33,7 +33,7 @@ inline Statistics statistics(RecordPipeline const& pipeline, ProcessedRecord con
   Eigen::VectorXd const stribeck = (-(m.dq.array() / 0.3).square()).exp() * m.dq.array().sign();
   Eigen::VectorXd const position = m.q.array().sin();
   return {record.energy(),
-          fast_energy(record),
+          fast_energy(record, pipeline),
           gain(pipeline, record, jerk),
           gain(pipeline, record, stribeck),
           gain(pipeline, record, position),

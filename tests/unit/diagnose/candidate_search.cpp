@@ -10,10 +10,7 @@
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
-using torquescope::test::clean_filter;
-using torquescope::test::clean_joint;
-using torquescope::test::clean_regressor;
-using torquescope::test::recorded;
+using namespace torquescope::test;
 
 namespace {
 
@@ -23,13 +20,13 @@ class CandidateSearch : public testing::Test {
   static Recording stribeck_recording() {
     auto joint = clean_joint();
     joint.plan.simulation.duration_s = 4.0;
-    joint.plan.plant = test::plant({{"inertia", 0.036},
-                                    {"viscous", 0.164},
-                                    {"coulomb", 1.3},
-                                    {"offset", -0.125},
-                                    {"stribeck", 0.5},
-                                    {"stribeck_speed", 0.1},
-                                    {"stribeck_exponent", 1.0}});
+    joint.plan.plant = plant({{"inertia", 0.036},
+                              {"viscous", 0.164},
+                              {"coulomb", 1.3},
+                              {"offset", -0.125},
+                              {"stribeck", 0.5},
+                              {"stribeck_speed", 0.1},
+                              {"stribeck_exponent", 1.0}});
     return recorded(simulate_joint(joint.plan, 3));
   }
 
@@ -72,6 +69,22 @@ TEST_F(CandidateSearch, RefinesAShapeWithTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(together.parameters, alone.parameters);
     EXPECT_EQ(together.gain, alone.gain);
     EXPECT_EQ(together.evaluations, alone.evaluations);
+  }
+}
+
+// what diagnose.shape_optimiser promises
+TEST_F(CandidateSearch, RefinesAShapeWithEveryOptimiserOfTheRegistry) {
+  auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
+  for (auto const& choice : optimiser_choices()) {
+    auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search(choice.name, 1), 2);
+    EXPECT_GT(refined.gain, scan.gain) << choice.name;
+    ASSERT_FALSE(refined.improvements.empty());
+    EXPECT_EQ(refined.improvements.front().evaluations, 1);
+    EXPECT_LE(refined.improvements.back().evaluations, refined.evaluations);
+    for (std::size_t i = 1; i < refined.improvements.size(); ++i)
+      EXPECT_GT(refined.improvements[i].gain, refined.improvements[i - 1].gain);
+    // the gain that is reported has had chance taken off
+    EXPECT_LT(refined.gain, refined.improvements.back().gain);
   }
 }
 

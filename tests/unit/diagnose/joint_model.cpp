@@ -15,10 +15,7 @@
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
-using torquescope::test::clean_filter;
-using torquescope::test::clean_joint;
-using torquescope::test::clean_regressor;
-using torquescope::test::recorded;
+using namespace torquescope::test;
 
 namespace {
 
@@ -51,13 +48,13 @@ Eigen::VectorXd with(Eigen::VectorXd const& parameters, double more) {
 
 Recording simulated(double of_stribeck, std::uint64_t seed) {
   auto joint = clean_joint();
-  joint.plan.plant = test::plant({{"inertia", 0.036},
-                                  {"viscous", 0.164},
-                                  {"coulomb", coulomb},
-                                  {"offset", -0.125},
-                                  {"stribeck", of_stribeck},
-                                  {"stribeck_speed", stribeck_speed},
-                                  {"stribeck_exponent", stribeck_exponent}});
+  joint.plan.plant = plant({{"inertia", 0.036},
+                            {"viscous", 0.164},
+                            {"coulomb", coulomb},
+                            {"offset", -0.125},
+                            {"stribeck", of_stribeck},
+                            {"stribeck_speed", stribeck_speed},
+                            {"stribeck_exponent", stribeck_exponent}});
   return recorded(simulate_joint(joint.plan, seed));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/base/random_stream.hpp"
 
@@ -53,23 +54,81 @@ TEST(SimesP, OfOneTestIsItsP) {
   EXPECT_DOUBLE_EQ(simes_p(std::vector<double>{0.01, 0.9}), 0.02);
 }
 
-TEST(HierarchicalTest, NamesMembersOfSelectedFamiliesOnly) {
-  std::vector<double> const p{1e-6, 0.2, 1e-5, 0.04, 0.6, 0.7};
-  std::vector<std::string> const family{"reversal", "velocity", "reversal", "velocity", "time", "order"};
-  auto const tests = hierarchical_test(p, family, 0.05);
-  ASSERT_EQ(tests.size(), 4u);
-  EXPECT_TRUE(tests[0].selected);
-  EXPECT_EQ(tests[0].rejected, (std::vector<std::size_t>{0, 2}));
-  EXPECT_FALSE(tests[1].selected);  // 0.08 over four families
-  EXPECT_TRUE(tests[1].rejected.empty());
+std::vector<std::size_t> found_at(double level, std::vector<double> const& q) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (q[i] <= level) found.push_back(i);
+  return found;
 }
 
-TEST(HierarchicalTest, PaysForSelectingFewFamilies) {
+TEST(HierarchicalQ, FindsMembersOfSelectedFamiliesOnly) {
+  std::vector<double> const p{1e-6, 0.2, 1e-5, 0.04, 0.6, 0.7};
+  std::vector<std::string> const family{"reversal", "velocity", "reversal", "velocity", "time", "order"};
+  // velocity: Simes 0.08, and twice that over four families
+  EXPECT_EQ(found_at(0.05, hierarchical_q(p, family)), (std::vector<std::size_t>{0, 2}));
+}
+
+TEST(HierarchicalQ, PaysForSelectingFewFamilies) {
   // one of four families selected: its members are tested at a quarter of the level
   std::vector<double> const p{0.001, 0.02, 0.5, 0.6, 0.7};
   std::vector<std::string> const family{"a", "a", "b", "c", "d"};
-  auto const tests = hierarchical_test(p, family, 0.05);
-  EXPECT_EQ(tests[0].rejected, (std::vector<std::size_t>{0}));  // 0.02 <= 0.05 but above 0.05 / 4
+  std::vector<double> const q = hierarchical_q(p, family);
+  EXPECT_EQ(found_at(0.05, q), (std::vector<std::size_t>{0}));  // 0.02 <= 0.05 but above 0.05 / 4
+  EXPECT_DOUBLE_EQ(q[0], 0.002 * 4);
+  EXPECT_DOUBLE_EQ(q[1], 0.02 * 4);
+}
+
+// the two steps as Benjamini and Bogomolov write them, at one level: an oracle without levels to search
+std::vector<std::size_t> two_steps(double level, std::vector<double> const& p, std::vector<std::string> const& family) {
+  std::map<std::string, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < p.size(); ++i) members[family[i]].push_back(i);
+  auto const step_up = [](std::vector<std::pair<double, std::size_t>> tests, double at) {
+    std::sort(tests.begin(), tests.end());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < tests.size(); ++k)
+      if (tests[k].first <= at * static_cast<double>(k + 1) / static_cast<double>(tests.size())) count = k + 1;
+    std::vector<std::size_t> rejected;
+    for (std::size_t k = 0; k < count; ++k) rejected.push_back(tests[k].second);
+    return rejected;
+  };
+  std::vector<std::vector<std::size_t>> families;
+  std::vector<std::pair<double, std::size_t>> simes;
+  for (auto const& [name, indices] : members) {
+    std::vector<double> own;
+    for (std::size_t i : indices) own.push_back(p[i]);
+    std::sort(own.begin(), own.end());
+    double least = 1.0;
+    for (std::size_t k = 0; k < own.size(); ++k)
+      least = std::min(least, own[k] * static_cast<double>(own.size()) / static_cast<double>(k + 1));
+    simes.emplace_back(least, families.size());
+    families.push_back(indices);
+  }
+  auto const selected = step_up(simes, level);
+  std::vector<std::size_t> found;
+  for (std::size_t f : selected) {
+    std::vector<std::pair<double, std::size_t>> tests;
+    for (std::size_t i : families[f]) tests.emplace_back(p[i], i);
+    double const share = static_cast<double>(selected.size()) / static_cast<double>(families.size());
+    for (std::size_t i : step_up(tests, level * share)) found.push_back(i);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(HierarchicalQ, FindsAtEveryLevelWhatTheTwoStepsFind) {
+  for (std::uint32_t set = 0; set < 300; ++set) {
+    RandomStream stream({7, set, RandomDomain::test}, 0, 0);
+    std::vector<double> p;
+    std::vector<std::string> family;
+    for (int i = 0; i < 25; ++i) {
+      // many small ones, so that several families are selected
+      p.push_back(std::pow(stream.uniform(), 4.0) + 1e-12);
+      family.emplace_back(1, static_cast<char>('a' + static_cast<int>(6.0 * stream.uniform())));
+    }
+    std::vector<double> const q = hierarchical_q(p, family);
+    for (double const level : {0.001, 0.01, 0.05, 0.1, 0.3, 0.7})
+      EXPECT_EQ(found_at(level, q), two_steps(level, p, family)) << "set " << set << ", level " << level;
+  }
 }
 
 }  // namespace

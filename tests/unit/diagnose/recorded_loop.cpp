@@ -1,14 +1,14 @@
-// The loop of a real recording, where it is at hand ($TORQUESCOPE_RECORDINGS, or ../shared/recordings beside the sources).
+// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp).
 
 #include "engine/diagnose/recorded_loop.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "engine/data/recording_reader.hpp"
+#include "support/recordings_folder.hpp"
 
 using namespace torquescope;
 
@@ -18,13 +18,7 @@ constexpr double newton_per_volt = 35.15065;
 // published: u = kv (kp (q_ref - q) - dq), in V
 constexpr double kp = 160.18, kv = 243.45;
 
-std::filesystem::path emps(std::string const& name) {
-  char const* folder = std::getenv("TORQUESCOPE_RECORDINGS");
-  std::filesystem::path const recordings =
-      folder != nullptr ? std::filesystem::path(folder)
-                        : std::filesystem::path(TORQUESCOPE_SOURCE_DIR) / ".." / "shared" / "recordings";
-  return recordings / "emps" / name;
-}
+std::filesystem::path emps(std::string const& name) { return test::recordings_folder() / "emps" / name; }
 
 Recording read(std::filesystem::path const& path) {
   Section section;
@@ -39,7 +33,7 @@ Recording read(std::filesystem::path const& path) {
 
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   auto const path = emps("emps_train.csv.gz");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": set TORQUESCOPE_RECORDINGS";
+  SKIP_WITHOUT(path);
   auto const recording = read(path);
   FilterOptions filter;
   filter.cutoff_hz = 100.0;
@@ -58,7 +52,7 @@ TEST(RecordedLoop, OfEmpsIsThePublishedController) {
 TEST(RecordedLoop, OfEmpsWithPulsesIsNotTakenForALaw) {
   // forces were added behind the controller: no law of reference and position explains the logged torque
   auto const path = emps("emps_valid_pulses.csv.gz");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path << ": set TORQUESCOPE_RECORDINGS";
+  SKIP_WITHOUT(path);
   FilterOptions filter;
   filter.cutoff_hz = 100.0;
   auto const found = recorded_loop(read(path), 95.0, filter);

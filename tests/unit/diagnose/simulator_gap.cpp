@@ -9,10 +9,7 @@
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
-using torquescope::test::clean_joint;
-using torquescope::test::clean_pipeline;
-using torquescope::test::clean_regressor;
-using torquescope::test::recorded;
+using namespace torquescope::test;
 
 namespace {
 

@@ -7,11 +7,17 @@
 namespace torquescope {
 namespace {
 
+template <class Options>
+std::vector<Problem> applied(Job const& job, std::string const& section, Options& options) {
+  std::vector<Problem> problems;
+  Options::table().apply(*job.find(section), options, problems);
+  return problems;
+}
+
 TEST(ExperimentOptions, AreReadFromTheirSection) {
   Job const job = parse_job("[experiment]\nname = \"lab\"\nseed = 7\nruns = 3\nstudy = \"crs_a465\"\n", "lab.toml");
   ExperimentOptions options;
-  std::vector<Problem> problems;
-  ExperimentOptions::table().apply(*job.find("experiment"), options, problems);
+  auto const problems = applied(job, "experiment", options);
   EXPECT_TRUE(problems.empty());
   EXPECT_EQ(options.name, "lab");
   EXPECT_EQ(options.seed, 7);
@@ -22,8 +28,7 @@ TEST(ExperimentOptions, AreReadFromTheirSection) {
 TEST(ExperimentOptions, RefuseARunlessExperimentAndAnUnknownStudy) {
   Job const job = parse_job("[experiment]\nruns = 0\nstudy = \"crs\"\nsed = 1\n", "lab.toml");
   ExperimentOptions options;
-  std::vector<Problem> problems;
-  ExperimentOptions::table().apply(*job.find("experiment"), options, problems);
+  auto const problems = applied(job, "experiment", options);
   ASSERT_EQ(problems.size(), 3u);
   EXPECT_EQ(problems[0].key, "experiment.runs");
   EXPECT_EQ(problems[1].key, "experiment.study");
@@ -33,8 +38,7 @@ TEST(ExperimentOptions, RefuseARunlessExperimentAndAnUnknownStudy) {
 TEST(OutputOptions, KnowTwoCompressions) {
   Job const job = parse_job("[output]\nfile = \"r.h5\"\ncompression = \"zip\"\n", "lab.toml");
   OutputOptions options;
-  std::vector<Problem> problems;
-  OutputOptions::table().apply(*job.find("output"), options, problems);
+  auto const problems = applied(job, "output", options);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].key, "output.compression");
   EXPECT_EQ(options.file, "r.h5");

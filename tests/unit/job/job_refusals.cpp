@@ -3,11 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "engine/job/job.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace torquescope {
 namespace {
@@ -87,12 +85,6 @@ TEST(JobRefusals, MoreThanOneMebibyteIsNoJob) {
 
 class JobFile : public testing::Test {
  protected:
-  JobFile() {
-    char pattern[] = "/tmp/torquescope_job_XXXXXX";
-    folder_ = ::mkdtemp(pattern);
-  }
-  ~JobFile() override { std::filesystem::remove_all(folder_); }
-
   Problem problem_of(std::string const& name) const {
     try {
       read_job(folder_ / name);
@@ -103,11 +95,11 @@ class JobFile : public testing::Test {
     return {};
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{};
 };
 
 TEST_F(JobFile, ThatIsMissingNamesItsNeighbour) {
-  std::ofstream(folder_ / "lab_joint.toml") << "[experiment]\n";
+  folder_.write("lab_joint.toml", "[experiment]\n");
   Problem const problem = problem_of("lab_jiont.toml");
   EXPECT_EQ(problem.code, ExitCode::no_input);
   EXPECT_THAT(problem.what, HasSubstr("no such file"));
@@ -125,8 +117,7 @@ TEST_F(JobFile, ThatIsAFolderIsRefused) {
 }
 
 TEST_F(JobFile, IsReadWhole) {
-  std::ofstream(folder_ / "good.toml") << "[experiment]\nseed = 7\n";
-  Job const job = read_job(folder_ / "good.toml");
+  Job const job = read_job(folder_.write("good.toml", "[experiment]\nseed = 7\n"));
   EXPECT_EQ(std::get<std::int64_t>(job.find("experiment")->find("seed")->value), 7);
 }
 

@@ -4,12 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "engine/run/experiment_parts.hpp"
+#include "support/simulated_job.hpp"
 
 namespace torquescope {
 namespace {
@@ -18,25 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using Purpose = Experiment::Purpose;
 
-std::string const simulated_joint = R"(
-[model]
-terms = ["inertia", "viscous", "coulomb", "offset"]
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = 200
-duration_s = 5
-[simulate.plant]
-inertia = 0.5
-viscous = 0.2
-coulomb = 0.1
-)";
-
 Experiment load(std::string const& more, Purpose purpose) {
-  auto const path = std::filesystem::temp_directory_path() / ("diagnose_options_" + std::to_string(getpid()) + ".toml");
-  std::ofstream(path) << more << simulated_joint;
-  auto experiment = Experiment::load(path, purpose);
-  std::filesystem::remove(path);
-  return experiment;
+  return test::load_job(more + test::joint_model + test::simulated_joint, purpose);
 }
 
 std::vector<Problem> problems_of(std::string const& more, Purpose purpose) {
@@ -61,6 +41,7 @@ TEST(DiagnoseOptions, ADiagnosisNeedsNoEstimatorAndNoSection) {
   EXPECT_EQ(options.twins, 200);
   EXPECT_EQ(options.q, 0.05);
   EXPECT_EQ(options.max_effects, 5);
+  EXPECT_EQ(options.shape_optimiser, "de");
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr("1 joint, 4 parameters; "));
   EXPECT_THAT(experiment.diagnose_line(), HasSubstr(" effects, 200 clean twins"));
 }
@@ -96,6 +77,20 @@ TEST(DiagnoseOptions, NamedEffectsKeepTheirOrder) {
       load("[diagnose]\neffects = [\"presliding\", \"stribeck\"]\ntwins = 60\n", Purpose::diagnose);
   EXPECT_EQ(names_of(experiment.parts().effects), (std::vector<std::string>{"presliding", "stribeck"}));
   EXPECT_EQ(experiment.parts().diagnose.twins, 60);
+}
+
+TEST(DiagnoseOptions, ShapesAreSearchedByAnyOptimiserOfTheRegistry) {
+  for (auto const& choice : optimiser_choices()) {
+    Experiment const experiment = load("[diagnose]\nshape_optimiser = \"" + choice.name + "\"\n", Purpose::diagnose);
+    EXPECT_EQ(experiment.parts().diagnose.shape_optimiser, choice.name);
+  }
+  auto const unknown = problems_of("[diagnose]\nshape_optimiser = \"fad\"\n", Purpose::diagnose);
+  ASSERT_THAT(unknown, SizeIs(1));
+  EXPECT_EQ(unknown[0].what, "shape_optimiser = \"fad\" is not one of its words");
+  EXPECT_EQ(unknown[0].caret_note, "did you mean \"fade\"?");
+  EXPECT_EQ(unknown[0].place.line, 2);
+  // least squares estimates, it does not search
+  EXPECT_THAT(problems_of("[diagnose]\nshape_optimiser = \"ols\"\n", Purpose::diagnose), SizeIs(1));
 }
 
 TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {

@@ -10,6 +10,7 @@
 #include "engine/run/diagnosis_writer.hpp"
 #include "support/example_diagnosis.hpp"
 #include "support/example_diagnosis_file.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
@@ -18,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 
 Diagnosis written_and_read(Diagnosis const& diagnosis, std::string const& file = "R.h5") {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_diagnosis_file(folder / file, diagnosis);
   ResultReader const reader(folder / file);
   EXPECT_TRUE(has_diagnosis(reader));
@@ -120,13 +121,13 @@ TEST(DiagnosisFile, KeepsTheTextsOfThePoorVerdicts) {
 }
 
 TEST(DiagnosisFile, EqualDiagnosesHaveEqualContent) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   EXPECT_EQ(example::write_diagnosis_file(folder / "a.h5", example::invented_diagnosis()),
             example::write_diagnosis_file(folder / "b.h5", example::invented_diagnosis()));
 }
 
 TEST(DiagnosisFile, AFileThatContradictsItselfIsRefused) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   {
     ResultWriter writer(folder / "R.h5");
     writer.attribute("/diagnosis", "verdict", std::string("named"));
@@ -145,7 +146,7 @@ TEST(DiagnosisFile, AFileThatContradictsItselfIsRefused) {
 }
 
 TEST(DiagnosisFile, AVerdictThatDoesNotExistIsRefused) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   {
     ResultWriter writer(folder / "R.h5");
     writer.attribute("/diagnosis", "verdict", std::string("perhaps"));
@@ -155,7 +156,7 @@ TEST(DiagnosisFile, AVerdictThatDoesNotExistIsRefused) {
 }
 
 TEST(DiagnosisFile, AResultOfRunHasNone) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   EXPECT_FALSE(has_diagnosis(ResultReader(folder / "R.h5")));
 }

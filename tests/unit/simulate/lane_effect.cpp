@@ -63,6 +63,21 @@ Eigen::VectorXd reading_error(Eigen::VectorXd const& q) {
   return (sine * q.array().sin() + cosine * q.array().cos()).matrix();
 }
 
+// what a fresh effect adds, and where
+struct Answer {
+  LaneDemand demand{};
+  double position[twin_lanes] = {}, torque[twin_lanes] = {};
+};
+
+Answer answer(LaneEffectMaker const& make, LaneInstant const& at) {
+  auto const effect = make();
+  Answer given;
+  effect->add(at, given.demand);
+  effect->shift_position(at, given.position);
+  effect->shift_torque(at, given.torque);
+  return given;
+}
+
 LaneInstant some_instant() {
   LaneInstant at;
   at.time_s = 0.9;
@@ -84,14 +99,10 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
     bool is_torque;
   } const cases[] = {{sensor_drift(), true}, {eccentricity(), false}};
   for (auto const& [make, is_torque] : cases) {
-    auto const effect = make();
-    LaneDemand demand;
-    double position[twin_lanes] = {}, torque[twin_lanes] = {};
-    effect->add(at, demand);
-    effect->shift_position(at, position);
-    effect->shift_torque(at, torque);
+    auto const [demand, position, torque] = answer(make, at);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       EXPECT_EQ(demand.smooth[lane], 0.0);
+      EXPECT_EQ(demand.inertia[lane], 0.0);
       EXPECT_EQ(demand.forward[lane], 0.0);
       EXPECT_EQ(demand.backward[lane], 0.0);
       double const q = at.q[lane];
@@ -103,12 +114,7 @@ TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
 
 TEST(LaneEffect, OfAJointAddsToNoChannel) {
   LaneInstant const at = some_instant();
-  auto const effect = lane_effect(*find_effect("viscous"), {0.2}, {})();
-  LaneDemand demand;
-  double position[twin_lanes] = {}, torque[twin_lanes] = {};
-  effect->add(at, demand);
-  effect->shift_position(at, position);
-  effect->shift_torque(at, torque);
+  auto const [demand, position, torque] = answer(lane_effect(*find_effect("viscous"), {0.2}, {}), at);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     EXPECT_NEAR(demand.smooth[lane], 0.2 * at.dq[lane], rounding);
     EXPECT_EQ(position[lane], 0.0);
@@ -153,4 +159,29 @@ TEST(EncoderEccentricity, IsSeenByTheController) {
   // the loop keeps the reading where it was: the joint itself goes wrong by the error
   double const reading = (shifted.position[0] - plain.position[0]).tail(samples / 2).norm();
   EXPECT_LT(reading, 0.5 * reading_error(plain.position[0]).tail(samples / 2).norm());
+}
+
+TEST(Backlash, OfALoadHeavierThanItsMotorDoesNotRunAway) {
+  // pushed for a while in no friction: motor and load end up at the speed that the push gave to their sum, as slowly as
+  // the gap lets them
+  double const inertia = 0.04, push = 2.0;
+  Eigen::Index const pushed = 20;
+  TwinLoop loop = blind_loop();
+  loop.torque_noise = white(0.0);
+  loop.position_noise_std = 0.0;
+  TwinTrack pulse = track(0.0);
+  pulse.reference.resize(3 * samples);
+  pulse.reference.setZero();
+  pulse.reference.head(pushed).setConstant(push);
+  double const together = push * static_cast<double>(pushed) / rate_hz / inertia;
+  for (double const share : {0.1, 0.5, 0.9, 0.97}) {
+    TwinJoint joint;
+    joint.lanes = {inertia, 0.0, 0.0, 0.0};
+    joint.effects = {lane_effect(*find_effect("backlash"), {share * inertia, 1e-3, 60.0, 0.3}, {})};
+    TwinGroup group;
+    CleanTwin(joint, loop, pulse, 1e-4).simulate({5, 0, 0}, 0, group);
+    auto const& q = group.position[0];
+    double const speed = (q[q.size() - 1] - q[q.size() - 1 - samples]) * rate_hz / static_cast<double>(samples);
+    EXPECT_NEAR(speed / together, 1.0, 0.02) << share;
+  }
 }

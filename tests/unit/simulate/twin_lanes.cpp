@@ -102,6 +102,25 @@ TEST(TwinLanes, StandStillWhileFrictionHolds) {
   }
 }
 
+TEST(TwinLanes, CarryTheInertiaThatIsAddedToThem) {
+  // two lanes alike but for a little inertia that one of them is given on top
+  double const added = 0.25 * inertia;
+  LaneTorques torques;
+  std::fill_n(torques.held, twin_lanes, 2.0);
+  std::fill_n(torques.forward, twin_lanes, coulomb);
+  std::fill_n(torques.backward, twin_lanes, -coulomb);
+  LaneState plain, heavy, both;
+  advance_lanes(joint, torques, 1e-4, 500, plain);
+  advance_lanes({inertia + added, viscous, weight_sin, weight_cos}, torques, 1e-4, 500, heavy);
+  torques.added_inertia[1] = added;
+  advance_lanes(joint, torques, 1e-4, 500, both);
+  EXPECT_GT(plain.q[0], heavy.q[0]);
+  EXPECT_EQ(both.q[0], plain.q[0]);
+  EXPECT_EQ(both.q[1], heavy.q[1]);
+  EXPECT_EQ(both.dq[1], heavy.dq[1]);
+  EXPECT_EQ(both.ddq[1], heavy.ddq[1]);
+}
+
 TEST(TwinLanes, HaveTheSameBitsOnEveryInstructionSet) {
   auto const best = lanes_after(500, 10);
   for (auto const name : kernels::supported_instruction_sets()) {

@@ -5,25 +5,26 @@
 #include <bit>
 #include <functional>
 
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
 namespace {
 
 TEST(ContentDigest, IsTheSameForTheSameContent) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   std::string const first = example::write_result(folder / "a.h5");
   EXPECT_EQ(first.size(), 64U);
   // another order of runs, another storage, another machine
   EXPECT_EQ(example::write_result(folder / "b.h5", {}, {2, 0, 1}), first);
   EXPECT_EQ(example::write_result(folder / "c.h5", {.gzip = true}), first);
   EXPECT_EQ(example::write_result(folder / "d.h5", {}, {0, 1, 2}, "another host"), first);
-  EXPECT_NE(example::bytes_of(folder / "a.h5"), example::bytes_of(folder / "d.h5"));
+  EXPECT_NE(test::bytes_of(folder / "a.h5"), test::bytes_of(folder / "d.h5"));
 }
 
 // the digest of a small file that `change` had a hand in
 std::string digest_with(std::function<void(ResultWriter&)> const& change) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   ResultWriter writer(folder / "R.h5");
   example::write_job(writer);
   change(writer);

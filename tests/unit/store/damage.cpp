@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/store/result_reader.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 // HDF5 1.10.8 itself loses some 400 bytes for each header that fails its checksum
@@ -50,9 +51,9 @@ struct Counts {
 };
 
 Counts flip_bits(ResultWriterOptions options, int flips) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5", options);
-  std::string const whole = example::bytes_of(folder / "R.h5");
+  std::string const whole = test::bytes_of(folder / "R.h5");
   std::string const truth = everything_in(folder / "R.h5");
   Counts counts;
   for (int i = 0; i < flips; ++i) {
@@ -60,7 +61,7 @@ Counts flip_bits(ResultWriterOptions options, int flips) {
     std::size_t const position = whole.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(flips);
     std::string damaged = whole;
     damaged[position] = static_cast<char>(damaged[position] ^ (1 << (i % 8)));
-    example::write_bytes(folder / "D.h5", damaged);
+    test::write_bytes(folder / "D.h5", damaged);
     try {
       bool const same = everything_in(folder / "D.h5") == truth;
       ++(same ? counts.harmless : counts.silent);
@@ -85,11 +86,11 @@ TEST(DamagedResult, IsNeverReadAsIfItWereWhole) {
 }
 
 TEST(DamagedResult, IsRefusedWhenItsEndIsMissing) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
-  std::string const whole = example::bytes_of(folder / "R.h5");
+  std::string const whole = test::bytes_of(folder / "R.h5");
   for (std::size_t i = 0; i < 60; ++i) {
-    example::write_bytes(folder / "D.h5", whole.substr(0, whole.size() * i / 60));
+    test::write_bytes(folder / "D.h5", whole.substr(0, whole.size() * i / 60));
     try {
       verify_result(folder / "D.h5");
       ADD_FAILURE() << "read " << i << "/60 of a file";
@@ -97,19 +98,19 @@ TEST(DamagedResult, IsRefusedWhenItsEndIsMissing) {
       EXPECT_EQ(error.code(), ExitCode::bad_data);
     }
   }
-  example::write_bytes(folder / "D.h5", whole.substr(0, whole.size() - 1));
+  test::write_bytes(folder / "D.h5", whole.substr(0, whole.size() - 1));
   EXPECT_THROW(verify_result(folder / "D.h5"), Error);
 }
 
 TEST(DamagedResult, NamesTheDatasetAndSparesTheOthers) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
-  std::string bytes = example::bytes_of(folder / "R.h5");
+  std::string bytes = test::bytes_of(folder / "R.h5");
   double const first = example::population(0)[1];
   std::size_t const position = bytes.find(std::string(reinterpret_cast<char const*>(&first), sizeof(first)));
   ASSERT_NE(position, std::string::npos);
   bytes[position] = static_cast<char>(bytes[position] ^ 4);
-  example::write_bytes(folder / "R.h5", bytes);
+  test::write_bytes(folder / "R.h5", bytes);
 
   ResultReader const reader(folder / "R.h5");
   EXPECT_EQ(reader.numbers("/data/train/torque").values, example::torque());

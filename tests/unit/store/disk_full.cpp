@@ -12,6 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/store/result_reader.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
@@ -60,7 +61,7 @@ int exit_code_with_room_for(std::size_t bytes, std::filesystem::path const& name
 }
 
 TEST(DiskFull, EndsWithItsExitCodeWhereverItHappensAndLeavesNothingBehind) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   for (bool gzip : {false, true}) {
     ASSERT_EQ(exit_code_with_room_for(std::size_t{1} << 30, folder / "whole.h5", gzip), 0);
     std::size_t const size = std::filesystem::file_size(folder / "whole.h5");
@@ -80,7 +81,7 @@ TEST(DiskFull, EndsWithItsExitCodeWhereverItHappensAndLeavesNothingBehind) {
 }
 
 TEST(DiskFull, OfARealFileSystemKeepsTheOlderResult) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   auto const mount_small_disk = [&] {
     // seen by this child only
     return ::unshare(CLONE_NEWNS) == 0 && ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
@@ -88,12 +89,12 @@ TEST(DiskFull, OfARealFileSystemKeepsTheOlderResult) {
   };
   auto const check_older_result = [&] {
     if (!mount_small_disk()) return false;
-    example::write_bytes(folder / "R.h5", "an older result");
+    test::write_bytes(folder / "R.h5", "an older result");
     static std::filesystem::path const name = folder / "R.h5";
     std::atexit([] {
       // looked at from inside: the small disk is gone with the process
       std::error_code ignored;
-      bool const kept = example::bytes_of(name) == "an older result";
+      bool const kept = test::bytes_of(name) == "an older result";
       bool const alone = std::filesystem::file_size(name.parent_path() / "R.h5", ignored) == 15 &&
                          std::distance(std::filesystem::directory_iterator(name.parent_path()), {}) == 1;
       if (!kept || !alone) ::_exit(1);
@@ -106,7 +107,7 @@ TEST(DiskFull, OfARealFileSystemKeepsTheOlderResult) {
 }
 
 TEST(DiskFull, SaysWhatToDo) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   int const code = exit_code_of_child(folder / "unused.h5", false, [&] {
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit const limit{100000, 100000};

@@ -3,13 +3,9 @@
 //
 // Shapes     runs = 3, generations + 1 = 5, members = 4, parameters = 2; 300 samples
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -18,40 +14,6 @@
 namespace torquescope::example {
 
 inline constexpr std::size_t runs = 3, entries = 5, members = 4, parameters = 2, samples = 300;
-
-// a folder of the test's own, gone with it
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "torquescope_store_XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw std::runtime_error("cannot make " + pattern);
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(Folder const&) = delete;
-  Folder& operator=(Folder const&) = delete;
-  std::filesystem::path operator/(std::string const& name) const { return path_ / name; }
-  std::filesystem::path const& path() const { return path_; }
-  std::size_t n_files() const {
-    auto files = std::filesystem::directory_iterator(path_);
-    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string bytes_of(std::filesystem::path const& name) {
-  std::ifstream file(name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-inline void write_bytes(std::filesystem::path const& name, std::string const& bytes) {
-  std::ofstream(name, std::ios::binary) << bytes;
-}
 
 inline std::vector<double> population(std::size_t run) {
   std::vector<double> values(entries * members * parameters);

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/base/error.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
@@ -34,11 +35,11 @@ std::pair<ExitCode, std::string> verifying(std::filesystem::path const& name) {
 }
 
 TEST(ResultReader, TellsWhatKindOfFileItCannotRead) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   EXPECT_EQ(opening(folder / "R.h5").first, ExitCode::no_input);
   EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("there is no file"));
 
-  example::write_bytes(folder / "text", "t_s,q_rad\n0,0\n");
+  test::write_bytes(folder / "text", "t_s,q_rad\n0,0\n");
   EXPECT_EQ(opening(folder / "text").first, ExitCode::bad_data);
   EXPECT_THAT(opening(folder / "text").second, HasSubstr("is not an HDF5 file"));
   EXPECT_EQ(opening(folder.path()).first, ExitCode::bad_data);
@@ -67,7 +68,7 @@ void set_root_number(hid_t file, char const* name, std::int64_t value) {
 }
 
 TEST(ResultReader, RefusesANewerFormatAndAnUnfinishedFile) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "complete", 0); });
   EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("was never finished"));
@@ -77,7 +78,7 @@ TEST(ResultReader, RefusesANewerFormatAndAnUnfinishedFile) {
 }
 
 TEST(ResultReader, FollowsNoLinkToElsewhere) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "other.h5");
   for (bool external : {false, true}) {
     example::write_result(folder / "R.h5");
@@ -95,7 +96,7 @@ TEST(ResultReader, FollowsNoLinkToElsewhere) {
 }
 
 TEST(ResultReader, BelievesNoSizeThatTheFileCannotHold) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   tamper(folder / "R.h5", [](hid_t file) {
     hsize_t const claimed[] = {hsize_t{1} << 40, 8}, chunk[] = {1, 8};
@@ -112,7 +113,7 @@ TEST(ResultReader, BelievesNoSizeThatTheFileCannotHold) {
 }
 
 TEST(ResultReader, RefusesValuesKeptInAnotherFile) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   tamper(folder / "R.h5", [](hid_t file) {
     hsize_t const extent = 4;
@@ -127,7 +128,7 @@ TEST(ResultReader, RefusesValuesKeptInAnotherFile) {
 
 TEST(ResultReader, RefusesTextsOfVariableLength) {
   // HDF5 keeps them without a checksum, and crashes when they are damaged
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   tamper(folder / "R.h5", [](hid_t file) {
     hid_t const type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
@@ -143,7 +144,7 @@ TEST(ResultReader, RefusesTextsOfVariableLength) {
 }
 
 TEST(ResultReader, NoticesAChangeMadeByAnotherProgram) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   auto const verifying_after = [&](std::function<void(hid_t)> const& change) {
     example::write_result(folder / "R.h5");
     tamper(folder / "R.h5", change);
@@ -169,7 +170,7 @@ TEST(ResultReader, NoticesAChangeMadeByAnotherProgram) {
 }
 
 TEST(ResultReader, ListsWhatThereIsAndSaysWhatIsNot) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   ResultReader const reader(folder / "R.h5");
   EXPECT_EQ(reader.children("/runs"), (std::vector<std::string>{"fade", "ols"}));

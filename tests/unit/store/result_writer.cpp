@@ -12,6 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/version.hpp"
 #include "engine/store/result_reader.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 TEST(ResultWriter, RoundTripsEveryKindOfValue) {
   for (bool gzip : {false, true}) {
-    example::Folder const folder;
+    test::TemporaryFolder const folder;
     std::string const sha256 = example::write_result(folder / "R.h5", {.gzip = gzip});
     ResultReader const reader(folder / "R.h5");
 
@@ -54,7 +55,7 @@ TEST(ResultWriter, RoundTripsEveryKindOfValue) {
 }
 
 TEST(ResultWriter, RoundTripsOddValues) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   double const nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   std::vector<double> many(20000);
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i);
@@ -102,18 +103,18 @@ TEST(ResultWriter, RoundTripsOddValues) {
 }
 
 TEST(ResultWriter, GivesTheSameBytesForTheSameCalls) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   for (bool gzip : {false, true}) {
     example::write_result(folder / "a.h5", {.gzip = gzip});
     // HDF5 would store seconds if it stored times
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     example::write_result(folder / "b.h5", {.gzip = gzip});
-    EXPECT_TRUE(example::bytes_of(folder / "a.h5") == example::bytes_of(folder / "b.h5"));
+    EXPECT_TRUE(test::bytes_of(folder / "a.h5") == test::bytes_of(folder / "b.h5"));
   }
 }
 
 TEST(ResultWriter, ReadsAbsentRunsAsNanAndZero) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5", {}, {2});
   ResultReader const reader(folder / "R.h5");
   auto const population = reader.numbers("/runs/fade/population").values;
@@ -124,7 +125,7 @@ TEST(ResultWriter, ReadsAbsentRunsAsNanAndZero) {
 
 TEST(ResultWriter, ReadsBackRunsLargerThanTheChunkCache) {
   // 12 runs of 2.4 MB in parts, and 3000 small ones that share chunks, both written out of order
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   constexpr std::size_t large = 101 * 100 * 30, n_small = 3000, small = 101;
   auto const value = [](std::size_t run, std::size_t i) {
     return static_cast<double>(run) + 1e-6 * static_cast<double>(i);
@@ -159,16 +160,16 @@ TEST(ResultWriter, ReadsBackRunsLargerThanTheChunkCache) {
 }
 
 TEST(ResultWriter, LeavesTheFinalNameAloneUntilItIsFinished) {
-  example::Folder const folder;
-  example::write_bytes(folder / "R.h5", "an older result");
+  test::TemporaryFolder const folder;
+  test::write_bytes(folder / "R.h5", "an older result");
   {
     ResultWriter writer(folder / "R.h5");
     example::write_job(writer);
-    EXPECT_EQ(example::bytes_of(folder / "R.h5"), "an older result");
+    EXPECT_EQ(test::bytes_of(folder / "R.h5"), "an older result");
     EXPECT_EQ(folder.n_files(), 2U);
   }
   // given up: nothing but the older result remains
-  EXPECT_EQ(example::bytes_of(folder / "R.h5"), "an older result");
+  EXPECT_EQ(test::bytes_of(folder / "R.h5"), "an older result");
   EXPECT_EQ(folder.n_files(), 1U);
 
   example::write_result(folder / "R.h5");
@@ -177,26 +178,26 @@ TEST(ResultWriter, LeavesTheFinalNameAloneUntilItIsFinished) {
 }
 
 TEST(ResultWriter, StepsAsideForTheLeftoverOfAKilledProcess) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   std::string const leftover = "R.h5.tmp." + std::to_string(::getpid());
-  example::write_bytes(folder / leftover, "left over");
+  test::write_bytes(folder / leftover, "left over");
   example::write_result(folder / "R.h5");
-  EXPECT_EQ(example::bytes_of(folder / leftover), "left over");
+  EXPECT_EQ(test::bytes_of(folder / leftover), "left over");
   EXPECT_EQ(folder.n_files(), 2U);
 }
 
 TEST(ResultWriter, NeverWritesThroughALink) {
-  example::Folder const folder;
-  example::write_bytes(folder / "victim", "precious");
+  test::TemporaryFolder const folder;
+  test::write_bytes(folder / "victim", "precious");
   fs::create_symlink(folder / "victim", folder / ("R.h5.tmp." + std::to_string(::getpid())));
   fs::create_symlink(folder / "victim", folder / "R.h5");
   example::write_result(folder / "R.h5");
-  EXPECT_EQ(example::bytes_of(folder / "victim"), "precious");
+  EXPECT_EQ(test::bytes_of(folder / "victim"), "precious");
   EXPECT_FALSE(fs::is_symlink(folder / "R.h5"));
 }
 
 TEST(ResultWriter, LetsTheUmaskDecideWhoMayRead) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   mode_t const before = ::umask(027);
   example::write_result(folder / "R.h5");
   ::umask(before);
@@ -204,7 +205,7 @@ TEST(ResultWriter, LetsTheUmaskDecideWhoMayRead) {
 }
 
 TEST(ResultWriter, SaysWhereItCannotWrite) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   auto const code_and_text = [](fs::path const& name) {
     try {
       ResultWriter const writer(name);
@@ -221,7 +222,7 @@ TEST(ResultWriter, SaysWhereItCannotWrite) {
 
 #if defined(TORQUESCOPE_CONTRACTS)
 TEST(ResultWriter, HoldsCallersToTheirPromises) {
-  example::Folder const folder;
+  test::TemporaryFolder const folder;
   ResultWriter writer(folder / "R.h5");
   EXPECT_THROW(writer.numbers("/a", {3}, std::vector<double>(2), {"1", "two of three"}), BrokenPromise);
   EXPECT_THROW(writer.numbers("/a", {2}, std::vector<double>(2), {"", "no unit"}), BrokenPromise);

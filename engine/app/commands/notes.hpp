@@ -1,0 +1,21 @@
+#pragma once
+// What a command that computes says on stderr around its results: what it starts with, and where its file stands.
+
+#include <filesystem>
+#include <string>
+
+#include "engine/app/session.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+// job, data, threads and warnings, before anything runs; job_line is the command's own line of the experiment
+void note_start(Session const& session, std::string const& job_line, Experiment const& experiment,
+                ThreadChoice const& threads);
+
+// "wrote  R.h5  3.1 MB" and the command that shows it; word: "wrote" or "kept". Where `json` is the name of a file and
+// not the sign of a stream, it stands beside
+void note_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& file,
+                      std::string const& json = {});
+
+}  // namespace torquescope

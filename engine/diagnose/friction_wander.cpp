@@ -1,0 +1,116 @@
+#include "engine/diagnose/friction_wander.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/diagnose/hat_functions.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t most_blocks = 24, fewest_blocks = 8;
+constexpr double shortest_block_s = 2.0;
+
+// of the motion, and the parabola through what friction does over time
+Eigen::MatrixXd smooth_functions(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& ddq,
+                                 Eigen::VectorXd const& friction) {
+  Eigen::VectorXd const s = dq.array().sign();
+  Eigen::VectorXd const t = Eigen::VectorXd::LinSpaced(q.size(), -1.0, 1.0);
+  std::vector<Eigen::MatrixXd> parts{hats(dq, 12), hats(q, 8), hats(ddq, 8)};
+  for (std::size_t of : {1U, 2U}) parts.push_back(s.asDiagonal() * parts[of]);
+  parts.push_back(friction.cwiseProduct(t));
+  parts.push_back(parts.back().cwiseProduct(t));
+  Eigen::Index width = 0;
+  for (auto const& part : parts) width += part.cols();
+  Eigen::MatrixXd all(q.size(), width);
+  Eigen::Index at = 0;
+  for (auto const& part : parts) {
+    all.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  return all;
+}
+
+// what least squares on the columns leaves; a little ridge, because the functions of every axis sum to one
+Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns) {
+  constexpr double ridge = 1e-9;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  normal.diagonal().array() += ridge * normal.trace();
+  return signal - columns * normal.selfadjointView<Eigen::Lower>().ldlt().solve(columns.transpose() * signal);
+}
+
+}  // namespace
+
+FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline,
+                               TwinJoint const& joint) {
+  if (joint.coulomb_forward == 0.0 && joint.coulomb_backward == 0.0) return;
+  double const duration_s = static_cast<double>(pipeline.kept_samples()) / pipeline.kept_rate_hz();
+  auto const blocks = std::min(most_blocks, static_cast<std::size_t>(duration_s / shortest_block_s));
+  if (blocks < fewest_blocks) return;
+  blocks_ = blocks;
+  block_s_ = duration_s / static_cast<double>(blocks);
+  ProcessedRecord everything;
+  everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
+  std::iota(everything.kept_rows.begin(), everything.kept_rows.end(), Eigen::Index{0});
+  auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, everything); };
+  Eigen::VectorXd const dq = pick(recording.motion.dq);
+  friction_ = dq.unaryExpr([&](double v) { return v > 0.0 ? joint.coulomb_forward : joint.coulomb_backward; });
+  smooth_ = smooth_functions(pick(recording.motion.q), dq, pick(recording.motion.ddq), friction_);
+}
+
+std::vector<double> FrictionWander::changes(ProcessedRecord const& record) const {
+  constexpr double enough = 0.2;  // of the rows that a block would have if all had the same
+  auto const& rows = record.kept_rows;
+  Eigen::VectorXd const left = left_of(record.residual, smooth_(rows, Eigen::all));
+  std::vector<double> product(blocks_, 0.0), square(blocks_, 0.0);
+  std::vector<std::size_t> count(blocks_, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::size_t const block = static_cast<std::size_t>(rows[i]) * blocks_ / static_cast<std::size_t>(friction_.size());
+    double const friction = friction_[rows[i]];
+    product[block] += friction * left[static_cast<Eigen::Index>(i)];
+    square[block] += friction * friction;
+    ++count[block];
+  }
+  std::vector<double> change(blocks_, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t block = 0; block < blocks_; ++block)
+    if (static_cast<double>(count[block] * blocks_) >= enough * static_cast<double>(rows.size()) && square[block] > 0.0)
+      change[block] = product[block] / square[block];
+  return change;
+}
+
+double FrictionWander::operator()(ProcessedRecord const& record) const {
+  constexpr double kept = 0.8;
+  std::vector<double> const change = changes(record);
+  std::vector<double> squares;
+  for (std::size_t i = 1; i + 1 < change.size(); ++i) {
+    double const bend = change[i - 1] - 2.0 * change[i] + change[i + 1];
+    if (std::isfinite(bend)) squares.push_back(bend * bend);
+  }
+  auto const n = static_cast<std::size_t>(kept * static_cast<double>(squares.size()));
+  if (n == 0) return 0.0;
+  std::sort(squares.begin(), squares.end());
+  return std::accumulate(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
+         static_cast<double>(n);
+}
+
+NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
+                           TwinAddress const& address, std::size_t twins, int threads) {
+  FrictionWander const statistic(recording, pipeline, twin.joint());
+  if (!statistic.is_measurable()) return {};
+  NoiseQuestion const question{
+      [&](ProcessedRecord const& record) { return statistic(record); },
+      [](TwinLoop& loop, double std, double variance_error) {
+        loop.friction_wander = std;
+        loop.friction_wander_variance_error = variance_error;
+      },
+      // block means of a random walk of variance s^2 t differ by 2/3 s^2 block, second differences by about 1.5 times that;
+      // the largest fifth holds half of a mean square
+      [&](double wanted, double none) { return (wanted - none) / (0.5 * statistic.block_s()); }};
+  return noise_level(question, recording, twin, pipeline, address, twins, threads);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,44 @@
+#pragma once
+// How much dry friction wanders by itself: no joint keeps its level to the last per mille, and a slow wander passes for any
+// effect of time, and for a little of everything, when the twins have none.
+//
+// Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a parabola
+//            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least); mean square of second differences of
+//            neighbouring blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
+// Model      a random walk: what the blocks tell of short times says what may happen over long ones, so that a drift is
+//            named only where it is more than chance would bring
+// Unit       share of the level per square root of a second (TwinLoop::friction_wander)
+// None       no dry friction, or a recording too short for eight blocks
+// Level      noise_level.hpp
+// Threads    spreads twins over `threads`; same bits for any number
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/diagnose/noise_level.hpp"
+
+namespace torquescope {
+
+// the statistic of any record that went through this pipeline; functions of the motion are those of `recording`
+class FrictionWander {
+ public:
+  FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint);
+
+  bool is_measurable() const { return blocks_ > 0; }
+  double block_s() const { return block_s_; }
+  // change of the level in each block, as a share; NaN where too few rows are left
+  std::vector<double> changes(ProcessedRecord const& record) const;
+  double operator()(ProcessedRecord const& record) const;
+
+ private:
+  std::size_t blocks_ = 0;  // 0: not measurable
+  double block_s_ = 0.0;
+  Eigen::MatrixXd smooth_;    // kept samples x functions
+  Eigen::VectorXd friction_;  // kept samples: torque of dry friction
+};
+
+// the wander that the twin has already is not used
+NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
+                           TwinAddress const& address, std::size_t twins, int threads);
+
+}  // namespace torquescope

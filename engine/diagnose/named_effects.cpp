@@ -1,0 +1,79 @@
+#include "engine/diagnose/named_effects.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/diagnose/effect_account.hpp"
+#include "engine/diagnose/equivalent_effects.hpp"
+#include "engine/diagnose/parameter_intervals.hpp"
+
+namespace torquescope {
+namespace {
+
+// of the same families, or nearly as good when nothing was named yet
+std::vector<Effect const*> rivals_for(AcceptedEffect const& accepted, Selection const& selection) {
+  std::vector<Effect const*> rivals;
+  auto const& own = accepted.effect->families();
+  for (auto const& scan : selection.first_scan) {
+    if (!scan.is_testable || selection.has_accepted(scan.effect)) continue;
+    auto const& theirs = scan.effect->families();
+    bool const is_family = std::find_first_of(theirs.begin(), theirs.end(), own.begin(), own.end()) != theirs.end();
+    if (is_family || scan.gain > 0.5 * accepted.gain) rivals.push_back(scan.effect);
+  }
+  return rivals;
+}
+
+NamedEffect described(Selection const& selection, std::size_t i, std::vector<ParameterEstimate> const& parameters) {
+  auto const& accepted = selection.accepted[i];
+  auto const& effect = *accepted.effect;
+  double const residual = selection.first_energy.residual;
+  EffectAccount account = account_of(selection.final, i);
+  NamedEffect named;
+  named.name = effect.name();
+  named.family = word(effect.family());
+  named.title = effect.title();
+  named.equation = effect.equation();
+  named.acts_on = word(effect.acts_on());
+  named.p = accepted.scan.p;
+  named.q = accepted.q;
+  named.z = accepted.scan.z;
+  named.p_is_bound = accepted.scan.p_is_bound;
+  named.gain.train = accepted.gain / residual;
+  named.gain.cv = accepted.cv_gain / residual;
+  named.region = account.region;
+  named.curve = std::move(account.curve);
+  named.rms = account.rms;
+  named.peak = account.peak;
+  named.parameters = parameters;
+  return named;
+}
+
+}  // namespace
+
+NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
+  ModelEstimate const estimate = estimate_parameters(selection.final);
+  double const residual = selection.first_energy.residual;
+  NamedEffects result;
+  result.parameters = estimate.baseline;
+  for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
+    auto const& accepted = selection.accepted[i];
+    auto const& parameters = estimate.effects[i];
+    result.parameters.insert(result.parameters.end(), parameters.begin(), parameters.end());
+    auto const same = std::find_if(result.effects.begin(), result.effects.end(),
+                                   [&](NamedEffect const& one) { return one.name == accepted.effect->name(); });
+    result.place.push_back(static_cast<std::size_t>(same - result.effects.begin()));
+    if (same != result.effects.end()) {
+      same->parameters.insert(same->parameters.end(), parameters.begin(), parameters.end());
+      same->gain.train += accepted.gain / residual;
+      same->gain.cv += accepted.cv_gain / residual;
+      continue;
+    }
+    NamedEffect named = described(selection, i, parameters);
+    for (auto const& rival : rivals_of(selection.final, i, rivals_for(accepted, selection), search, threads))
+      if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
+    result.effects.push_back(std::move(named));
+  }
+  return result;
+}
+
+}  // namespace torquescope

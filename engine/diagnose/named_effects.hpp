@@ -1,0 +1,23 @@
+#pragma once
+// What is told of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told from.
+//
+// Waves      a second wave of one kind belongs to the first: one name, both waves' parameters
+// Threads    spreads the refinement of rivals over `threads`; same bits for any number
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+
+struct NamedEffects {
+  std::vector<NamedEffect> effects{};
+  std::vector<ParameterEstimate> parameters{};  // of the baseline beside them, then of each accepted effect
+  std::vector<std::size_t> place{};             // of each accepted effect among `effects`
+};
+
+NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads);
+
+}  // namespace torquescope

@@ -1,0 +1,36 @@
+#pragma once
+// How strong a noise must be in the twins so that one statistic of theirs is what the recording has.
+//
+// Equation   mean of statistic(twins with variance s^2) = statistic(recording); it grows linearly with s^2: secant
+// Zero       when the recording's statistic is within 1.64 standard deviations of twins without the noise: a level too low
+//            makes false names, so the doubt goes to the noise (one-sided 5 %)
+// Threads    spreads twins over `threads`; same bits for any number
+// Source     LESSONS item 5 of our own prototype
+
+#include <cstddef>
+#include <functional>
+
+#include "engine/diagnose/record_pipeline.hpp"
+#include "engine/diagnose/twin_batch.hpp"
+
+namespace torquescope {
+
+struct NoiseLevel {
+  double std = 0.0;
+  double variance_error = 0.0;  // standard error of std^2, from the spread of the statistic over twins at this level
+  double ratio = 0.0;           // statistic of the recording over that of twins without the noise
+  double z = 0.0;               // of the recording's among them
+  bool ran_away = false;
+};
+
+struct NoiseQuestion {
+  std::function<double(ProcessedRecord const&)> statistic;                     // from any thread
+  std::function<void(TwinLoop& loop, double std, double variance_error)> put;  // the noise into a loop
+  std::function<double(double recording, double twins)> first_guess;           // of the variance, from both statistics
+};
+
+// twins >= 8; the noise that `twin` has already is not used
+NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
+                       RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads);
+
+}  // namespace torquescope

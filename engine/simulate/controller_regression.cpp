@@ -1,0 +1,79 @@
+#include "engine/simulate/controller_regression.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace torquescope {
+namespace {
+
+Eigen::VectorXd summed_error(LoopSignals const& s, int shift) {
+  Eigen::Index const n = s.position.size();
+  Eigen::VectorXd sum(n);
+  double total = 0.0;
+  for (Eigen::Index k = 0; k < n; ++k)
+    sum[k] = total += s.reference[std::clamp<Eigen::Index>(k + shift, 0, n - 1)] - s.position[k];
+  return sum;
+}
+
+Eigen::MatrixXd regressors(LoopSignals const& s, ControllerColumns const& columns, SampleRows const& rows) {
+  Eigen::VectorXd const sum = summed_error(s, columns.shift);
+  auto const& q = s.position;
+  auto const& r = s.reference;
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(rows.size()), columns.count());
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    Eigen::Index const k = rows[static_cast<std::size_t>(i)], at = k + columns.shift;
+    x(i, 0) = r[at] - q[k];
+    for (int lag = 0; lag < columns.lags; ++lag) x(i, 1 + lag) = q[k - lag] - q[k - lag - 1];
+    for (Eigen::Index j = 0; j < columns.differences(); ++j)
+      x(i, columns.reference() + j) = r[at - columns.window.behind + j + 1] - r[at - columns.window.behind + j];
+    x(i, columns.constant()) = 1.0;
+    x(i, columns.drift()) = s.time_s[k] - s.time_s[0];
+    if (columns.has_integral) x(i, columns.integral()) = sum[k];
+  }
+  return x;
+}
+
+}  // namespace
+
+Eigen::VectorXd picked(Eigen::VectorXd const& signal, SampleRows const& rows) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(rows.size()));
+  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = signal[rows[static_cast<std::size_t>(i)]];
+  return result;
+}
+
+ControllerRegression regress_controller(LoopSignals const& s, ControllerColumns const& columns,
+                                        SampleRows const& rows) {
+  Eigen::MatrixXd x = regressors(s, columns, rows);
+  Eigen::VectorXd const u = picked(s.torque, rows);
+  Eigen::VectorXd length = x.colwise().norm();
+  for (auto& one : length) one = one > 0.0 ? one : 1.0;
+  Eigen::MatrixXd const scaled = x * length.cwiseInverse().asDiagonal();
+  // columns of no use (a reference that never accelerates) get 0, not a wild number
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-12);
+  qr.compute(scaled);
+
+  ControllerRegression result{columns, qr.solve(u), {}, {}, 0.0};
+  result.residual = u - scaled * result.coefficients;
+  result.sse = result.residual.squaredNorm();
+  Eigen::Index const rank = qr.rank();
+  Eigen::MatrixXd const inverse = qr.matrixR()
+                                      .topLeftCorner(rank, rank)
+                                      .triangularView<Eigen::Upper>()
+                                      .solve(Eigen::MatrixXd::Identity(rank, rank));
+  double const variance = result.sse / static_cast<double>(x.rows() - rank);
+  Eigen::VectorXd errors = Eigen::VectorXd::Constant(columns.count(), std::numeric_limits<double>::infinity());
+  for (Eigen::Index i = 0; i < rank; ++i)
+    errors[qr.colsPermutation().indices()[i]] = std::sqrt(variance) * inverse.row(i).norm();
+  result.coefficients.array() /= length.array();
+  result.errors = errors.cwiseQuotient(length);
+  return result;
+}
+
+Eigen::VectorXd asked_torque(LoopSignals const& s, ControllerRegression const& fit, SampleRows const& rows) {
+  return regressors(s, fit.columns, rows) * fit.coefficients;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,29 @@
+#pragma once
+// Second-order sections of a filter over several signals side by side, in place: one recursion waits for its own last
+// sample, several together keep the processor busy.
+//
+// Equation   y_i = b0 x_i + z1;  z1 = b1 x_i - a1 y_i + z2;  z2 = b2 x_i - a2 y_i  (transposed direct form II), section after
+//            section
+// Start      every section in the steady state of the first sample: gain 1 at f = 0 is assumed
+// Shapes     samples: n_samples x cascade_signals, one sample of all signals after the other
+// Bits       the same on every instruction set and for any company: no operation is fused, each signal is its own lane
+// Speed      two sections go along the samples together: the second fills the time in which the first waits
+// Threads    free function
+// Source     Oppenheim, Schafer: Discrete-Time Signal Processing, section 6.3
+
+#include <cstddef>
+
+namespace torquescope::kernels {
+
+inline constexpr std::size_t cascade_signals = 8;
+
+struct CascadeSection {
+  double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
+};
+
+enum class CascadeDirection { forwards, backwards };
+
+void run_cascade(CascadeSection const* sections, std::size_t n_sections, double* samples, std::size_t n_samples,
+                 CascadeDirection direction);
+
+}  // namespace torquescope::kernels

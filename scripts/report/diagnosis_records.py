@@ -1,0 +1,197 @@
+"""The records of a diagnosis: those of engine/diagnose/diagnosis.hpp under the same names, as plain Python.
+
+Made by    read_diagnosis.py, which shows how to come by one
+Shapes     one array entry per cell of a map row, per sample of a trace; lists in the order of the file
+Units      SI; each record names its own. Shares are fractions of 1
+Unknown    numbers that were not measured are NaN, lists without entries empty
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass
+class Interval:
+    """A stretch of one axis."""
+
+    axis: str
+    start: float
+    stop: float
+    unit: str
+
+
+@dataclass
+class Parameter:
+    name: str
+    unit: str
+    value: float
+    lower: float  # 95 %
+    upper: float
+
+    @property
+    def half_interval(self):
+        return (self.upper - self.lower) / 2
+
+
+@dataclass
+class Region:
+    """Where the residual is not what clean twins have; energy_share of the residual, repeatable_share of the region."""
+
+    where: Interval
+    time_share: float
+    energy_share: float
+    repeatable_share: float
+
+
+@dataclass
+class MapRow:
+    """One axis of the mismatch map; arrays [cell]. Of a spectrum the cells hold amplitudes, z is that of the log power."""
+
+    axis: str
+    unit: str
+    is_spectrum: bool
+    energy_share: float  # of the residual, beyond the twins
+    p: float
+    start: np.ndarray
+    stop: np.ndarray
+    centre: np.ndarray
+    samples: np.ndarray
+    mean_residual: np.ndarray
+    twin_mean: np.ndarray
+    twin_std: np.ndarray
+    z: np.ndarray
+    after_residual: np.ndarray
+    after_z: np.ndarray
+    regions: list
+
+
+@dataclass
+class Candidate:
+    name: str
+    family: str
+    decision: str  # "named", "class", "measurement", "no", "not tested"
+    reason: str
+    z: float
+    p: float
+    q: float
+    gain: float
+    cv_gain: float
+    chance_z: float  # what 95 % of the twins stay below
+
+
+@dataclass
+class Curve:
+    """An effect over its principal axis; arrays [cell]."""
+
+    range: Interval
+    at: np.ndarray
+    partial: np.ndarray  # effect and what is left
+    modelled: np.ndarray
+    spread: np.ndarray  # of one twin's mean
+
+
+@dataclass
+class NamedEffect:
+    name: str
+    family: str
+    title: str
+    equation: str
+    acts_on: str
+    equivalent: list
+    p: float
+    p_is_bound: bool
+    q: float
+    z: float
+    gain_train: float
+    gain_cv: float
+    gain_validation: float
+    region: Interval
+    rms: float
+    peak: float
+    sentence: str
+    parameters: dict
+    curve: Curve  # None when there is nothing to draw
+
+
+@dataclass
+class Advice:
+    lacks: str
+    would_separate: list
+
+
+@dataclass
+class Trace:
+    """Arrays [sample]; before and after are residuals, NaN where the joint turns round."""
+
+    recording: str
+    rate_hz: float
+    time: np.ndarray
+    torque: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    velocity: np.ndarray
+    position: np.ndarray
+
+
+@dataclass
+class Forward:
+    """Closed loop from the reference of a recording: rms of simulated minus measured position."""
+
+    recording: str
+    before_rms: float
+    after_rms: float
+    motion_rms: float
+    encoder_step: float
+
+
+@dataclass
+class Joint:
+    joint: int
+    unit_position: str
+    unit_torque: str
+    train_relerr: float
+    validation_relerr: float
+    cv_relerr: float
+    augmented_train_relerr: float
+    augmented_validation_relerr: float
+    augmented_cv_relerr: float
+    floor_relerr: float
+    train_floor_relerr: float
+    budget_parameter_error: float
+    budget_missing_physics: float
+    budget_unexplained: float
+    budget_noise: float
+    loop_source: str
+    loop_remark: str
+    torque_noise: float
+    disturbance: float
+    twins: int
+    omnibus_z: float
+    omnibus_p: float
+    mismatch_rms: float
+    left_rms: float
+    power_sentence: str
+    nuisances: list = field(default_factory=list)
+    baseline: dict = field(default_factory=dict)  # {name: Parameter}, in the order of the file
+    augmented: dict = field(default_factory=dict)
+    map: dict = field(default_factory=dict)  # {axis: MapRow}, in the order of the page
+    candidates: list = field(default_factory=list)  # strongest first
+    effects: list = field(default_factory=list)
+    unexplained: list = field(default_factory=list)  # [(Interval, share of the residual's energy)]
+    advice: list = field(default_factory=list)
+    traces: list = field(default_factory=list)
+    forward: list = field(default_factory=list)
+    twin_energy: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+
+@dataclass
+class Diagnosis:
+    verdict: str  # "none", "named", "class", "unexplained", "insufficient", "data_fault"
+    reason: str
+    finding: str
+    way_out: str
+    seed: int
+    q: float
+    verdict_json: str  # the document of diagnose --json
+    joints: list
