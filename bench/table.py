@@ -13,7 +13,7 @@ def rows(document):
         kernel, instruction_set, *sizes = entry["run_name"].split("/")
         size = dict(part.split(":") for part in sizes if ":" in part)
         yield (kernel, instruction_set, size.get("R", ""), f'{float(size["n"]):.0e}'.replace("+0", ""), size.get("NP", ""),
-               f'{entry["ns_per_sample_candidate"]:.4f}', f'{entry["percent_of_peak"]:.0f}',
+               f'{entry["ns_per_sample_candidate"]:.4f}', f'{entry["percent_of_peak"]:.0f}' if entry["percent_of_peak"] else "-",
                f'{entry["peak_gflops"]:.0f}')
 
 

@@ -11,6 +11,7 @@ namespace torquescope::bench {
 void add_residual_energy_benchmarks(std::vector<std::string> const& instruction_sets);
 void add_levelled_energy_benchmarks(std::vector<std::string> const& instruction_sets);
 void add_gram_benchmarks(std::vector<std::string> const& instruction_sets);
+void add_philox_benchmarks(std::vector<std::string> const& instruction_sets);
 
 // "residual_energy/AVX2/R:4/n:10000/NP:30": what bench/table.py takes apart
 inline std::string case_name(std::string const& kernel, std::string const& instruction_set, std::size_t n_regressors,

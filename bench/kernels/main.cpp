@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   bench::add_residual_energy_benchmarks(with_fma);
   bench::add_levelled_energy_benchmarks(with_fma);
   bench::add_gram_benchmarks(with_fma);
+  bench::add_philox_benchmarks(with_fma);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
