@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t most_blocks = 24, fewest_blocks = 8;
 constexpr double shortest_block_s = 2.0;
+// z from which on a wander is put into the twins: all joints have one, and the size is drawn anew for every twin
+constexpr double any_sign_of_it = 0.0;
 
 // of the motion, and the parabola through what friction does over time
 Eigen::MatrixXd smooth_functions(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& ddq,
@@ -52,7 +54,7 @@ FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline 
   auto const blocks = std::min(most_blocks, static_cast<std::size_t>(duration_s / shortest_block_s));
   if (blocks < fewest_blocks) return;
   blocks_ = blocks;
-  block_s_ = duration_s / static_cast<double>(blocks);
+  duration_s_ = duration_s;
   ProcessedRecord everything;
   everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
   std::iota(everything.kept_rows.begin(), everything.kept_rows.end(), Eigen::Index{0});
@@ -84,12 +86,9 @@ std::vector<double> FrictionWander::changes(ProcessedRecord const& record) const
 
 double FrictionWander::operator()(ProcessedRecord const& record) const {
   constexpr double kept = 0.8;
-  std::vector<double> const change = changes(record);
   std::vector<double> squares;
-  for (std::size_t i = 1; i + 1 < change.size(); ++i) {
-    double const bend = change[i - 1] - 2.0 * change[i] + change[i + 1];
-    if (std::isfinite(bend)) squares.push_back(bend * bend);
-  }
+  for (double const change : changes(record))
+    if (std::isfinite(change)) squares.push_back(change * change);
   auto const n = static_cast<std::size_t>(kept * static_cast<double>(squares.size()));
   if (n == 0) return 0.0;
   std::sort(squares.begin(), squares.end());
@@ -107,9 +106,9 @@ NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& tw
         loop.friction_wander = std;
         loop.friction_wander_variance_error = variance_error;
       },
-      // block means of a random walk of variance s^2 t differ by 2/3 s^2 block, second differences by about 1.5 times that;
-      // the largest fifth holds half of a mean square
-      [&](double wanted, double none) { return (wanted - none) / (0.5 * statistic.block_s()); }};
+      // a random walk of variance s^2 t, less its parabola, has about a thirtieth of s^2 duration left, half of it below
+      // the largest fifth
+      [&](double wanted, double none) { return (wanted - none) / (statistic.duration_s() / 60.0); }, any_sign_of_it};
   return noise_level(question, recording, twin, pipeline, address, twins, threads);
 }
 

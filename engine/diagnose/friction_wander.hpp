@@ -3,8 +3,8 @@
 // effect of time, and for a little of everything, when the twins have none.
 //
 // Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a parabola
-//            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least); mean square of second differences of
-//            neighbouring blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
+//            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least);
+//            mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
 // Model      a random walk: what the blocks tell of short times says what may happen over long ones, so that a drift is
 //            named only where it is more than chance would bring
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
@@ -25,14 +25,14 @@ class FrictionWander {
   FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint);
 
   bool is_measurable() const { return blocks_ > 0; }
-  double block_s() const { return block_s_; }
+  double duration_s() const { return duration_s_; }
   // change of the level in each block, as a share; NaN where too few rows are left
   std::vector<double> changes(ProcessedRecord const& record) const;
   double operator()(ProcessedRecord const& record) const;
 
  private:
   std::size_t blocks_ = 0;  // 0: not measurable
-  double block_s_ = 0.0;
+  double duration_s_ = 0.0;
   Eigen::MatrixXd smooth_;    // kept samples x functions
   Eigen::VectorXd friction_;  // kept samples: torque of dry friction
 };

@@ -134,6 +134,8 @@ class JointWork {
     joint_.loop_remark = stage.twin->loop.remark;
     joint_.torque_noise = stage.twin->loop.loop.torque_noise.std;
     joint_.disturbance = stage.twin->disturbance.std;
+    joint_.friction_wander = stage.twin->friction_wander.std;
+    joint_.shape_evaluations = selection_.evaluations;
     joint_.twins = static_cast<std::size_t>(rows.n_twins());
     joint_.omnibus_z = stage.energy.z;
     joint_.omnibus_p = stage.energy.p;

@@ -19,7 +19,6 @@ struct TwinStatistic {
 NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
                        RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
-  constexpr double z_some = 1.64;
   constexpr int rounds = 3;
   auto const of_twins = [&](double variance) {
     TwinLoop loop = twin.loop();
@@ -46,7 +45,7 @@ NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& rec
   result.ratio = wanted / none.mean;
   double const spread = none.std * std::sqrt(1.0 + 1.0 / static_cast<double>(twins));
   result.z = (wanted - none.mean) / std::max(spread, 1e-12 * none.mean);
-  if (result.z < z_some) return result;
+  if (result.z <= question.least_z) return result;
 
   double variance = question.first_guess(wanted, none.mean);
   for (int round = 0; round < rounds; ++round) {

@@ -2,8 +2,8 @@
 // How strong a noise must be in the twins so that one statistic of theirs is what the recording has.
 //
 // Equation   mean of statistic(twins with variance s^2) = statistic(recording); it grows linearly with s^2: secant
-// Zero       when the recording's statistic is within 1.64 standard deviations of twins without the noise: a level too low
-//            makes false names, so the doubt goes to the noise (one-sided 5 %)
+// Zero       when the recording's statistic is less than `least_z` standard deviations above that of twins without the
+//            noise: a level too low makes false names, so the doubt goes to the noise (1.64: one-sided 5 %)
 // Threads    spreads twins over `threads`; same bits for any number
 // Source     LESSONS item 5 of our own prototype
 
@@ -27,6 +27,7 @@ struct NoiseQuestion {
   std::function<double(ProcessedRecord const&)> statistic;                     // from any thread
   std::function<void(TwinLoop& loop, double std, double variance_error)> put;  // the noise into a loop
   std::function<double(double recording, double twins)> first_guess;           // of the variance, from both statistics
+  double least_z = 1.64;
 };
 
 // twins >= 8; the noise that `twin` has already is not used

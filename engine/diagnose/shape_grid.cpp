@@ -28,7 +28,13 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
     return static_cast<std::size_t>(std::ceil(gaps)) + 1;
   }
   if (parameter.is_instant() || parameter.lower.to == RelativeTo::position) return places;
-  return n_shape == 1 ? 10 : n_shape == 2 ? 6 : 4;
+  if (n_shape == 1) return 10;
+  if (n_shape == 2) return 6;
+  if (range.spacing == Spacing::linear) return 4;
+  // a refinement comes no further than one point: where the law changes by decades, more of them
+  constexpr double widest_factor = 2.5;
+  double const factors = std::log(range.upper / range.lower) / std::log(widest_factor);
+  return static_cast<std::size_t>(std::clamp(std::ceil(factors) + 1.0, 3.0, 10.0));
 }
 
 }  // namespace

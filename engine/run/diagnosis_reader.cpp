@@ -234,6 +234,8 @@ void read_joint_attributes(Objects const& in, std::string const& group, JointDia
   joint.loop_remark = in.text(group, "loop_remark");
   joint.torque_noise = in.number(group, "torque_noise");
   joint.disturbance = in.number(group, "disturbance");
+  joint.friction_wander = in.number(group, "friction_wander");
+  joint.shape_evaluations = in.whole(group, "shape_evaluations");
   joint.twins = static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "twins")));
   joint.omnibus_z = in.number(group, "omnibus_z");
   joint.omnibus_p = in.number(group, "omnibus_p");

@@ -216,6 +216,8 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "loop_remark", joint.loop_remark);
   writer.attribute(group, "torque_noise", joint.torque_noise);
   writer.attribute(group, "disturbance", joint.disturbance);
+  writer.attribute(group, "friction_wander", joint.friction_wander);
+  writer.attribute(group, "shape_evaluations", joint.shape_evaluations);
   writer.attribute(group, "twins", static_cast<std::int64_t>(joint.twins));
   writer.attribute(group, "omnibus_z", joint.omnibus_z);
   writer.attribute(group, "omnibus_p", joint.omnibus_p);

@@ -166,6 +166,8 @@ class Joint:
     loop_remark: str
     torque_noise: float
     disturbance: float
+    friction_wander: float  # share of the level of dry friction per root of a second
+    shape_evaluations: int
     twins: int
     omnibus_z: float
     omnibus_p: float

@@ -173,4 +173,8 @@ def how_found(joint):
                         ("mismatch beyond the twins, rms", joint.mismatch_rms), ("the same after", joint.left_rms)):
         measured = math.isfinite(value) and joint.twins
         told.append((what, q.with_unit(q.number(value), joint.unit_torque) if measured else "not measured"))
+    if math.isfinite(joint.friction_wander) and joint.twins:
+        told.append(("dry friction wanders in a minute by", q.percent(joint.friction_wander * math.sqrt(60.0))))
+    if joint.shape_evaluations:
+        told.append(("evaluations of shapes", q.whole(joint.shape_evaluations)))
     return [(what, value) for what, value in told if value]

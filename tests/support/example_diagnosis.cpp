@@ -236,6 +236,8 @@ JointDiagnosis invented_joint() {
   joint.loop_remark = "position and velocity loop, found from the reference";
   joint.torque_noise = 0.018;
   joint.disturbance = 0.011;
+  joint.friction_wander = 0.0008;
+  joint.shape_evaluations = 412;
   joint.twins = 200;
   joint.omnibus_z = 21.4;
   joint.omnibus_p = 1.0 / 201.0;
