@@ -92,7 +92,7 @@ TEST(SufficientStatistics, EqualPlainLoopsWithinTheStatedError) {
   std::uint32_t run = 0;
   double worst = 0.0, worst_near = 0.0;
   for (Eigen::Index const columns : {2, 4, 11}) {
-    for (double const apart : {1.0, 1e-3, 1e-6, 3e-8}) {
+    for (double const apart : {1.0, 1e-3, 1e-4, 2e-5, 1e-6, 3e-8}) {
       // the last one is just above what is refused
       for (double const noise : {0.3, 1e-2, 1.1e-4}) {
         Rows const rows(3000, columns, apart, noise, ++run);
