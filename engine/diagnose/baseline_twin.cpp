@@ -34,7 +34,8 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   if (result.disturbance.ran_away) return result;
   law.disturbance_std = result.disturbance.std;
   law.disturbance_variance_error = result.disturbance.variance_error;
-  result.friction_wander = friction_wander(record, twin(), pipeline, wander_set, options.twins, threads);
+  result.friction_wander =
+      friction_wander(record, twin(), pipeline, options.wander, wander_set, options.twins, threads);
   if (result.friction_wander.ran_away) return result;
   law.friction_wander = result.friction_wander.std;
   law.friction_wander_variance_error = result.friction_wander.variance_error;

@@ -26,6 +26,7 @@ struct TwinOptions {
   std::size_t twins = 16;  // per round of the correction and of the level
   std::uint64_t seed = 0;
   std::uint32_t recording = 0;
+  WanderReading wander = WanderReading::beside_motion;
 };
 
 struct BaselineTwin {

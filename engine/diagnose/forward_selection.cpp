@@ -177,6 +177,10 @@ class Search {
       reject(effect, "does not help on blocks it was not fitted to");
       return false;
     }
+    if (effect->family() == EffectFamily::time && !stands_against_wander(effect)) {
+      reject(effect, "friction wanders by as much without it");
+      return false;
+    }
     std::vector<ShapedEffect> effects = stage_.model().effects();
     effects.push_back({effect, trial.refined.shape});
     tell("twins", 0, setting_.twins);
@@ -196,6 +200,16 @@ class Search {
     keep_baseline();
     stage_ = std::move(*next);
     return true;
+  }
+
+  // against twins whose friction wanders as much as the recording's may at most
+  bool stands_against_wander(Effect const* effect) {
+    StageSetting wandering = setting_;
+    wandering.wander = WanderReading::by_itself;
+    auto const stage = make_stage(wandering, stage_.model());
+    if (!stage) return false;
+    CandidateColumns const columns(*stage->pipeline, stage->comparison, stage->reference(), stage->parameters());
+    return scan_candidates(columns, {effect}, setting_.threads).front().p <= options_.q;
   }
 
   // the first stage is asked for again at the end

@@ -9,7 +9,8 @@
 // Choice     the candidates with most gain are refined in shape; the largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, keep its
 //            plausible bounds, and improve blocks of time it was not fitted to (t >= 2); what happens once cannot
-//            do that, and must explain a quarter of the whole
+//            do that, and must explain a quarter of the whole. What changes while the recording runs must stay beyond
+//            chance when friction wanders in the twins as much as it may at most (friction_wander.hpp, by itself)
 // Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least half of what
 //            the projection promised
 // End        backward: an effect whose own share is below 0.2 % of the whole is taken out again

@@ -17,17 +17,20 @@ constexpr double shortest_block_s = 2.0;
 constexpr double any_sign_of_it = 0.0;
 
 // of the motion, and the parabola through what friction does over time
-Eigen::MatrixXd smooth_functions(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& ddq,
-                                 Eigen::VectorXd const& friction) {
-  Eigen::VectorXd const s = dq.array().sign();
-  Eigen::VectorXd const t = Eigen::VectorXd::LinSpaced(q.size(), -1.0, 1.0);
-  std::vector<Eigen::MatrixXd> parts{hats(dq, 12), hats(q, 8), hats(ddq, 8)};
-  for (std::size_t of : {1U, 2U}) parts.push_back(s.asDiagonal() * parts[of]);
-  parts.push_back(friction.cwiseProduct(t));
-  parts.push_back(parts.back().cwiseProduct(t));
+Eigen::MatrixXd smooth_functions(Motion const& motion, Eigen::VectorXd const& friction, WanderReading reading) {
+  Eigen::VectorXd const t = Eigen::VectorXd::LinSpaced(friction.size(), -1.0, 1.0);
+  std::vector<Eigen::MatrixXd> parts{friction.cwiseProduct(t), friction.cwiseProduct(t.cwiseAbs2())};
+  if (reading == WanderReading::beside_motion) {
+    Eigen::VectorXd const s = motion.dq.array().sign();
+    for (Eigen::VectorXd const* of : {&motion.q, &motion.ddq}) {
+      parts.push_back(hats(*of, 8));
+      parts.push_back(s.asDiagonal() * parts.back());
+    }
+    parts.push_back(hats(motion.dq, 12));
+  }
   Eigen::Index width = 0;
   for (auto const& part : parts) width += part.cols();
-  Eigen::MatrixXd all(q.size(), width);
+  Eigen::MatrixXd all(friction.size(), width);
   Eigen::Index at = 0;
   for (auto const& part : parts) {
     all.middleCols(at, part.cols()) = part;
@@ -47,8 +50,8 @@ Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& co
 
 }  // namespace
 
-FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline,
-                               TwinJoint const& joint) {
+FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint,
+                               WanderReading reading) {
   if (joint.coulomb_forward == 0.0 && joint.coulomb_backward == 0.0) return;
   double const duration_s = static_cast<double>(pipeline.kept_samples()) / pipeline.kept_rate_hz();
   auto const blocks = std::min(most_blocks, static_cast<std::size_t>(duration_s / shortest_block_s));
@@ -59,9 +62,12 @@ FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline 
   everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
   std::iota(everything.kept_rows.begin(), everything.kept_rows.end(), Eigen::Index{0});
   auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, everything); };
-  Eigen::VectorXd const dq = pick(recording.motion.dq);
-  friction_ = dq.unaryExpr([&](double v) { return v > 0.0 ? joint.coulomb_forward : joint.coulomb_backward; });
-  smooth_ = smooth_functions(pick(recording.motion.q), dq, pick(recording.motion.ddq), friction_);
+  Motion kept;
+  kept.q = pick(recording.motion.q);
+  kept.dq = pick(recording.motion.dq);
+  kept.ddq = pick(recording.motion.ddq);
+  friction_ = kept.dq.unaryExpr([&](double v) { return v > 0.0 ? joint.coulomb_forward : joint.coulomb_backward; });
+  smooth_ = smooth_functions(kept, friction_, reading);
 }
 
 std::vector<double> FrictionWander::changes(ProcessedRecord const& record) const {
@@ -97,8 +103,8 @@ double FrictionWander::operator()(ProcessedRecord const& record) const {
 }
 
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                           TwinAddress const& address, std::size_t twins, int threads) {
-  FrictionWander const statistic(recording, pipeline, twin.joint());
+                           WanderReading reading, TwinAddress const& address, std::size_t twins, int threads) {
+  FrictionWander const statistic(recording, pipeline, twin.joint(), reading);
   if (!statistic.is_measurable()) return {};
   NoiseQuestion const question{
       [&](ProcessedRecord const& record) { return statistic(record); },

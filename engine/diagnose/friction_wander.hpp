@@ -5,6 +5,9 @@
 // Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a parabola
 //            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least);
 //            mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
+// By itself  the same with nothing but the parabola taken out: more, when something else is missing, but never less. Where
+//            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever names a
+//            drift must do so against this reading
 // Model      a random walk: what the blocks tell of short times says what may happen over long ones, so that a drift is
 //            named only where it is more than chance would bring
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
@@ -19,10 +22,13 @@
 
 namespace torquescope {
 
+enum class WanderReading { beside_motion, by_itself };
+
 // the statistic of any record that went through this pipeline; functions of the motion are those of `recording`
 class FrictionWander {
  public:
-  FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint);
+  FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint,
+                 WanderReading reading);
 
   bool is_measurable() const { return blocks_ > 0; }
   double duration_s() const { return duration_s_; }
@@ -39,6 +45,6 @@ class FrictionWander {
 
 // the wander that the twin has already is not used
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                           TwinAddress const& address, std::size_t twins, int threads);
+                           WanderReading reading, TwinAddress const& address, std::size_t twins, int threads);
 
 }  // namespace torquescope

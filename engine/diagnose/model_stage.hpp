@@ -25,6 +25,7 @@ struct StageSetting {
   std::size_t twins = 200;
   std::uint64_t seed = 0;
   int threads = 1;
+  WanderReading wander = WanderReading::beside_motion;
 };
 
 struct ModelStage {

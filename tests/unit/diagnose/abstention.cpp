@@ -55,7 +55,7 @@ class Abstention : public testing::Test {
     Selection selection;
     selection.is_gate_open = true;
     selection.first_excess = first_over_left * std::abs(stage.energy.excess);
-    if (is_any_accepted) selection.accepted.push_back({find_effect("stribeck"), {}, 0.0, 1.0, 5.0, 1.0});
+    if (is_any_accepted) selection.accepted.push_back({find_effect("stribeck"), {}, 0.0, 1.0, 1.0});
     return selection;
   }
 

@@ -118,7 +118,7 @@ TEST(FrictionWander, DoesNotCountADriftThatGoesOnNorWhatTheMotionExplains) {
   auto const recording = recorded(simulate_joint(joint.plan, 12));
   auto const pipeline = clean_pipeline(recording);
   auto const made = made_from(recording, pipeline);
-  FrictionWander const statistic(made.record, pipeline, made.twin.joint());
+  FrictionWander const statistic(made.record, pipeline, made.twin.joint(), WanderReading::beside_motion);
   ASSERT_TRUE(statistic.is_measurable());
   ProcessedRecord drifting = made.record, slow = made.record, jumping = made.record;
   Eigen::VectorXd const time = pipeline.picked(drifting.motion.time_s, drifting);
