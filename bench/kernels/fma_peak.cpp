@@ -2,7 +2,6 @@
 
 #include <time.h>
 
-#include <algorithm>
 #include <cstddef>
 
 // this file is compiled once per instruction set
@@ -52,15 +51,15 @@ double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-double fma_per_second() {
-  double best = 0;
-  for (int burst = 0; burst < 8; ++burst) {
+void FmaRate::measure_for(double seconds) {
+  double const begin = thread_cpu_seconds();
+  double passed = 0.0;
+  while (passed < seconds) {
     double result[8];
-    double const begin = thread_cpu_seconds();
-    double const count = HWY_DYNAMIC_DISPATCH(multiply_add)(100'000, result);
-    best = std::max(best, count / (thread_cpu_seconds() - begin));
+    count_ += HWY_DYNAMIC_DISPATCH(multiply_add)(60'000, result);
+    passed = thread_cpu_seconds() - begin;
   }
-  return best;
+  seconds_ += passed;
 }
 
 }  // namespace torquescope::bench

@@ -8,7 +8,17 @@ namespace torquescope::bench {
 
 // seconds of CPU time this thread has used
 double thread_cpu_seconds();
-// best of several short bursts, about 2 ms in all
-double fma_per_second();
+
+// a mean rate, measured bit by bit between turns of something else
+class FmaRate {
+ public:
+  // adds bursts of some 0.2 ms until `seconds` have passed
+  void measure_for(double seconds);
+  double per_second() const { return count_ / seconds_; }
+
+ private:
+  double count_ = 0.0;
+  double seconds_ = 0.0;
+};
 
 }  // namespace torquescope::bench

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace torquescope {
 
@@ -29,6 +30,13 @@ struct RandomKey {
 class RandomStream {
  public:
   RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member);
+  // the same stream; its first blocks, four words each, were computed before (kernels/philox.hpp) and must outlive it
+  RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member,
+               std::span<std::uint32_t const> first_blocks);
+
+  // counter of its first block, and the key of all
+  static PhiloxBlock first_counter(RandomKey key, std::uint32_t generation, std::uint32_t member);
+  static std::array<std::uint32_t, 2> philox_key(RandomKey key);
 
   std::uint64_t bits();                     // 64 random bits
   double uniform();                         // [0, 1), 53 bits
@@ -37,8 +45,11 @@ class RandomStream {
   double normal();                          // standard normal, inverse cumulative distribution of one uniform
 
  private:
+  void next_block();
+
   std::array<std::uint32_t, 2> key_;
   PhiloxBlock counter_;
+  std::span<std::uint32_t const> first_blocks_{};
   PhiloxBlock block_{};
   std::uint32_t used_ = 4;  // 32-bit words taken from block_
 };

@@ -8,6 +8,7 @@
 
 #include "engine/optim/optimiser_state.hpp"
 #include "engine/optim/selection.hpp"
+#include "kernels/philox.hpp"
 
 namespace torquescope {
 
@@ -15,6 +16,20 @@ namespace {
 
 constexpr double state_version = 1.0;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// blocks of two draws that a trial takes as a rule: three members, j_rand, one draw per parameter, a repair or two
+std::size_t likely_blocks(std::size_t dimension) { return (dimension + 6) / 2; }
+
+// the first blocks of every member's stream, all at once: the numbers are those that each would compute by itself
+std::vector<std::uint32_t> first_blocks(RandomKey key, std::uint32_t generation, std::size_t n_members,
+                                        std::size_t n_blocks) {
+  std::vector<std::uint32_t> words(4 * n_members * n_blocks);
+  auto const counter = RandomStream::first_counter(key, generation, 0);
+  auto const philox_key = RandomStream::philox_key(key);
+  kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, n_members, n_blocks,
+                         words.data());
+  return words;
+}
 
 }  // namespace
 
@@ -34,8 +49,11 @@ void GenerationalSearch::ask(MatrixView<double> candidates) const {
     return;
   }
   auto const generation = static_cast<std::uint32_t>(progress_.generation + 1);
+  std::size_t const n_words = 4 * likely_blocks(dimension());
+  auto const blocks = first_blocks(key_, generation, candidates.rows(), likely_blocks(dimension()));
   for (std::size_t i = 0; i < candidates.rows(); ++i) {
-    RandomStream random(key_, generation, static_cast<std::uint32_t>(i));
+    RandomStream random(key_, generation, static_cast<std::uint32_t>(i),
+                        std::span(blocks).subspan(i * n_words, n_words));
     make_trial(i, random, candidates.row(i));
   }
 }

@@ -26,7 +26,9 @@ OptionTable<ObjectiveOptions> const& ObjectiveOptions::table() {
        {"huber_delta", &ObjectiveOptions::huber_delta, "N m or N", 0.0, 1e12,
         "residuals beyond it pull with constant force; 0: 1.345 times their robust scale, as irls"},
        {"fitness_scale", &ObjectiveOptions::fitness_scale, std::vector<std::string>{"mse", "sse"},
-        "mean or sum over the samples (the seed's eq. 10 is the sum; it changes what FADE does)"}});
+        "mean or sum over the samples (the seed's eq. 10 is the sum; it changes what FADE does)"},
+       {"fitness", &ObjectiveOptions::fitness, std::vector<std::string>{"auto", "direct", "gram"},
+        "from every sample (direct) or from sufficient statistics (gram: squares only, where it is exact to 1e-12)"}});
   return table;
 }
 

@@ -12,6 +12,7 @@ struct ObjectiveOptions {
   std::string loss = "squares";
   double huber_delta = 0.0;
   std::string fitness_scale = "mse";
+  std::string fitness = "auto";
 
   static OptionTable<ObjectiveOptions> const& table();
 };

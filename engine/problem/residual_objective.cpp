@@ -1,33 +1,25 @@
 #include "engine/problem/residual_objective.hpp"
 
-#include <Eigen/QR>
-#include <cmath>
-
 #include "engine/base/contract.hpp"
-#include "engine/problem/least_squares.hpp"
+#include "kernels/levelled_energy.hpp"
 #include "kernels/residual_energy.hpp"
 
 namespace torquescope {
 namespace {
 
-Eigen::MatrixXd triangular_root(RegressionData const& data) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(data.phi);
-  Eigen::MatrixXd root = qr.matrixQR().topRows(data.parameters()).triangularView<Eigen::Upper>();
-  return root / std::sqrt(static_cast<double>(data.rows()));
+double* room(Workspace& workspace, std::size_t needed) {
+  if (workspace.numbers.size() < needed) workspace.numbers.resize(needed);
+  return workspace.numbers.data();
 }
 
 }  // namespace
 
 ResidualObjective::ResidualObjective(RegressionData const& data, Bounds bounds, Loss loss, FitnessScale scale)
-    : bounds_(std::move(bounds)),
-      loss_(loss),
-      scale_(scale),
-      n_rows_(static_cast<double>(data.rows())),
-      least_squares_(solve_weighted(data, {})),
-      floor_mse_(prediction_metrics(data, least_squares_).mse),
-      root_(triangular_root(data)) {
+    : bounds_(std::move(bounds)), loss_(loss), scale_(scale), n_rows_(static_cast<double>(data.rows())) {
   TORQUESCOPE_EXPECT(bounds_.dimension() == static_cast<std::size_t>(data.parameters()));
   TORQUESCOPE_EXPECT(loss_.delta > 0.0);
+  levelled_ = LevelledRecording::make(data.phi, data.tau);
+  if (levelled_) return;
   auto const rows = static_cast<std::size_t>(data.rows());
   packed_.resize(kernels::packed_size(rows, dimension()));
   tiles_ = kernels::pack_tiles(data.phi.data(), static_cast<std::size_t>(data.phi.outerStride()), data.tau.data(), rows,
@@ -37,23 +29,33 @@ ResidualObjective::ResidualObjective(RegressionData const& data, Bounds bounds, 
 void ResidualObjective::evaluate(MatrixView<double const> candidates, std::span<double> fitness,
                                  Workspace& workspace) const {
   TORQUESCOPE_EXPECT(candidates.columns() == dimension() && fitness.size() == candidates.rows());
-  auto const needed = kernels::energy_workspace_size(tiles_.n_samples, tiles_.n_regressors, candidates.rows());
-  if (workspace.numbers.size() < needed) workspace.numbers.resize(needed);
-
   kernels::Candidates const block{candidates.data(), candidates.rows(), candidates.columns()};
-  if (loss_.kind == LossKind::squares)
-    kernels::residual_energy(tiles_, block, fitness.data(), workspace.numbers.data());
+  if (levelled_)
+    evaluate_levelled(block, fitness.data(), workspace);
   else
-    kernels::huber_energy(tiles_, block, loss_.delta, fitness.data(), workspace.numbers.data());
+    evaluate_in_time(block, fitness.data(), workspace);
 
   if (scale_ == FitnessScale::mse)
     for (auto& value : fitness) value /= n_rows_;
 }
 
-double ResidualObjective::gap(std::span<double const> candidate) const {
-  TORQUESCOPE_EXPECT(candidate.size() == dimension());
-  Eigen::Map<Eigen::VectorXd const> const x(candidate.data(), static_cast<Eigen::Index>(candidate.size()));
-  return (root_.triangularView<Eigen::Upper>() * (x - least_squares_)).squaredNorm();
+void ResidualObjective::evaluate_levelled(kernels::Candidates const& block, double* energy,
+                                          Workspace& workspace) const {
+  auto const tiles = levelled_->tiles();
+  double* const numbers = room(workspace, kernels::levelled_workspace_size(tiles, block.n_members));
+  if (loss_.kind == LossKind::squares)
+    kernels::levelled_residual_energy(tiles, block, energy, numbers);
+  else
+    kernels::levelled_huber_energy(tiles, block, loss_.delta, energy, numbers);
+}
+
+void ResidualObjective::evaluate_in_time(kernels::Candidates const& block, double* energy, Workspace& workspace) const {
+  double* const numbers =
+      room(workspace, kernels::energy_workspace_size(tiles_.n_samples, tiles_.n_regressors, block.n_members));
+  if (loss_.kind == LossKind::squares)
+    kernels::residual_energy(tiles_, block, energy, numbers);
+  else
+    kernels::huber_energy(tiles_, block, loss_.delta, energy, numbers);
 }
 
 }  // namespace torquescope

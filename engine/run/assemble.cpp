@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -99,6 +100,12 @@ void prepare(DataSet& set, Experiment::Parts const& parts) {
   }
 }
 
+bool wants_statistics(std::vector<EstimatorPlan> const& plans) {
+  return std::any_of(plans.begin(), plans.end(), [](EstimatorPlan const& plan) {
+    return !plan.is_closed_form() && may_use_statistics(plan.objective);
+  });
+}
+
 }  // namespace
 
 Experiment::Experiment(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -146,6 +153,8 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   prepare(parts->train, *parts);
   if (parts->validate) prepare(*parts->validate, *parts);
   parts->health = regressor_health(parts->train.regression);
+  if (wants_statistics(parts->estimators))
+    parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
   return Experiment(std::move(parts));
 }
 

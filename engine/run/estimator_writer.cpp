@@ -116,6 +116,12 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   write_summary(writer, group, results);
 }
 
+void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice) {
+  std::string const group = group_of(label);
+  writer.attribute(group, "fitness_used", std::string(choice.from_statistics ? "gram" : "direct"));
+  writer.attribute(group, "fitness_reason", choice.words);
+}
+
 void write_least_squares(ResultWriter& writer, std::string const& label, LeastSquaresFit const& fit,
                          JointForm const* form) {
   std::string const group = group_of(label);

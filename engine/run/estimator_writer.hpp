@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 
+#include "engine/problem/fitness_choice.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/run_history.hpp"
 #include "engine/run/run_summary.hpp"
@@ -28,6 +29,9 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
                    std::string const& torque_unit);
+
+// what the fitness of a population method was made from, and why
+void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice);
 
 // what only least squares has: errors, intervals, the equivalent form (nullptr: the model has none)
 struct JointForm;

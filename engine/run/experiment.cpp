@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/base/digest.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "kernels/dispatch.hpp"
@@ -16,6 +18,13 @@ std::string counted(std::size_t n, std::string const& thing) {
 
 std::size_t runs_of(EstimatorPlan const& plan, ExperimentOptions const& experiment) {
   return plan.is_closed_form() ? 1 : static_cast<std::size_t>(experiment.runs);
+}
+
+// at most, of all runs of a population method
+std::int64_t evaluations_of(EstimatorPlan const& plan, Experiment::Parts const& parts) {
+  auto const members = static_cast<std::int64_t>(plan.make_optimiser(parts.box, {})->batch_size());
+  std::int64_t const each = (plan.stop_rules.generations + 1) * members;
+  return parts.experiment.runs * (plan.stop_rules.evaluations > 0 ? std::min(each, plan.stop_rules.evaluations) : each);
 }
 
 std::string excitation_words(Excitation const& facts, JointKind joint) {
@@ -65,6 +74,18 @@ std::string Experiment::job_line() const {
   }
   return fmt::format("{}: 1 joint, {}; {}; {}", name(), counted(parts_->regressor->size(), "parameter"),
                      fmt::join(labels, ", "), counted(runs, "run"));
+}
+
+std::vector<std::string> Experiment::fitness_lines() const {
+  std::vector<std::string> lines;
+  for (auto const& plan : parts_->estimators)
+    if (!plan.is_closed_form())
+      lines.push_back(fmt::format("{} from {}", plan.label, fitness_choice(*parts_, plan).words));
+  return lines;
+}
+
+FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const& plan) {
+  return choose_fitness(plan.objective, parts.statistics ? &*parts.statistics : nullptr, evaluations_of(plan, parts));
 }
 
 std::string Experiment::diagnose_line() const {

@@ -16,8 +16,10 @@
 #include "engine/job/job.hpp"
 #include "engine/job/job_options.hpp"
 #include "engine/optim/objective.hpp"
+#include "engine/problem/fitness_choice.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
+#include "engine/problem/sufficient_statistics.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/workflows.hpp"
@@ -42,10 +44,14 @@ struct Experiment::Parts {
   std::optional<DataSet> validate;
   RegressorHealth health;
   Bounds box;
-  Eigen::VectorXd truth;                  // NaN where unknown
-  std::vector<EstimatorPlan> estimators;  // may be empty unless loaded for identify
+  Eigen::VectorXd truth;                           // NaN where unknown
+  std::vector<EstimatorPlan> estimators;           // may be empty unless loaded for identify
+  std::optional<SufficientStatistics> statistics;  // of the training rows, when an estimator may use them
   DiagnoseOptions diagnose;
   std::vector<Effect const*> effects;  // a diagnosis looks for
 };
+
+// whether this population method looks at every sample or at the statistics, and why
+FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const& plan);
 
 }  // namespace torquescope

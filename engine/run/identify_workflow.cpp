@@ -2,10 +2,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <mutex>
 
 #include "engine/effects/joint_form.hpp"
 #include "engine/problem/residual_objective.hpp"
+#include "engine/problem/squared_error_floor.hpp"
+#include "engine/problem/statistics_objective.hpp"
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/optimise.hpp"
@@ -67,13 +70,13 @@ struct Study {
   IdentifyOptions const& options;
   ProgressSink const& progress;
   ResultWriter& writer;
-  ResidualObjective const& squares;  // of the training rows: what every gap is measured with
-  std::string torque_unit;           // "N m" or "N"
+  SquaredErrorFloor const& floor;  // of the training rows: what every gap is measured with
+  std::string torque_unit;         // "N m" or "N"
 };
 
 void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
               std::int64_t nonfinite, RunResults& results) {
-  results.gap.push_back(study.squares.gap({parameters.data(), static_cast<std::size_t>(parameters.size())}));
+  results.gap.push_back(study.floor.gap({parameters.data(), static_cast<std::size_t>(parameters.size())}));
   results.train.push_back(prediction_metrics(study.parts.train.regression, parameters));
   if (study.parts.validate)
     results.validate.push_back(prediction_metrics(study.parts.validate->regression, parameters));
@@ -95,10 +98,20 @@ RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
   return results;
 }
 
+std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, EstimatorPlan const& plan,
+                                          FitnessChoice const& choice) {
+  auto const& rows = parts.train.regression;
+  auto const scale = fitness_scale(plan.objective);
+  if (choice.from_statistics)
+    return std::make_unique<StatisticsObjective>(*parts.statistics, static_cast<std::size_t>(rows.rows()), parts.box,
+                                                 scale);
+  return std::make_unique<ResidualObjective>(rows, parts.box, make_loss(plan.objective, rows), scale);
+}
+
 RunResults run_population_method(Study const& study, EstimatorPlan const& plan) {
   auto const& parts = study.parts;
-  ResidualObjective const objective(parts.train.regression, parts.box,
-                                    make_loss(plan.objective, parts.train.regression), fitness_scale(plan.objective));
+  auto const choice = fitness_choice(parts, plan);
+  auto const objective = make_objective(parts, plan, choice);
   HistoryShape const shape{static_cast<std::size_t>(parts.experiment.runs),
                            static_cast<std::size_t>(plan.stop_rules.generations),
                            plan.make_optimiser(parts.box, {})->batch_size(), parts.regressor->size()};
@@ -107,10 +120,11 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
                          static_cast<std::int64_t>(shape.runs * (shape.generations + 1) * shape.members));
 
   SearchSetting const setting{
-      objective,
+      *objective,
       plan.stop_rules,
-      objective.as_mean(1.0),
-      [&](std::span<double const> candidate) { return study.squares.gap(candidate); },
+      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0
+                                                         : 1.0 / static_cast<double>(parts.train.regression.rows()),
+      [&](std::span<double const> candidate) { return study.floor.gap(candidate); },
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       study.options.stop_requested,
   };
@@ -132,6 +146,7 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     progress.count_run();
   };
   schedule_runs(shape.runs, study.options.threads.count, run, commit);
+  write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;
 }
@@ -145,9 +160,9 @@ IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& opt
   ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
 
-  ResidualObjective const squares(parts.train.regression, parts.box);
+  SquaredErrorFloor const floor(parts.train.regression);
   bool const revolute = parts.regressor->joint() == JointKind::revolute;
-  Study const study{parts, options, progress, writer, squares, revolute ? "N m" : "N"};
+  Study const study{parts, options, progress, writer, floor, revolute ? "N m" : "N"};
   IdentifyReport report;
   std::vector<std::string> order;
   for (auto const& plan : parts.estimators) {

@@ -49,6 +49,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   options.output = output;
   options.stop_requested = stop_requested;
   note_start(session, experiment.job_line(), experiment, options.threads);
+  for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   {
     ProgressPrinter print_progress(progress_settings(session));

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <vector>
 
 namespace torquescope {
 namespace {
@@ -31,6 +32,25 @@ TEST(RandomStream, IsAddressedNotDrawnInTurn) {
   EXPECT_EQ(a, again.uniform());
   EXPECT_EQ(b, again.uniform());
   EXPECT_EQ(c, again.uniform());
+}
+
+TEST(RandomStream, GoesOnWhereGivenBlocksEnd) {
+  RandomKey const key{42, 3};
+  // the first two blocks, as somebody else computed them
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t b : {0u, 1u}) {
+    auto counter = RandomStream::first_counter(key, 5, 7);
+    counter[0] = b;
+    auto const block = philox4x32(counter, RandomStream::philox_key(key));
+    words.insert(words.end(), block.begin(), block.end());
+  }
+  RandomStream alone(key, 5, 7), given(key, 5, 7, words);
+  for (int draw = 0; draw < 20; ++draw) ASSERT_EQ(given.bits(), alone.bits()) << draw;
+  // and they are really taken
+  words[2] ^= 1u;
+  RandomStream other(key, 5, 7, words), again(key, 5, 7);
+  EXPECT_EQ(other.bits(), again.bits());
+  EXPECT_NE(other.bits(), again.bits());
 }
 
 TEST(RandomStream, DiffersInEveryPartOfItsAddress) {

@@ -47,7 +47,7 @@ TEST(ResidualObjective, EqualsPlainLoopsForEveryLossAndScale) {
     EXPECT_NEAR(sse_fitness[m], squares, 1e-13 * squares);
     EXPECT_NEAR(mse_fitness[m], squares / 3001.0, 1e-13 * squares / 3001.0);
     EXPECT_NEAR(huber_fitness[m], pulls / 3001.0, 1e-13 * pulls / 3001.0);
-    EXPECT_EQ(sse.as_mean(sse_fitness[m]), mse_fitness[m]);
+    EXPECT_EQ(sse_fitness[m] / 3001.0, mse_fitness[m]);
   }
 }
 
@@ -55,36 +55,9 @@ TEST(ResidualObjective, IsTheMseOfOlsAtOlsAndNowhereLess) {
   auto const data = test::seed_data(20.0, 0.3);
   ResidualObjective const objective(data, unit_box());
   auto const ols = test::fit("ols", data);
-  EXPECT_EQ(objective.least_squares(), ols.parameters);
-  EXPECT_EQ(objective.floor_mse(), ols.metrics.mse);
   auto const at_ols = fitness_of(objective, {ols.parameters.begin(), ols.parameters.end()});
   EXPECT_NEAR(at_ols[0], ols.metrics.mse, 1e-13 * ols.metrics.mse);
   for (double const fitness : fitness_of(objective, random_candidates(50))) EXPECT_GT(fitness, ols.metrics.mse);
-}
-
-TEST(Gap, IsTheDifferenceOfMeanSquaredErrors) {
-  auto const data = test::seed_data(20.0, 0.3);
-  ResidualObjective const objective(data, unit_box());
-  auto const rows = random_candidates(20);
-  auto const fitness = fitness_of(objective, rows);
-  for (std::size_t m = 0; m < 20; ++m) {
-    double const gap = objective.gap({rows.data() + 4 * m, 4});
-    EXPECT_GE(gap, 0.0);
-    EXPECT_NEAR(gap, fitness[m] - objective.floor_mse(), 1e-12 * fitness[m]);
-  }
-}
-
-TEST(Gap, KeepsItsDigitsWhereADifferenceHasNone) {
-  // a step h along one axis: gap = h^2 |phi_r|^2 / n, down to 1e-30 of the MSE
-  auto const data = test::seed_data(20.0, 0.3);
-  ResidualObjective const objective(data, unit_box());
-  std::vector<double> candidate(objective.least_squares().begin(), objective.least_squares().end());
-  EXPECT_EQ(objective.gap(candidate), 0.0);
-  candidate[2] += 0x1p-48;
-  double const step = candidate[2] - objective.least_squares()[2];  // what is left of it after rounding
-  double const expected = step * step * data.phi.col(2).squaredNorm() / 2000.0;
-  EXPECT_GT(expected, 0.0);
-  EXPECT_NEAR(objective.gap(candidate) / expected, 1.0, 1e-12);
 }
 
 TEST(ResidualObjective, GivesNonFiniteFitnessToNonFiniteCandidatesOnly) {
@@ -100,7 +73,6 @@ TEST(ResidualObjective, GivesNonFiniteFitnessToNonFiniteCandidatesOnly) {
     if (loss.kind == LossKind::squares) {
       EXPECT_EQ(fitness[4], before[4]);
     }
-    EXPECT_TRUE(std::isnan(objective.gap({rows.data() + 12, 4})));
   }
 }
 

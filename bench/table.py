@@ -1,0 +1,32 @@
+"""One table from the JSON of Google Benchmark: kernel, instruction set, R, n, NP, ns, percent of the FMA peak.
+
+    python3 bench/table.py build/bench/kernels.json
+"""
+import json
+import sys
+
+
+def rows(document):
+    for entry in document["benchmarks"]:
+        if entry.get("aggregate_name") != "median":
+            continue
+        kernel, instruction_set, *sizes = entry["run_name"].split("/")
+        size = dict(part.split(":") for part in sizes if ":" in part)
+        yield (kernel, instruction_set, size.get("R", ""), f'{float(size["n"]):.0e}'.replace("+0", ""), size.get("NP", ""),
+               f'{entry["ns_per_sample_candidate"]:.4f}', f'{entry["percent_of_peak"]:.0f}' if entry["percent_of_peak"] else "-",
+               f'{entry["peak_gflops"]:.0f}')
+
+
+def main(path):
+    with open(path) as file:
+        document = json.load(file)
+    head = ("kernel", "target", "R", "n", "NP", "ns/sample/cand", "% of peak", "peak GF/s")
+    table = [head, *rows(document)]
+    widths = [max(len(row[column]) for row in table) for column in range(len(head))]
+    for row in table:
+        left = "  ".join(cell.ljust(width) for cell, width in zip(row[:2], widths[:2]))
+        print(left, "  ".join(cell.rjust(width) for cell, width in zip(row[2:], widths[2:])), sep="  ")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

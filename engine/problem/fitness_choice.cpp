@@ -1,0 +1,39 @@
+#include "engine/problem/fitness_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+// Evaluations of a direct search that take as long as two sweeps. Measured on AVX-512 with 30 members (scripts/bench): 52, 60,
+// 106, 206 for 4, 11, 24, 60 parameters. A coarse rule does: a search of one run evaluates thousands of times.
+std::int64_t repaid_after(Eigen::Index n_parameters) { return 40 + 3 * static_cast<std::int64_t>(n_parameters); }
+
+FitnessChoice every_sample(ObjectiveOptions const& options, std::string const& why) {
+  return {false, fmt::format("every sample ({}): {}", options.fitness, why)};
+}
+
+}  // namespace
+
+bool may_use_statistics(ObjectiveOptions const& options) {
+  return options.fitness != "direct" && options.loss == "squares";
+}
+
+FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
+                             std::int64_t evaluations) {
+  if (options.fitness == "direct") return every_sample(options, "as the job says");
+  if (options.loss != "squares") return every_sample(options, options.loss + " is no sum of squares");
+  TORQUESCOPE_EXPECT(statistics != nullptr);
+  if (!statistics->usable()) return every_sample(options, "statistics would not be exact, " + statistics->refusal());
+  auto const repaid = repaid_after(statistics->centre().size());
+  if (options.fitness == "auto" && evaluations < repaid)
+    return every_sample(options, fmt::format("{} evaluations do not repay statistics, {} would", evaluations, repaid));
+  return {true,
+          fmt::format("sufficient statistics ({}): least error {:.1e} of the torque's mean square, condition {:.2g}, "
+                      "{} evaluations",
+                      options.fitness, statistics->noise_share(), statistics->condition(), evaluations)};
+}
+
+}  // namespace torquescope

@@ -1,0 +1,28 @@
+#pragma once
+// Whether a search looks at every sample or at sufficient statistics, and why, in words.
+//
+// Rule       fitness = "auto" and "gram" take statistics where the loss is squares and SufficientStatistics are usable;
+//            "auto" only when the search evaluates often enough to repay their sweeps; else every sample ("direct")
+// Threads    free functions
+
+#include <cstdint>
+#include <string>
+
+#include "engine/problem/objective_options.hpp"
+#include "engine/problem/sufficient_statistics.hpp"
+
+namespace torquescope {
+
+struct FitnessChoice {
+  bool from_statistics = false;
+  std::string words;  // "statistics (auto): ...", for the log and the result file
+};
+
+// whether statistics have to be made at all before choose_fitness can decide
+bool may_use_statistics(ObjectiveOptions const& options);
+
+// statistics: may be nullptr when may_use_statistics() says no; evaluations: at most, of all runs
+FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
+                             std::int64_t evaluations);
+
+}  // namespace torquescope
