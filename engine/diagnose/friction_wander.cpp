@@ -115,7 +115,13 @@ NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& tw
       // a random walk of variance s^2 t, less its parabola, has about a thirtieth of s^2 duration left, half of it below
       // the largest fifth
       [&](double wanted, double none) { return (wanted - none) / (statistic.duration_s() / 60.0); }, any_sign_of_it};
-  return noise_level(question, recording, twin, pipeline, address, twins, threads);
+  NoiseLevel level = noise_level(question, recording, twin, pipeline, address, twins, threads);
+  double const most = most_wander_in_a_minute / std::sqrt(60.0);
+  if (level.std > most) {
+    level.std = most;
+    level.variance_error = 0.0;
+  }
+  return level;
 }
 
 }  // namespace torquescope

@@ -10,6 +10,7 @@
 //            drift must do so against this reading
 // Model      a random walk: what the blocks tell of short times says what may happen over long ones, so that a drift is
 //            named only where it is more than chance would bring
+// At most    3 % in a minute: friction that changes by more does so for a reason, which is for the search to find
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
 // Level      noise_level.hpp
@@ -21,6 +22,8 @@
 #include "engine/diagnose/noise_level.hpp"
 
 namespace torquescope {
+
+inline constexpr double most_wander_in_a_minute = 0.03;
 
 enum class WanderReading { beside_motion, by_itself };
 

@@ -61,6 +61,8 @@ function(unit_test folder name)
   target_link_libraries(${target} PRIVATE torquescope_flags ${TEST_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
   # gtest at -O3 doubles the time of a build and finds nothing more: what is tested keeps its own flags
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  # read once for all tests: a quarter of the time of their build
+  target_precompile_headers(${target} REUSE_FROM test_headers)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE TORQUESCOPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${flat}.${name} COMMAND ${target})
