@@ -5,6 +5,8 @@
 import json
 import sys
 
+from measure import print_table
+
 
 def rows(document):
     for entry in document["benchmarks"]:
@@ -21,11 +23,7 @@ def main(path):
     with open(path) as file:
         document = json.load(file)
     head = ("kernel", "target", "R", "n", "NP", "ns/sample/cand", "% of peak", "peak GF/s")
-    table = [head, *rows(document)]
-    widths = [max(len(row[column]) for row in table) for column in range(len(head))]
-    for row in table:
-        left = "  ".join(cell.ljust(width) for cell, width in zip(row[:2], widths[:2]))
-        print(left, "  ".join(cell.rjust(width) for cell, width in zip(row[2:], widths[2:])), sep="  ")
+    print_table(head, list(rows(document)))
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ HWY_INLINE V fused_mul_add(V a, V b, V c) {
   return hn::MulAdd(a, b, c);
 #else
   hn::DFromV<V> const d;
-  double x[hn::MaxLanes(d)], y[hn::MaxLanes(d)], z[hn::MaxLanes(d)];
+  hn::TFromD<hn::DFromV<V> > x[hn::MaxLanes(d)], y[hn::MaxLanes(d)], z[hn::MaxLanes(d)];
   hn::StoreU(a, d, x);
   hn::StoreU(b, d, y);
   hn::StoreU(c, d, z);

@@ -22,6 +22,7 @@ struct Bounds {
 // buffers of one thread, grown once and reused; each objective lays out its own
 struct Workspace {
   std::vector<double> numbers;
+  std::vector<float> singles;
 };
 
 class Objective {

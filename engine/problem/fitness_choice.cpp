@@ -12,13 +12,13 @@ namespace {
 std::int64_t repaid_after(Eigen::Index n_parameters) { return 40 + 3 * static_cast<std::int64_t>(n_parameters); }
 
 FitnessChoice every_sample(ObjectiveOptions const& options, std::string const& why) {
-  return {false, fmt::format("every sample ({}): {}", options.fitness, why)};
+  return {false, false, fmt::format("every sample ({}): {}", options.fitness, why)};
 }
 
 }  // namespace
 
 bool may_use_statistics(ObjectiveOptions const& options) {
-  return options.fitness != "direct" && options.loss == "squares";
+  return options.precision == "float32" || (options.fitness != "direct" && options.loss == "squares");
 }
 
 FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
@@ -30,10 +30,18 @@ FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatisti
   auto const repaid = repaid_after(statistics->centre().size());
   if (options.fitness == "auto" && evaluations < repaid)
     return every_sample(options, fmt::format("{} evaluations do not repay statistics, {} would", evaluations, repaid));
-  return {true,
+  return {true, false,
           fmt::format("sufficient statistics ({}): least error {:.1e} of the torque's mean square, condition {:.2g}, "
                       "{} evaluations",
                       options.fitness, statistics->noise_share(), statistics->condition(), evaluations)};
+}
+
+FitnessChoice single_precision_choice(ObjectiveOptions const& options, SinglePrecisionCheck const& check) {
+  TORQUESCOPE_EXPECT(check.usable());
+  return {false, true,
+          fmt::format("every sample ({}) in float32: its MSE is within {:.0e} of float64's around least squares, which "
+                      "leaves {:.1e} of the torque",
+                      options.fitness, check.error, check.noise)};
 }
 
 }  // namespace torquescope

@@ -3,26 +3,33 @@
 //
 // Rule       fitness = "auto" and "gram" take statistics where the loss is squares and SufficientStatistics are usable;
 //            "auto" only when the search evaluates often enough to repay their sweeps; else every sample ("direct")
+//            precision = "float32" takes every sample, in float32
 // Threads    free functions
 
 #include <cstdint>
 #include <string>
 
 #include "engine/problem/objective_options.hpp"
+#include "engine/problem/single_precision.hpp"
 #include "engine/problem/sufficient_statistics.hpp"
 
 namespace torquescope {
 
 struct FitnessChoice {
   bool from_statistics = false;
+  bool in_float32 = false;
   std::string words;  // "statistics (auto): ...", for the log and the result file
 };
 
-// whether statistics have to be made at all before choose_fitness can decide
+// whether statistics have to be made at all before one of these can decide
 bool may_use_statistics(ObjectiveOptions const& options);
 
 // statistics: may be nullptr when may_use_statistics() says no; evaluations: at most, of all runs
 FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
                              std::int64_t evaluations);
+
+// of precision = "float32"
+// Requires   check.usable()
+FitnessChoice single_precision_choice(ObjectiveOptions const& options, SinglePrecisionCheck const& check);
 
 }  // namespace torquescope

@@ -1,5 +1,7 @@
 #include "engine/problem/objective_options.hpp"
 
+#include <fmt/format.h>
+
 #include "engine/base/contract.hpp"
 #include "engine/problem/estimator.hpp"
 
@@ -28,8 +30,22 @@ OptionTable<ObjectiveOptions> const& ObjectiveOptions::table() {
        {"fitness_scale", &ObjectiveOptions::fitness_scale, std::vector<std::string>{"mse", "sse"},
         "mean or sum over the samples (the seed's eq. 10 is the sum; it changes what FADE does)"},
        {"fitness", &ObjectiveOptions::fitness, std::vector<std::string>{"auto", "direct", "gram"},
-        "from every sample (direct) or from sufficient statistics (gram: squares only, where it is exact to 1e-12)"}});
+        "from every sample (direct) or from sufficient statistics (gram: squares only, where it is exact to 1e-12)"},
+       {"precision", &ObjectiveOptions::precision, std::vector<std::string>{"float64", "float32"},
+        "float32: every sample at up to twice the speed, squares only; refused where noise is below 1e-3 of the "
+        "torque"}});
   return table;
+}
+
+std::optional<Problem> contradiction(ObjectiveOptions const& options, Section const& section) {
+  if (options.precision != "float32") return {};
+  if (options.loss != "squares")
+    return problem_at(section, "precision", fmt::format("precision = \"float32\" with loss = \"{}\"", options.loss),
+                      "float32 sums squares only: remove precision, or write loss = \"squares\"");
+  if (options.fitness == "gram")
+    return problem_at(section, "precision", "precision = \"float32\" with fitness = \"gram\"",
+                      "statistics are faster still and exact: remove precision, or fitness");
+  return {};
 }
 
 Loss make_loss(ObjectiveOptions const& options, RegressionData const& data) {

@@ -106,6 +106,30 @@ bool wants_statistics(std::vector<EstimatorPlan> const& plans) {
   });
 }
 
+// float32 where its rounding would decide between candidates is refused, at the line that asks for it
+void check_precision(Experiment::Parts& parts) {
+  std::vector<Problem> problems;
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    auto const& plan = parts.estimators[i];
+    if (plan.is_closed_form() || plan.objective.precision != "float32") continue;
+    if (!parts.single_precision)
+      parts.single_precision = check_single_precision(parts.train.regression, *parts.statistics);
+    auto const& check = *parts.single_precision;
+    if (check.usable()) continue;
+    std::string const why = std::isnan(check.noise)
+                                ? parts.statistics->refusal()
+                                : fmt::format("least squares leaves {:.1e} of the torque (float32 needs {:.0e})",
+                                              check.noise, SinglePrecisionCheck::least_noise);
+    problems.push_back(
+        problem_at(*sections[i], "precision",
+                   fmt::format("precision = \"float32\" {}: {}",
+                               std::isnan(check.noise) ? "cannot be judged" : "on data without noise", why),
+                   "its rounding would decide which candidate is better: remove precision"));
+  }
+  if (!problems.empty()) throw Error(std::move(problems));
+}
+
 }  // namespace
 
 Experiment::Experiment(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -155,6 +179,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   parts->health = regressor_health(parts->train.regression);
   if (wants_statistics(parts->estimators))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
+  check_precision(*parts);
   return Experiment(std::move(parts));
 }
 

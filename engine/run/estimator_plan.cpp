@@ -78,6 +78,7 @@ EstimatorPlan plan_population_method(OptimiserChoice const& choice, Section cons
   for (auto const& key : keys_of(ObjectiveOptions::table())) shared.push_back(key);
   apply_own(StopRules::table(), section, plan.stop_rules, problems);
   apply_own(ObjectiveOptions::table(), section, plan.objective, problems);
+  if (auto problem = contradiction(plan.objective, section)) problems.push_back(*std::move(problem));
   plan.make_optimiser = choice.prepare(section, shared, problems);
   if (choice.controller) plan.controller = choice.controller(section);
   if (plan.stop_rules.generations < 1) {

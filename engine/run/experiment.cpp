@@ -85,6 +85,7 @@ std::vector<std::string> Experiment::fitness_lines() const {
 }
 
 FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const& plan) {
+  if (plan.objective.precision == "float32") return single_precision_choice(plan.objective, *parts.single_precision);
   return choose_fitness(plan.objective, parts.statistics ? &*parts.statistics : nullptr, evaluations_of(plan, parts));
 }
 

@@ -19,6 +19,7 @@
 #include "engine/problem/fitness_choice.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
+#include "engine/problem/single_precision.hpp"
 #include "engine/problem/sufficient_statistics.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
@@ -44,9 +45,10 @@ struct Experiment::Parts {
   std::optional<DataSet> validate;
   RegressorHealth health;
   Bounds box;
-  Eigen::VectorXd truth;                           // NaN where unknown
-  std::vector<EstimatorPlan> estimators;           // may be empty unless loaded for identify
-  std::optional<SufficientStatistics> statistics;  // of the training rows, when an estimator may use them
+  Eigen::VectorXd truth;                                 // NaN where unknown
+  std::vector<EstimatorPlan> estimators;                 // may be empty unless loaded for identify
+  std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator may use them
+  std::optional<SinglePrecisionCheck> single_precision;  // when an estimator wants float32
   DiagnoseOptions diagnose;
   std::vector<Effect const*> effects;  // a diagnosis looks for
 };

@@ -105,6 +105,7 @@ std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, Estima
   if (choice.from_statistics)
     return std::make_unique<StatisticsObjective>(*parts.statistics, static_cast<std::size_t>(rows.rows()), parts.box,
                                                  scale);
+  if (choice.in_float32) return std::make_unique<SinglePrecisionObjective>(rows, parts.box, scale);
   return std::make_unique<ResidualObjective>(rows, parts.box, make_loss(plan.objective, rows), scale);
 }
 

@@ -8,7 +8,6 @@ namespace torquescope {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
-constexpr std::size_t shared_bytes = std::size_t{64} << 10;
 
 std::size_t bytes_of(std::vector<std::size_t> const& chunk, std::size_t bytes_per_value) {
   return std::accumulate(chunk.begin(), chunk.end(), bytes_per_value, std::multiplies<>());
@@ -35,7 +34,7 @@ std::vector<std::size_t> chunk_of_runs(std::vector<std::size_t> shape, std::size
   shape[0] = 1;
   std::size_t const bytes_of_one = bytes_of(shape, bytes_per_value);
   if (bytes_of_one > most_bytes) return chunk_of_array(shape, bytes_per_value);
-  shape[0] = std::clamp<std::size_t>(shared_bytes / bytes_of_one, 1, runs);
+  shape[0] = std::clamp<std::size_t>(shared_chunk_bytes / bytes_of_one, 1, runs);
   return shape;
 }
 

@@ -11,6 +11,9 @@
 
 namespace torquescope {
 
+// chunks of several runs are at most this large
+inline constexpr std::size_t shared_chunk_bytes = std::size_t{64} << 10;
+
 // an array that is written and read as a whole: equal parts of at most 1 MiB along the first dimensions
 std::vector<std::size_t> chunk_of_array(std::vector<std::size_t> shape, std::size_t bytes_per_value);
 

@@ -43,9 +43,9 @@ void add_attributes(Digest& digest, h5::Handle const& object, std::string const&
   }
 }
 
-// whole chunks at a time, so that each is read and checked once
+// whole chunks at a time, so that each is read and checked once; few enough to stay in the processor's cache
 std::size_t rows_at_once(h5::DatasetInfo const& info) {
-  constexpr std::size_t block_bytes = std::size_t{8} << 20;
+  constexpr std::size_t block_bytes = std::size_t{256} << 10;
   std::size_t const value_bytes = std::max(info.text_size, sizeof(double));
   std::size_t const row_bytes = std::max<std::size_t>(1, info.values_per_row()) * value_bytes;
   std::size_t const chunk_rows = info.chunk.empty() ? 1 : info.chunk[0];

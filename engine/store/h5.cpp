@@ -6,6 +6,7 @@
 #include <array>
 
 #include "engine/base/contract.hpp"
+#include "engine/store/chunking.hpp"
 #include "engine/store/h5_output_driver.hpp"
 
 namespace torquescope::h5 {
@@ -29,6 +30,10 @@ Handle access_list() {
   Handle list = property_list(H5P_FILE_ACCESS);
   checked(H5Pset_file_locking(list.id(), 0, 1), "switch file locks off");
   checked(H5Pset_fclose_degree(list.id(), H5F_CLOSE_STRONG), "set the close degree");
+  // only chunks that several runs share are touched twice (chunking.hpp); larger ones pass straight through
+  constexpr std::size_t slots = 521;
+  constexpr double evict_whole_chunks_first = 1.0;
+  checked(H5Pset_cache(list.id(), 0, slots, shared_chunk_bytes, evict_whole_chunks_first), "size the chunk cache");
   return list;
 }
 
