@@ -134,15 +134,16 @@ void float_residual_energy(FloatTiles const& tiles, Candidates const& candidates
                            double* sums) {
   assert(candidates.n_members == 0 || candidates.leading_dimension >= tiles.n_regressors);
   std::size_t const n_groups = group_count(candidates.n_members);
-  float* const lanes = workspace + n_groups * group_members * tiles.n_regressors;
+  float* const lanes = workspace;  // first: on cache lines when the workspace is
+  float* const packed = lanes + n_groups * group_members * float_lanes;
   PairwiseTree tree(candidates.n_members, sums);
-  pack_parameters(candidates, nullptr, tiles.n_regressors, workspace);
+  pack_parameters(candidates, nullptr, tiles.n_regressors, packed);
 
   auto const kernel = HWY_DYNAMIC_DISPATCH(sum_block_float);
   constexpr std::size_t block_tiles = block_samples / float_tile_samples;
   std::size_t const n_tiles = tile_count(tiles.n_samples);
   for (std::size_t first = 0; first < n_tiles; first += block_tiles) {
-    kernel(tiles, first, std::min(first + block_tiles, n_tiles), n_groups, workspace, lanes);
+    kernel(tiles, first, std::min(first + block_tiles, n_tiles), n_groups, packed, lanes);
     for (std::size_t m = 0; m < candidates.n_members; ++m) energy[m] = sum_float_lanes(lanes + m * float_lanes);
     tree.add(energy);
   }

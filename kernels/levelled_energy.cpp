@@ -74,11 +74,11 @@ void sum_runs(LevelledTiles const& tiles, Candidates const& candidates, double* 
   assert(tiles.varying.n_samples % tile_samples == 0);
   std::size_t const n_members = candidates.n_members, n_groups = group_count(n_members);
   std::size_t const n_varying = tiles.varying.n_regressors;
-  double* const varying = workspace;
+  double* const lanes = workspace;  // first: on cache lines when the workspace is
+  double* const varying = lanes + n_groups * group_members * n_lanes;
   double* const levelled = varying + packed_parameters_size(n_members, n_varying);
   double* const constant = levelled + packed_parameters_size(n_members, tiles.n_constant);
-  double* const lanes = constant + n_groups * group_members;
-  double* const rest = lanes + n_groups * group_members * n_lanes;
+  double* const rest = constant + n_groups * group_members;
   PairwiseTree tree(n_members, rest + rest_workspace_size(tiles, n_members));
 
   sum_rest(energy, rest);

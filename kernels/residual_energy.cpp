@@ -46,9 +46,9 @@ void sum_blocks(SampleTiles const& tiles, Candidates const& candidates, double* 
   assert(candidates.n_members == 0 || candidates.leading_dimension >= tiles.n_regressors);
   std::size_t const n_members = candidates.n_members;
   std::size_t const n_groups = group_count(n_members);
-  double* const packed = workspace;
-  double* const lanes = packed + packed_parameters_size(n_members, tiles.n_regressors);
-  PairwiseTree tree(n_members, lanes + n_groups * group_members * n_lanes);
+  double* const lanes = workspace;  // first: on cache lines when the workspace is
+  double* const packed = lanes + n_groups * group_members * n_lanes;
+  PairwiseTree tree(n_members, packed + packed_parameters_size(n_members, tiles.n_regressors));
 
   pack_parameters(candidates, nullptr, tiles.n_regressors, packed);
   constexpr std::size_t block_tiles = block_samples / tile_samples;

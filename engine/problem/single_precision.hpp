@@ -32,7 +32,7 @@ class SinglePrecisionObjective final : public Objective {
   Bounds bounds_;
   FitnessScale scale_;
   double n_rows_;
-  std::vector<float, kernels::CacheLineAllocator<float>> packed_;
+  kernels::AlignedFloats packed_;
   kernels::FloatTiles tiles_;
 };
 

@@ -16,7 +16,7 @@ INSTANTIATE_TEST_SUITE_P(Float, EveryInstructionSet, testing::ValuesIn(supported
                          instruction_set_of);
 
 std::vector<double> float_energies(RandomProblem const& problem, Candidates const& candidates) {
-  std::vector<float, CacheLineAllocator<float>> packed(float_packed_size(problem.n_samples, problem.n_regressors));
+  AlignedFloats packed(float_packed_size(problem.n_samples, problem.n_regressors));
   auto const tiles = pack_float_tiles(problem.phi.data(), problem.phi_stride, problem.tau.data(), problem.n_samples,
                                       problem.n_regressors, packed.data());
   std::vector<float> workspace(float_workspace_size(problem.n_regressors, candidates.n_members));
