@@ -153,7 +153,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   prepare(parts->train, *parts);
   if (parts->validate) prepare(*parts->validate, *parts);
   parts->health = regressor_health(parts->train.regression);
-  if (wants_statistics(parts->estimators))
+  if (purpose == Purpose::identify && wants_statistics(parts->estimators))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
   return Experiment(std::move(parts));
 }
