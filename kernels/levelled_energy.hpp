@@ -9,7 +9,7 @@
 //            by r with one rounding each; each run of tiles cut into blocks of 2048 samples, summed as in
 //            residual_energy.hpp; the energy of the rest, then the blocks run by run, by PairwiseTree. Sums are
 //            taken in another order than residual_energy takes them: equal to rounding, not to the bit
-// Error      the bound of residual_energy.hpp, with as many blocks as these runs make
+// Error      the bound of residual_energy.hpp with g(R + 1) for g(R), and as many blocks as these runs make
 // Threads    any number on the same tiles, each with its own workspace; does not allocate
 
 #include <cstddef>

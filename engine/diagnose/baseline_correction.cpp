@@ -7,9 +7,9 @@
 
 namespace torquescope {
 
-BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start, TwinLoop const& loop, TwinTrack const& track,
-                                    RecordPipeline const& pipeline, double step_s, TwinAddress const& address,
-                                    std::size_t twins, int threads) {
+BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start,
+                                    TwinLoop const& loop, TwinTrack const& track, RecordPipeline const& pipeline,
+                                    double step_s, TwinAddress const& address, std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
   constexpr int most_rounds = 6;
   constexpr double small_mismatch = 0.2;  // standard deviations

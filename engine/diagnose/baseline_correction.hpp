@@ -29,8 +29,8 @@ struct BaselineCorrection {
 };
 
 // recording_fit: what the pipeline gives for the recording; start: where the search begins; twins >= 8
-BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start, TwinLoop const& loop, TwinTrack const& track,
-                                    RecordPipeline const& pipeline, double step_s, TwinAddress const& address,
-                                    std::size_t twins, int threads);
+BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start,
+                                    TwinLoop const& loop, TwinTrack const& track, RecordPipeline const& pipeline,
+                                    double step_s, TwinAddress const& address, std::size_t twins, int threads);
 
 }  // namespace torquescope

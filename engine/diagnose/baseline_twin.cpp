@@ -21,8 +21,8 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   TwinAddress const wander_set{options.seed, options.recording, 2};
   Attempt result{std::move(loop)};
   auto const correct_from = [&](Eigen::VectorXd const& start) {
-    result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline, options.step_s,
-                                       correction_set, options.twins, threads);
+    result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
+                                       options.step_s, correction_set, options.twins, threads);
   };
   correct_from(record.parameters);
   if (result.baseline.ran_away) return result;

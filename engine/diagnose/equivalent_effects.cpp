@@ -64,7 +64,7 @@ std::vector<Rival> rivals_of(ModelStage const& stage, std::size_t i, std::vector
         refine_shape(columns, best_on(columns, *other, signal, threads), signal, search, threads);
     OrthonormalGroup const group = columns.group(*other, refined.shape);
     if (group.rank() == 0 || !(refined.gain > 0.0) || !other->is_plausible(refined.shape, columns.scales())) continue;
-    Rival rival{other, refined.gain / own_gain, 1.0, true};
+    Rival rival{other, refined.shape, refined.gain / own_gain, 1.0, true};
     rival.p = chance_of_advantage(own.q, group.q, signal, apart);
     bool const as_good_but_for_form = rival.gain_ratio > nearly_all && own_gain - refined.gain <= left;
     rival.is_equivalent = as_good_but_for_form || rival.p > common_level;

@@ -20,6 +20,7 @@ namespace torquescope {
 
 struct Rival {
   Effect const* effect = nullptr;
+  std::vector<double> shape{};
   double gain_ratio = 0.0;  // its gain over the accepted effect's
   double p = 1.0;           // of an advantage this large if the rival were the truth
   bool is_equivalent = false;

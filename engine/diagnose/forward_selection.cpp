@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/backward_selection.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/multiple_testing.hpp"
 
@@ -15,7 +17,6 @@ namespace torquescope {
 namespace {
 
 constexpr double least_share_of_rest = 0.25;
-constexpr double least_share_of_whole = 0.002;
 constexpr double nearly_all = 0.97;
 constexpr double least_cv_t = 2.0;
 constexpr std::size_t n_refined = 5;
@@ -60,7 +61,7 @@ class Search {
     stage_ = std::move(*first);
     while (take_one()) {
     }
-    if (!selection_.accepted.empty()) drop_superfluous();
+    if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_, stage_);
     return finish();
   }
 
@@ -76,7 +77,7 @@ class Search {
     if (progress_) progress_(what, done, total);
   }
 
-  double whole() const { return std::max(selection_.first_excess, std::numeric_limits<double>::min()); }
+  double whole() const { return selection_.whole(); }
 
   void reject(Effect const* effect, std::string reason) { selection_.rejected.push_back({effect, std::move(reason)}); }
 
@@ -155,7 +156,7 @@ class Search {
   // waves may be named again: a second order is another wave
   bool is_taken(Effect const* effect) const { return !effect->is_wave() && selection_.has_accepted(effect); }
 
-  // false: the next best may be tried
+  // true: the stage is another one; false: the next best may be tried
   bool accept(CandidateColumns const& columns, Trial const& trial) {
     auto const* effect = trial.refined.effect;
     double const gain = trial.refined.gain;
@@ -178,9 +179,10 @@ class Search {
       reject(effect, "does not help on blocks it was not fitted to");
       return false;
     }
-    if (effect->family() == EffectFamily::time && is_mere_wander(effect)) {
-      reject(effect, "friction wanders by as much without it");
-      return true;
+    if (effect->family() == EffectFamily::time && setting_.wander == WanderReading::beside_motion) {
+      if (begin_again_with_wander()) return true;
+      reject(effect, "twins whose friction wanders do not follow the reference");
+      return false;
     }
     std::vector<ShapedEffect> effects = stage_.model().effects();
     effects.push_back({effect, trial.refined.shape});
@@ -203,57 +205,31 @@ class Search {
     return true;
   }
 
-  // Is it within chance of twins whose friction wanders as much as the recording's may at most? Then the search goes on
-  // among these: what they do by themselves is not unexplained either.
-  bool is_mere_wander(Effect const* effect) {
-    if (setting_.wander == WanderReading::by_itself) return false;
+  // A change over time must stand against the most that friction may wander, and so must all that is found beside it: the
+  // whole search begins again among such twins. False when they cannot be made.
+  bool begin_again_with_wander() {
     StageSetting wandering = setting_;
     wandering.wander = WanderReading::by_itself;
-    auto stage = make_stage(wandering, stage_.model());
-    if (!stage) return false;
-    CandidateColumns const columns(*stage->pipeline, stage->comparison, stage->reference(), stage->parameters());
-    if (scan_candidates(columns, {effect}, setting_.threads).front().p <= options_.q) return false;
+    tell("twins", 0, setting_.twins);
+    std::optional<ModelStage> first;
+    try {
+      first = make_stage(wandering, setting_.regressor);
+    } catch (Error const&) {
+      // the recording itself was good enough for twins that wander less
+    }
+    tell("twins", setting_.twins, setting_.twins);
+    if (!first) return false;
     setting_.wander = WanderReading::by_itself;
-    stage_ = std::move(*stage);
+    Selection fresh;
+    fresh.evaluations = selection_.evaluations;
+    selection_ = std::move(fresh);
+    stage_ = std::move(*first);
     return true;
   }
 
   // the first stage is asked for again at the end
   void keep_baseline() {
     if (stage_.model().effects().empty()) selection_.baseline = std::move(stage_);
-  }
-
-  // backward: what each effect explains that the others cannot
-  void drop_superfluous() {
-    while (selection_.accepted.size() > 1) {
-      std::size_t weakest = 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < selection_.accepted.size(); ++i) {
-        CandidateColumns const others(*stage_.pipeline, stage_.comparison, stage_.reference(), stage_.parameters(), i);
-        double const own = own_energy(others, i);
-        if (own < least) {
-          least = own;
-          weakest = i;
-        }
-      }
-      if (least >= least_share_of_whole * whole()) return;
-      std::vector<ShapedEffect> effects = stage_.model().effects();
-      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(weakest));
-      auto next = refined_stage(setting_, stage_.reference(), std::move(effects));
-      if (!next) return;
-      reject(selection_.accepted[weakest].effect, "superfluous beside the effects named after it");
-      selection_.accepted.erase(selection_.accepted.begin() + static_cast<std::ptrdiff_t>(weakest));
-      stage_ = std::move(*next);
-    }
-  }
-
-  double own_energy(CandidateColumns const& others, std::size_t i) const {
-    auto const& shaped = stage_.model().effects()[i];
-    OrthonormalGroup const group = others.group(*shaped.effect, shaped.shape);
-    auto const first = static_cast<Eigen::Index>(stage_.model().first_parameter(i));
-    Eigen::VectorXd const linear =
-        stage_.parameters().segment(first, static_cast<Eigen::Index>(shaped.effect->n_linear()));
-    return (group.r * linear).squaredNorm();
   }
 
   Selection finish() {
@@ -270,6 +246,8 @@ class Search {
 };
 
 }  // namespace
+
+double Selection::whole() const { return std::max(first_excess, std::numeric_limits<double>::min()); }
 
 bool Selection::has_accepted(Effect const* effect) const {
   return std::any_of(accepted.begin(), accepted.end(), [&](auto const& one) { return one.effect == effect; });

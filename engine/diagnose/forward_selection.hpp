@@ -9,11 +9,12 @@
 // Choice     the candidates with most gain are refined in shape; the largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, keep its
 //            plausible bounds, and improve blocks of time it was not fitted to (t >= 2); what happens once cannot
-//            do that, and must explain a quarter of the whole. What changes while the recording runs must stay beyond
-//            chance when friction wanders in the twins as much as it may at most (friction_wander.hpp, by itself)
+//            do that, and must explain a quarter of the whole. As soon as an effect of
+//            the family `time` would be accepted, the search begins again among twins whose friction wanders as much as
+//            it may at most (friction_wander.hpp, by itself)
 // Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least half of what
 //            the projection promised
-// End        backward: an effect whose own share is below 0.2 % of the whole is taken out again
+// End        backward and swap (backward_selection.hpp)
 // Threads    as the stages
 // Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
 
@@ -62,8 +63,10 @@ struct Selection {
   std::int64_t evaluations = 0;  // of shapes
 
   bool has_accepted(Effect const* effect) const;
+  double whole() const;  // first_excess, above 0
 };
 
+inline constexpr double least_share_of_whole = 0.002;      // an effect's energy, of what was missing at first
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
 inline constexpr double smallest_omnibus_z = 4.0;
 

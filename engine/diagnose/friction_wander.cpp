@@ -13,13 +13,14 @@ namespace {
 
 constexpr std::size_t most_blocks = 24, fewest_blocks = 8;
 constexpr double shortest_block_s = 2.0;
-// z from which on a wander is put into the twins: all joints have one, and the size is drawn anew for every twin
-constexpr double any_sign_of_it = 0.0;
+// all joints have some: also where none is seen, twins draw about none
+constexpr double always = -std::numeric_limits<double>::infinity();
 
 // of the motion, and the parabola through what friction does over time
 Eigen::MatrixXd smooth_functions(Motion const& motion, Eigen::VectorXd const& friction, WanderReading reading) {
   Eigen::VectorXd const t = Eigen::VectorXd::LinSpaced(friction.size(), -1.0, 1.0);
-  std::vector<Eigen::MatrixXd> parts{friction.cwiseProduct(t), friction.cwiseProduct(t.cwiseAbs2())};
+  Eigen::VectorXd const level = friction / std::max(friction.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  std::vector<Eigen::MatrixXd> parts{level, level.cwiseProduct(t), level.cwiseProduct(t.cwiseAbs2())};
   if (reading == WanderReading::beside_motion) {
     Eigen::VectorXd const s = motion.dq.array().sign();
     for (Eigen::VectorXd const* of : {&motion.q, &motion.ddq}) {
@@ -112,16 +113,11 @@ NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& tw
         loop.friction_wander = std;
         loop.friction_wander_variance_error = variance_error;
       },
-      // a random walk of variance s^2 t, less its parabola, has about a thirtieth of s^2 duration left, half of it below
-      // the largest fifth
-      [&](double wanted, double none) { return (wanted - none) / (statistic.duration_s() / 60.0); }, any_sign_of_it};
-  NoiseLevel level = noise_level(question, recording, twin, pipeline, address, twins, threads);
-  double const most = most_wander_in_a_minute / std::sqrt(60.0);
-  if (level.std > most) {
-    level.std = most;
-    level.variance_error = 0.0;
-  }
-  return level;
+      // a random walk of variance s^2 t, less its parabola, has 3/70 of s^2 duration left, half of it below the largest
+      // fifth
+      [&](double wanted, double none) { return (wanted - none) / (statistic.duration_s() / 47.0); }, always,
+      most_wander_in_a_minute / std::sqrt(60.0)};
+  return noise_level(question, recording, twin, pipeline, address, twins, threads);
 }
 
 }  // namespace torquescope

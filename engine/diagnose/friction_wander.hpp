@@ -5,12 +5,13 @@
 // Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a parabola
 //            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least);
 //            mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
-// By itself  the same with nothing but the parabola taken out: more, when something else is missing, but never less. Where
+// By itself  the same with nothing but the parabola taken out: more, when something else is missing, seldom less. Where
 //            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever names a
 //            drift must do so against this reading
-// Model      a random walk: what the blocks tell of short times says what may happen over long ones, so that a drift is
-//            named only where it is more than chance would bring
-// At most    3 % in a minute: friction that changes by more does so for a reason, which is for the search to find
+// Model      a random walk: from what the level does beside its parabola follows what chance may do to the parabola, so
+//            that a drift is named only where it is more than that
+// At most    3 % in a minute as an estimate (the twins draw about it): friction that changes by more does so for a reason,
+//            which is for the search to find
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
 // Level      noise_level.hpp

@@ -19,7 +19,7 @@ struct TwinStatistic {
 NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
                        RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
-  constexpr int rounds = 2;  // the statistic grows linearly: the second is at the level already
+  constexpr int rounds = 2;  // the statistic grows nearly linearly: the second is about the level
   auto const of_twins = [&](double variance) {
     TwinLoop loop = twin.loop();
     question.put(loop, std::sqrt(variance), 0.0);
@@ -47,15 +47,21 @@ NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& rec
   result.z = (wanted - none.mean) / std::max(spread, 1e-12 * none.mean);
   if (result.z <= question.least_z) return result;
 
-  double variance = question.first_guess(wanted, none.mean);
+  double const most = question.most_std * question.most_std;
+  // also what is not there is tried, at the size of its own error: that error is asked for
+  double variance = std::min(most, question.first_guess(std::max(wanted, none.mean + spread), none.mean));
   for (int round = 0; round < rounds; ++round) {
     TwinStatistic const some = of_twins(variance);
     result.ran_away = some.ran_away;
     if (some.ran_away || some.mean <= none.mean) return result;
     double const slope = (some.mean - none.mean) / variance;
-    variance = (wanted - none.mean) / slope;
     // of the recording's own statistic and of the twins' mean
     result.variance_error = some.std * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
+    double const next = std::clamp((wanted - none.mean) / slope, 0.0, most);
+    // nothing, or more than may be: a second look says the same
+    bool const is_at_its_end = next == 0.0 || next == most;
+    variance = next;
+    if (is_at_its_end) break;
   }
   result.std = std::sqrt(variance);
   return result;

@@ -1,14 +1,17 @@
 #pragma once
 // How strong a noise must be in the twins so that one statistic of theirs is what the recording has.
 //
-// Equation   mean of statistic(twins with variance s^2) = statistic(recording); it grows linearly with s^2: secant
+// Equation   mean of statistic(twins with variance s^2) = statistic(recording); a statistic of squares grows nearly linearly
+//            with s^2: secant, never beyond the most that is plausible
 // Zero       when the recording's statistic is less than `least_z` standard deviations above that of twins without the
 //            noise: a level too low makes false names, so the doubt goes to the noise (1.64: one-sided 5 %)
+// Error      with least_z below 0 also a level of 0 has its error: the twins then draw about 0
 // Threads    spreads twins over `threads`; same bits for any number
 // Source     LESSONS item 5 of our own prototype
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/twin_batch.hpp"
@@ -28,6 +31,7 @@ struct NoiseQuestion {
   std::function<void(TwinLoop& loop, double std, double variance_error)> put;  // the noise into a loop
   std::function<double(double recording, double twins)> first_guess;           // of the variance, from both statistics
   double least_z = 1.64;
+  double most_std = std::numeric_limits<double>::infinity();
 };
 
 // twins >= 8; the noise that `twin` has already is not used

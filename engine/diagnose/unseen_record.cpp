@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
 #include "engine/diagnose/twin_batch.hpp"
 #include "engine/simulate/autoregression.hpp"
 
@@ -224,7 +224,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
       if (k < first || k >= first + width) others.push_back(k);
     Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
-    Eigen::VectorXd const refitted = rest.colPivHouseholderQr().solve(trained.torque);
+    Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque);
     result.without.push_back((after.torque - after.columns(Eigen::all, others) * refitted).squaredNorm());
   }
   result.trace = torque_trace(recording, plain, before, left_before, left_after);

@@ -60,10 +60,11 @@ double condition(Eigen::VectorXd const& singular_values) {
 }
 
 // singular values and right vectors, from the R x R factor of phi = Q R
-Eigen::JacobiSVD<Eigen::MatrixXd> right_svd(Eigen::MatrixXd const& phi) {
+using SquareSvd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>;
+SquareSvd right_svd(Eigen::MatrixXd const& phi) {
   Eigen::HouseholderQR<Eigen::MatrixXd> const qr(phi);
   Eigen::MatrixXd const r = qr.matrixQR().topRows(phi.cols()).triangularView<Eigen::Upper>();
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(r, Eigen::ComputeFullV);
+  return SquareSvd(r, Eigen::ComputeFullV);
 }
 
 // columns that make up the weakest direction

@@ -97,7 +97,7 @@ void multiply(RowMajor const& left, RowMajor const& right, RowMajor& high, RowMa
 double scaled_condition(RowMajor const& root) {
   Eigen::VectorXd const inverse = root.colwise().norm().cwiseInverse();
   Eigen::MatrixXd const scaled = root * inverse.asDiagonal();
-  Eigen::JacobiSVD<Eigen::MatrixXd> const svd(scaled);
+  Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> const svd(scaled);  // square already
   auto const& values = svd.singularValues();
   return values[0] / values[values.size() - 1];
 }

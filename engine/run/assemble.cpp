@@ -177,7 +177,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   prepare(parts->train, *parts);
   if (parts->validate) prepare(*parts->validate, *parts);
   parts->health = regressor_health(parts->train.regression);
-  if (wants_statistics(parts->estimators))
+  if (purpose == Purpose::identify && wants_statistics(parts->estimators))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
   check_precision(*parts);
   return Experiment(std::move(parts));

@@ -7,76 +7,10 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/random_stream.hpp"
+#include "engine/simulate/lane_noise.hpp"
 
 namespace torquescope {
 namespace {
-
-// numbers are part of the address: never renumber
-enum class TwinStream : std::uint32_t {
-  torque = 0,
-  disturbance = 1,
-  position = 2,
-  level = 3,
-  start = 4,
-  phase = 5,
-  wander = 6,
-  wander_level = 7
-};
-
-std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
-  constexpr std::uint32_t most_streams = 8;
-  return address.set * most_streams + static_cast<std::uint32_t>(stream);
-}
-
-// one noise of one group: an autoregression per lane
-class LaneNoise {
- public:
-  LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model)
-      : model_(std::move(model)), history_(model_.past.size() * twin_lanes, 0.0) {
-    for (std::uint32_t lane = 0; lane < twin_lanes; ++lane)
-      streams_.emplace_back(RandomKey{address.seed, address.recording, RandomDomain::twin},
-                            stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes) + lane);
-    // from nothing to stationary
-    constexpr std::size_t settling = 20;
-    alignas(64) double dropped[twin_lanes];
-    for (std::size_t k = 0; k < settling * model_.past.size(); ++k) next(dropped);
-  }
-
-  // the next sample of every lane
-  void next(double* out) {
-    if (model_.innovation == 0.0) {
-      std::fill_n(out, twin_lanes, 0.0);
-      return;
-    }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * streams_[lane].normal();
-    std::size_t const order = model_.past.size();
-    if (order == 0) return;
-    for (std::size_t i = 0; i < order; ++i) {
-      double const* const before = history_.data() + ((newest_ + i) % order) * twin_lanes;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] += model_.past[i] * before[lane];
-    }
-    newest_ = (newest_ + order - 1) % order;
-    std::copy_n(out, twin_lanes, history_.data() + newest_ * twin_lanes);
-  }
-
- private:
-  Autoregression model_;
-  std::vector<RandomStream> streams_;
-  std::vector<double> history_;  // [order][lanes], a ring
-  std::size_t newest_ = 0;
-};
-
-// how much larger than the loop's each twin's noise of this standard deviation is
-void draw_levels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std, double variance_error,
-                 double* level) {
-  std::fill_n(level, twin_lanes, 1.0);
-  double const variance = std * std;
-  if (variance == 0.0 || variance_error == 0.0) return;
-  LaneNoise error(address, stream, group, white(variance_error));
-  error.next(level);
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-    level[lane] = std::sqrt(std::max(0.0, variance + level[lane]) / variance);
-}
 
 // Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
 // only logged, and one pattern of rounding would pass for all there is.
@@ -164,33 +98,6 @@ void foresee(LaneInstant& at) {
   }
 }
 
-// the level of dry friction in all lanes, 1 at the start
-class LaneFriction {
- public:
-  LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s)
-      : wanders_(loop.friction_wander > 0.0),
-        change_(address, TwinStream::wander, group, white(loop.friction_wander * std::sqrt(tick_s))) {
-    std::fill_n(level_, twin_lanes, 1.0);
-    draw_levels(address, TwinStream::wander_level, group, loop.friction_wander, loop.friction_wander_variance_error,
-                size_);
-  }
-
-  // at this tick
-  double const* level() const { return level_; }
-  void next() {
-    if (!wanders_) return;
-    double change[twin_lanes];
-    change_.next(change);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      level_[lane] = std::max(0.0, level_[lane] + size_[lane] * change[lane]);
-  }
-
- private:
-  bool wanders_;
-  LaneNoise change_;
-  double level_[twin_lanes], size_[twin_lanes];
-};
-
 // An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
 // beyond this share that stays goes by the acceleration of the step before.
 constexpr double least_inertia_left = 0.05;
@@ -250,11 +157,10 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
 
 void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
   LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
-  LaneNoise disturbance(address, TwinStream::disturbance, group, white(loop_.disturbance_std));
+  LaneNoise disturbance(address, TwinStream::disturbance, group, white(1.0));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
-  double disturbance_level[twin_lanes];
-  draw_levels(address, TwinStream::level, group, loop_.disturbance_std, loop_.disturbance_variance_error,
-              disturbance_level);
+  LaneLevels const disturbance_std(address, TwinStream::level, group, loop_.disturbance_std,
+                                   loop_.disturbance_variance_error);
   double encoder_phase[twin_lanes];
   draw_phases(address, group, loop_, encoder_phase);
   LaneFriction friction(address, group, loop_, 1.0 / track_.rate_hz);
@@ -298,9 +204,13 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
 
     // move on to the next tick
     friction.next();
-    disturbance.next(noise);
+    if (disturbance_std.is_any()) {
+      disturbance.next(noise);
+    } else {
+      std::fill_n(noise, twin_lanes, 0.0);
+    }
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      noise[lane] = command[lane] + disturbance_level[lane] * noise[lane] - joint_.offset;
+      noise[lane] = command[lane] + disturbance_std[lane] * noise[lane] - joint_.offset;
     LaneDemand of_tick;
     LaneInstant middle = instant_of(state, time_s, tick_s, command);
     foresee(middle);

@@ -18,6 +18,8 @@ class CatalogueEffect final : public LaneEffect {
       : acts_on_(effect.acts_on()),
         is_dry_friction_(effect.is_dry_friction()),
         has_memory_(effect.has_memory()),
+        needs_baseline_(effect.needs_baseline()),
+        has_weight_(baseline.gravity_sin != 0.0 || baseline.gravity_cos != 0.0),
         baseline_(baseline) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
@@ -53,9 +55,11 @@ class CatalogueEffect final : public LaneEffect {
  private:
   JointState state_of(LaneInstant const& at, std::size_t lane) const {
     JointState state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
-    state.load_torque = baseline_.inertia * state.ddq + baseline_.gravity_sin * std::sin(state.q) +
-                        baseline_.gravity_cos * std::cos(state.q);
     state.motor_torque = at.motor_torque[lane];
+    if (!needs_baseline_) return state;
+    state.load_torque = baseline_.inertia * state.ddq;
+    if (has_weight_)
+      state.load_torque += baseline_.gravity_sin * std::sin(state.q) + baseline_.gravity_cos * std::cos(state.q);
     return state;
   }
 
@@ -76,7 +80,7 @@ class CatalogueEffect final : public LaneEffect {
   }
 
   ActsOn acts_on_;
-  bool is_dry_friction_, has_memory_;
+  bool is_dry_friction_, has_memory_, needs_baseline_, has_weight_;
   LaneJoint baseline_;
   std::vector<std::unique_ptr<EffectRunner>> runners_;
 };

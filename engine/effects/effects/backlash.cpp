@@ -121,7 +121,8 @@ class LoadBehindGap final : public EffectMemory {
 
   double drive_of(JointState const& state) const { return state.ddq + gravity(state.q); }
   double gravity(double q) const {
-    if (!(scales_.inertia > 0.0)) return 0.0;
+    bool const has_weight = scales_.gravity_sin != 0.0 || scales_.gravity_cos != 0.0;
+    if (!has_weight || !(scales_.inertia > 0.0)) return 0.0;
     return (scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q)) / scales_.inertia;
   }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,9 @@ std::vector<Eigen::VectorXd> candidates(Rows const& rows, SufficientStatistics c
       found.push_back(v);
     }
   }
-  Eigen::BDCSVD<Eigen::MatrixXd> const svd(rows.phi, Eigen::ComputeThinV);
+  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(rows.phi);
+  Eigen::MatrixXd const root = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> const svd(root, Eigen::ComputeFullV);
   double const noise = std::sqrt(statistics.form().constant);
   for (double const share : {0.1, 1.0, 10.0})
     found.push_back(statistics.centre() +

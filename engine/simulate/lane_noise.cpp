@@ -1,0 +1,68 @@
+#include "engine/simulate/lane_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace torquescope {
+
+std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
+  constexpr std::uint32_t most_streams = 8;
+  static_assert(static_cast<std::uint32_t>(TwinStream::wander_level) < most_streams, "would be another set's");
+  return address.set * most_streams + static_cast<std::uint32_t>(stream);
+}
+
+LaneNoise::LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model)
+    : model_(std::move(model)), history_(model_.past.size() * twin_lanes, 0.0) {
+  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane)
+    streams_.emplace_back(RandomKey{address.seed, address.recording, RandomDomain::twin},
+                          stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes) + lane);
+  // from nothing to stationary
+  constexpr std::size_t settling = 20;
+  alignas(64) double dropped[twin_lanes];
+  for (std::size_t k = 0; k < settling * model_.past.size(); ++k) next(dropped);
+}
+
+void LaneNoise::next(double* out) {
+  if (model_.innovation == 0.0) {
+    std::fill_n(out, twin_lanes, 0.0);
+    return;
+  }
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * streams_[lane].normal();
+  std::size_t const order = model_.past.size();
+  if (order == 0) return;
+  for (std::size_t i = 0; i < order; ++i) {
+    double const* const before = history_.data() + ((newest_ + i) % order) * twin_lanes;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] += model_.past[i] * before[lane];
+  }
+  newest_ = (newest_ + order - 1) % order;
+  std::copy_n(out, twin_lanes, history_.data() + newest_ * twin_lanes);
+}
+
+LaneLevels::LaneLevels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std,
+                       double variance_error) {
+  LaneNoise error(address, stream, group, white(variance_error));
+  error.next(std_);
+  for (double& one : std_) one = std::sqrt(std::max(0.0, std * std + one));
+}
+
+bool LaneLevels::is_any() const {
+  return std::any_of(std_, std_ + twin_lanes, [](double one) { return one > 0.0; });
+}
+
+LaneFriction::LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s)
+    : std_(address, TwinStream::wander_level, group, loop.friction_wander * std::sqrt(tick_s),
+           loop.friction_wander_variance_error * tick_s),
+      change_(address, TwinStream::wander, group, white(1.0)) {
+  std::fill_n(level_, twin_lanes, 1.0);
+}
+
+void LaneFriction::next() {
+  if (!std_.is_any()) return;
+  double change[twin_lanes];
+  change_.next(change);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    level_[lane] = std::max(0.0, level_[lane] + std_[lane] * change[lane]);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,69 @@
+#pragma once
+// What is random in a group of twins, lane by lane: noises, how strong each lane's are, and friction that wanders.
+//
+// Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its neighbours
+// Shapes     every array: twin_lanes
+// Threads    an object belongs to one group on one thread
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/random_stream.hpp"
+#include "engine/simulate/clean_twin.hpp"
+
+namespace torquescope {
+
+// numbers are part of the address: never renumber
+enum class TwinStream : std::uint32_t {
+  torque = 0,
+  disturbance = 1,
+  position = 2,
+  level = 3,
+  start = 4,
+  phase = 5,
+  wander = 6,
+  wander_level = 7
+};
+
+std::uint32_t stream_number(TwinAddress const& address, TwinStream stream);
+
+// one noise of one group: an autoregression per lane
+class LaneNoise {
+ public:
+  LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model);
+  // the next sample of every lane
+  void next(double* out);
+
+ private:
+  Autoregression model_;
+  std::vector<RandomStream> streams_;
+  std::vector<double> history_;  // [order][lanes], a ring
+  std::size_t newest_ = 0;
+};
+
+// The standard deviation of a noise in every lane, drawn about the one that was found with the error of its square: the
+// null knows what is not known. Where none was found there may still be one.
+class LaneLevels {
+ public:
+  LaneLevels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std, double variance_error);
+  bool is_any() const;
+  double operator[](std::size_t lane) const { return std_[lane]; }
+
+ private:
+  double std_[twin_lanes];
+};
+
+// the level of dry friction, 1 at the start: a random walk that does not go below 0
+class LaneFriction {
+ public:
+  LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s);
+  double const* level() const { return level_; }
+  void next();
+
+ private:
+  LaneLevels std_;  // of one tick's change
+  LaneNoise change_;
+  double level_[twin_lanes];
+};
+
+}  // namespace torquescope
