@@ -1,6 +1,6 @@
 """How the seed's job grows with samples, members, parameters, runs and threads, and what storing it costs.
 
-    python3 bench/runs/scale.py build/bench [--most-samples 10000000] [--rounds 5]
+    python3 bench/runs/scale.py build/bench [--most-samples 1000000] [--rounds 5]
 
 "whole" is `torquescope run`: it simulates the recording, searches, stores every generation. Everything else is
 bench_seed_search, which begins with its data in memory. "data" is what the recording takes as doubles (R + 1 columns).
@@ -80,7 +80,7 @@ def sizes(bench):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--most-samples", type=int, default=10_000_000)
+    parser.add_argument("--most-samples", type=int, default=1_000_000)
     parser.add_argument("--rounds", type=int, default=5)
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
