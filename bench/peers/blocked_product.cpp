@@ -1,5 +1,5 @@
 // DE around a matrix library: phi times the whole population in blocks that stay in L1, then the squares of the
-// differences to the torque. Blocks of 128 samples were the fastest of 64 to 2048 for both libraries.
+// differences to the torque. Blocks of 128 samples were the fastest of 32 to 512 for both libraries.
 
 #include <cblas.h>
 
