@@ -59,14 +59,10 @@ FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline 
   if (blocks < fewest_blocks) return;
   blocks_ = blocks;
   duration_s_ = duration_s;
-  ProcessedRecord everything;
-  everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
-  std::iota(everything.kept_rows.begin(), everything.kept_rows.end(), Eigen::Index{0});
-  auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, everything); };
   Motion kept;
-  kept.q = pick(recording.motion.q);
-  kept.dq = pick(recording.motion.dq);
-  kept.ddq = pick(recording.motion.ddq);
+  kept.q = pipeline.picked(recording.motion.q);
+  kept.dq = pipeline.picked(recording.motion.dq);
+  kept.ddq = pipeline.picked(recording.motion.ddq);
   friction_ = kept.dq.unaryExpr([&](double v) { return v > 0.0 ? joint.coulomb_forward : joint.coulomb_backward; });
   smooth_ = smooth_functions(kept, friction_, reading);
 }

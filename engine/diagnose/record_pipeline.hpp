@@ -58,6 +58,9 @@ class RecordPipeline {
   Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
   Eigen::MatrixXd filtered_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals,
                                    ProcessedRecord const& record) const;
+  // the same on all kept samples, whatever the mask
+  Eigen::VectorXd filtered(Eigen::Ref<Eigen::VectorXd const> const& signal) const { return filter_.apply(signal); }
+  Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal) const { return filter_.pick(signal); }
   // the rows' own samples of a signal of the full rate, not filtered: time, velocity
   Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
 

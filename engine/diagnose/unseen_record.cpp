@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -156,16 +155,13 @@ Recording from_zero(Recording recording) {
 
 TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,
                          Eigen::VectorXd const& residual_before, Eigen::VectorXd const& residual_after) {
-  ProcessedRecord everything = before;
-  everything.kept_rows.resize(static_cast<std::size_t>(pipeline.kept_samples()));
-  for (std::size_t i = 0; i < everything.kept_rows.size(); ++i) everything.kept_rows[i] = static_cast<Eigen::Index>(i);
   TorqueTrace trace;
   trace.recording = recording.name;
   trace.rate_hz = pipeline.kept_rate_hz();
-  trace.time_s = pipeline.picked(before.motion.time_s, everything);
-  trace.torque = pipeline.filtered(before.motion.torque, everything);
-  trace.velocity = pipeline.picked(before.motion.dq, everything);
-  trace.position = pipeline.picked(before.motion.q, everything);
+  trace.time_s = pipeline.picked(before.motion.time_s);
+  trace.torque = pipeline.filtered(before.motion.torque);
+  trace.velocity = pipeline.picked(before.motion.dq);
+  trace.position = pipeline.picked(before.motion.q);
   trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);
   for (std::size_t i = 0; i < before.kept_rows.size(); ++i) {
     trace.before[before.kept_rows[i]] = residual_before[static_cast<Eigen::Index>(i)];

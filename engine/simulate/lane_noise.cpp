@@ -43,11 +43,10 @@ LaneLevels::LaneLevels(TwinAddress const& address, TwinStream stream, std::uint3
                        double variance_error) {
   LaneNoise error(address, stream, group, white(variance_error));
   error.next(std_);
-  for (double& one : std_) one = std::sqrt(std::max(0.0, std * std + one));
-}
-
-bool LaneLevels::is_any() const {
-  return std::any_of(std_, std_ + twin_lanes, [](double one) { return one > 0.0; });
+  for (double& one : std_) {
+    one = std::sqrt(std::max(0.0, std * std + one));
+    is_any_ = is_any_ || one > 0.0;
+  }
 }
 
 LaneFriction::LaneFriction(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double tick_s)

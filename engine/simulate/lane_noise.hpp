@@ -46,11 +46,12 @@ class LaneNoise {
 class LaneLevels {
  public:
   LaneLevels(TwinAddress const& address, TwinStream stream, std::uint32_t group, double std, double variance_error);
-  bool is_any() const;
+  bool is_any() const { return is_any_; }
   double operator[](std::size_t lane) const { return std_[lane]; }
 
  private:
   double std_[twin_lanes];
+  bool is_any_ = false;  // asked for at every tick
 };
 
 // the level of dry friction, 1 at the start: a random walk that does not go below 0

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "unit/kernels/documented_sum.hpp"
 #include "unit/kernels/every_instruction_set.hpp"
 #include "unit/kernels/random_problem.hpp"
 
@@ -38,15 +39,9 @@ double energy_in_documented_order(RandomProblem const& problem, std::size_t m) {
     }
     std::array<double, 8> fold;
     for (std::size_t l = 0; l < 8; ++l) fold[l] = static_cast<double>(lane[l]) + static_cast<double>(lane[l + 8]);
-    blocks.push_back(((fold[0] + fold[4]) + (fold[2] + fold[6])) + ((fold[1] + fold[5]) + (fold[3] + fold[7])));
+    blocks.push_back(sum_of_lanes(fold));
   }
-  while (blocks.size() > 1) {
-    std::vector<double> sums;
-    for (std::size_t b = 0; b + 1 < blocks.size(); b += 2) sums.push_back(blocks[b] + blocks[b + 1]);
-    if (blocks.size() % 2 == 1) sums.push_back(blocks.back());
-    blocks = sums;
-  }
-  return blocks.empty() ? 0.0 : blocks.front();
+  return sum_of_blocks(std::move(blocks));
 }
 
 TEST_P(EveryInstructionSet, SumsSquaresOfFloatsInTheDocumentedOrder) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "unit/kernels/documented_sum.hpp"
 #include "unit/kernels/every_instruction_set.hpp"
 #include "unit/kernels/random_problem.hpp"
 
@@ -77,15 +78,9 @@ double product_in_documented_order(RandomProblem const& problem, std::size_t i, 
     std::array<double, 8> lane{};
     for (std::size_t t = first; t < std::min(first + 2048, problem.n_samples); ++t)
       lane[t % 8] = std::fma(column(problem, t, i), column(problem, t, j), lane[t % 8]);
-    blocks.push_back(((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7])));
+    blocks.push_back(sum_of_lanes(lane));
   }
-  while (blocks.size() > 1) {
-    std::vector<double> sums;
-    for (std::size_t b = 0; b + 1 < blocks.size(); b += 2) sums.push_back(blocks[b] + blocks[b + 1]);
-    if (blocks.size() % 2 == 1) sums.push_back(blocks.back());
-    blocks = sums;
-  }
-  return blocks.empty() ? 0.0 : blocks.front();
+  return sum_of_blocks(std::move(blocks));
 }
 
 TEST_P(EveryInstructionSet, SumsProductsInTheDocumentedOrder) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "unit/kernels/documented_sum.hpp"
 #include "unit/kernels/every_instruction_set.hpp"
 #include "unit/kernels/random_problem.hpp"
 
@@ -31,16 +32,9 @@ double energy_in_documented_order(RandomProblem const& problem, std::size_t m, d
       double const capped = std::min(size, delta);
       lane[i % 8] = std::fma(capped, size + (size - capped), lane[i % 8]);
     }
-    blocks.push_back(((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7])));
+    blocks.push_back(sum_of_lanes(lane));
   }
-  // neighbours in pairs, an odd one out moves up unchanged: the same tree as halving at powers of two
-  while (blocks.size() > 1) {
-    std::vector<double> sums;
-    for (std::size_t b = 0; b + 1 < blocks.size(); b += 2) sums.push_back(blocks[b] + blocks[b + 1]);
-    if (blocks.size() % 2 == 1) sums.push_back(blocks.back());
-    blocks = sums;
-  }
-  return blocks.empty() ? 0.0 : blocks.front();
+  return sum_of_blocks(std::move(blocks));
 }
 
 struct Size {
