@@ -57,7 +57,7 @@ AcceptedEffect taken_over(AcceptedEffect const& from, Rival const& rival, Select
   AcceptedEffect taken;
   taken.effect = rival.effect;
   taken.gain = from.gain * rival.gain_ratio;
-  taken.cv_gain = std::numeric_limits<double>::quiet_NaN();
+  taken.cv_gain = taken.region_gain = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < selection.first_scan.size(); ++k) {
     if (selection.first_scan[k].effect != rival.effect) continue;
     taken.scan = selection.first_scan[k];

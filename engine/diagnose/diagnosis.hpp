@@ -105,6 +105,7 @@ struct NamedEffect {
   bool p_is_bound = false;                // no twin reached it: p is an upper bound
   EffectGain gain{};
   AxisInterval region{};                 // where 80 % of its energy lies
+  double region_gain = unknown;          // share of its gain taken where it acts (region_consistency.hpp)
   double rms = unknown, peak = unknown;  // torque, on the rows
   std::vector<ParameterEstimate> parameters{};
   std::string sentence{};

@@ -12,6 +12,7 @@
 #include "engine/diagnose/backward_selection.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/multiple_testing.hpp"
+#include "engine/diagnose/region_consistency.hpp"
 
 namespace torquescope {
 namespace {
@@ -169,6 +170,12 @@ class Search {
       reject(effect, std::move(why));
       return false;
     }
+    RegionConsistency const region = region_of(columns, trial.refined);
+    if (!region.holds()) {
+      reject(effect, fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)",
+                                 100.0 * region.share, 100.0 * region.asked_for));
+      return false;
+    }
     // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
     if (effect->is_event() && gain < least_share_of_rest * whole()) {
       reject(effect, fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
@@ -199,10 +206,19 @@ class Search {
       reject(effect, "twins with it leave as much as twins without it");
       return false;
     }
-    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.gain});
+    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.gain, region.share});
     keep_baseline();
     stage_ = std::move(*next);
     return true;
+  }
+
+  RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const {
+    OrthonormalGroup const group = columns.group(*refined.effect, refined.shape);
+    Eigen::VectorXd const torque = group.q * (group.r * refined.parameters);
+    auto const& rows = stage_.comparison.rows;
+    Eigen::VectorXd mismatch = stage_.mismatch();
+    mismatch -= columns.nuisance() * (columns.nuisance().transpose() * mismatch);
+    return region_consistency(torque, mismatch, rows.twins.colwise() - rows.twin_mean);
   }
 
   // A change over time must stand against the most that friction may wander, and so must all that is found beside it: the

@@ -8,7 +8,7 @@
 //            for noise, so that the whole looks like noise while one direction of it does not
 // Choice     the candidates with most gain are refined in shape; the largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, keep its
-//            plausible bounds, and improve blocks of time it was not fitted to (t >= 2); what happens once cannot
+//            plausible bounds, help where it acts (region_consistency.hpp) and improve blocks of time it was not fitted to (t >= 2); what happens once cannot
 //            do that, and must explain a quarter of the whole. As soon as an effect of
 //            the family `time` would be accepted, the search begins again among twins whose friction wanders as much as
 //            it may at most (friction_wander.hpp, by itself)
@@ -37,10 +37,11 @@ struct SelectionOptions {
 
 struct AcceptedEffect {
   Effect const* effect = nullptr;
-  EffectScan scan{};     // of the step at which it was accepted
-  double q = 1.0;        // hierarchical, there
-  double gain = 0.0;     // energy of the mismatch it explained there
-  double cv_gain = 0.0;  // energy, on blocks it was not fitted to
+  EffectScan scan{};         // of the step at which it was accepted
+  double q = 1.0;            // hierarchical, there
+  double gain = 0.0;         // energy of the mismatch it explained there
+  double cv_gain = 0.0;      // energy, on blocks it was not fitted to
+  double region_gain = 0.0;  // share of the gain where it acts
 };
 
 // why a refined candidate was not taken

@@ -41,6 +41,7 @@ NamedEffect described(Selection const& selection, std::size_t i, std::vector<Par
   named.gain.train = accepted.gain / residual;
   named.gain.cv = accepted.cv_gain / residual;
   named.region = account.region;
+  named.region_gain = accepted.region_gain;
   named.curve = std::move(account.curve);
   named.rms = account.rms;
   named.peak = account.peak;

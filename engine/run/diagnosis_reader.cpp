@@ -167,6 +167,7 @@ NamedEffect read_effect(Objects const& in, std::string const& group) {
   effect.z = in.number(group, "z");
   effect.gain = {in.number(group, "gain_train"), in.number(group, "gain_cv"), in.number(group, "gain_validation")};
   effect.region = read_interval(in, group, "region");
+  effect.region_gain = in.number(group, "region_gain");
   effect.rms = in.number(group, "rms");
   effect.peak = in.number(group, "peak");
   effect.sentence = in.text(group, "sentence");

@@ -145,6 +145,7 @@ void write_effect(ResultWriter& writer, std::string const& group, NamedEffect co
   writer.attribute(group, "gain_cv", effect.gain.cv);
   writer.attribute(group, "gain_validation", effect.gain.validation);
   write_interval(writer, group, "region", effect.region);
+  writer.attribute(group, "region_gain", effect.region_gain);
   writer.attribute(group, "rms", effect.rms);
   writer.attribute(group, "peak", effect.peak);
   writer.attribute(group, "sentence", effect.sentence);

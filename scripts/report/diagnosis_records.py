@@ -107,6 +107,7 @@ class NamedEffect:
     gain_cv: float
     gain_validation: float
     region: Interval
+    region_gain: float
     rms: float
     peak: float
     sentence: str

@@ -96,7 +96,7 @@ def _interval(group, name):
 def _effect(group):
     plain = {name: group.get(name, "") for name in ("name", "family", "title", "equation", "acts_on", "sentence")}
     numbers = {name: group.get(name, UNKNOWN) for name in
-               ("p", "q", "z", "gain_train", "gain_cv", "gain_validation", "rms", "peak")}
+               ("p", "q", "z", "gain_train", "gain_cv", "gain_validation", "region_gain", "rms", "peak")}
     curve = None
     if "curve" in group:
         drawn = group.curve

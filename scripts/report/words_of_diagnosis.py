@@ -139,6 +139,8 @@ def effect_line(joint, effect):
     gains = [f"{q.percent(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
         said.append(f"of the residual's energy it takes {q.listed(gains)}")
+    if math.isfinite(effect.region_gain):
+        said.append(f"{q.percent(effect.region_gain)} of that where the effect is strong")
     if math.isfinite(effect.peak):
         said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
     if effect.equivalent:

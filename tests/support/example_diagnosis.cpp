@@ -156,6 +156,7 @@ NamedEffect invented_stribeck() {
   effect.z = 11.8;
   effect.gain = {0.281, 0.284, 0.277};
   effect.region = {"velocity", -0.12, 0.12, "rad/s"};
+  effect.region_gain = 0.81;
   effect.rms = 0.09;
   effect.peak = 0.34;
   effect.parameters = {{"stribeck", "N m", 0.354, 0.342, 0.366},
@@ -170,6 +171,7 @@ NamedEffect invented_cogging() {
   effect.z = 7.4;
   effect.gain = {0.058, 0.061, 0.055};
   effect.region = {"order", 11.5, 12.5, "1/rad"};
+  effect.region_gain = 0.78;
   effect.rms = 0.042;
   effect.peak = 0.06;
   effect.parameters = {{"cogging_cos", "N m", 0.0598, 0.0571, 0.0625},
@@ -323,6 +325,7 @@ Diagnosis invented_data_fault() {
   NamedEffect effect = named("delay");
   effect.z = 14.2;
   effect.region = {"acceleration", -6.0, 6.0, "rad/s2"};
+  effect.region_gain = 0.8;
   effect.rms = 0.05;
   effect.peak = 0.21;
   effect.gain = {0.52, 0.51, 0.53};

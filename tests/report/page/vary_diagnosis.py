@@ -59,7 +59,7 @@ def hardly_measured(file):
     for name in ("forward", "twin_energy", "unexplained", "excitation", "traces"):
         del joint[name]
     for effect in joint["effects"].values():
-        for name in ("gain_cv", "gain_validation", "peak", "rms"):
+        for name in ("gain_cv", "gain_validation", "peak", "region_gain", "rms"):
             effect.attrs[name] = np.nan
         del effect["curve"]
     del file["data/validate"]
