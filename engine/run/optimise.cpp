@@ -42,9 +42,14 @@ void record(Optimiser const& optimiser, SearchSetting const& setting, RunHistory
   history.PC.push_back(progress.PC);
   history.FC.push_back(progress.FC);
   history.best.push_back(progress.best_fitness * setting.fitness_to_mse);
-  history.gap.push_back(setting.gap_to_floor(progress.best));
+  // the same member has the same gap
+  bool const improved = progress.last_improvement == progress.generation;
+  history.gap.push_back(improved ? setting.gap_to_floor(progress.best) : history.gap.back());
   history.evaluations.push_back(progress.evaluations);
 }
+
+// every history of an estimator has this size in the end; the initial population is one of them
+std::size_t stored_generations(StopRules const& rules) { return static_cast<std::size_t>(rules.generations) + 1; }
 
 }  // namespace
 
@@ -55,6 +60,7 @@ RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team
   RunHistory history;
   workspaces.resize(static_cast<std::size_t>(std::max(1, team)));
   std::vector<double> candidates, fitness;
+  history.reserve(stored_generations(setting.rules), optimiser.batch_size(), dimension);
 
   std::optional<StopReason> reason;
   while (!reason) {
@@ -81,7 +87,7 @@ RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team
     double const elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     reason = reason_to_stop(setting.rules, optimiser, setting.objective.bounds(), elapsed_s);
   }
-  history.pad(static_cast<std::size_t>(setting.rules.generations) + 1, optimiser.batch_size(), dimension);
+  history.pad(stored_generations(setting.rules), optimiser.batch_size(), dimension);
   history.parameters = optimiser.progress().best;
   history.stop_reason = to_string(*reason);
   history.nonfinite = optimiser.progress().nonfinite;
