@@ -7,7 +7,6 @@
 // Speed      no branch depends on a draw: inline, for the trial vector's loop
 // Source     Storn, Price: Differential evolution, J. Global Optimization 11 (1997)
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +16,10 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
+
+// std::min and std::max become branches where the compiler sees that a comparison was made before
+inline std::size_t smaller(std::size_t a, std::size_t b) { return b ^ ((a ^ b) & -std::size_t{a < b}); }
+inline std::size_t larger(std::size_t a, std::size_t b) { return a ^ ((a ^ b) & -std::size_t{a < b}); }
 
 // a member that is none of `taken`, which ascend: drawn among those that are left, then moved past the taken ones
 template <std::size_t n_taken>
@@ -29,10 +32,10 @@ std::size_t pick_another(RandomStream& random, std::size_t n_members, std::array
 inline std::array<std::size_t, 3> pick_three_others(RandomStream& random, std::size_t n_members, std::size_t target) {
   TORQUESCOPE_EXPECT(n_members >= 4 && target < n_members);
   std::size_t const r1 = pick_another<1>(random, n_members, {target});
-  std::size_t const low = std::min(target, r1), high = std::max(target, r1);
+  std::size_t const low = smaller(target, r1), high = larger(target, r1);
   std::size_t const r2 = pick_another<2>(random, n_members, {low, high});
-  std::size_t const middle = std::max(low, std::min(high, r2));
-  std::size_t const r3 = pick_another<3>(random, n_members, {std::min(low, r2), middle, std::max(high, r2)});
+  std::size_t const middle = larger(low, smaller(high, r2));
+  std::size_t const r3 = pick_another<3>(random, n_members, {smaller(low, r2), middle, larger(high, r2)});
   return {r1, r2, r3};
 }
 
