@@ -87,18 +87,20 @@ struct PaddedTexts {
   std::string bytes;
 };
 
+// h5.cpp
 Handle create_file(TempFile& file);
 Handle open_file(std::filesystem::path const& name);
 bool is_hdf5(std::filesystem::path const& name);
 void flush(Handle const& file);
 
-// "/runs/fade": steps from the root; "/" is the root itself
+// h5_group.cpp. "/runs/fade": steps from the root; "/" is the root itself
 bool exists(Handle const& file, std::string const& path);
 Handle open_object(Handle const& file, std::string const& path);
 Handle make_groups(Handle const& file, std::string const& path);
 bool is_group(Handle const& object);
 std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 
+// h5_dataset.cpp
 Handle create_dataset(Handle const& group, std::string const& name, DatasetPlan const& plan);
 // refuses types, filters, storage and sizes that results never have, before anything is allocated
 DatasetInfo describe(Handle const& dataset);
@@ -117,6 +119,7 @@ std::optional<OptionValue> read_attribute(Handle const& object, std::string cons
 std::vector<std::string> attribute_names(Handle const& object);  // sorted by bytes
 
 // for h5*.cpp
+Handle property_list(std::int64_t kind);
 Handle text_type(std::size_t size);
 // throws Failure with HDF5's innermost reason
 [[noreturn]] void fail(std::string const& doing);
