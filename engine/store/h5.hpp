@@ -104,6 +104,8 @@ std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 Handle create_dataset(Handle const& group, std::string const& name, DatasetPlan const& plan);
 // refuses types, filters, storage and sizes that results never have, before anything is allocated
 DatasetInfo describe(Handle const& dataset);
+// one whole chunk as it shall lie on the disk, its filters already applied (chunk_encoder.hpp); first: where it begins
+void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte const> bytes);
 // rows [first, first + count) of the first dimension; `values` holds count * values_per_row elements (texts: padded
 // bytes)
 void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
@@ -112,7 +114,9 @@ void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first
 std::vector<std::string> read_texts(Handle const& dataset, DatasetInfo const& info, std::size_t first,
                                     std::size_t count);
 
-// h5_attribute.cpp: bool becomes 0 or 1, a table of texts becomes a list "key = value"
+// h5_attribute.cpp
+// what reading gives back: bool becomes 0 or 1, a table of texts a list "key = value", NUL at the end of a text is lost
+OptionValue as_stored(OptionValue const& value);
 void write_attribute(Handle const& object, std::string const& name, OptionValue const& value);
 // int64, double, text, numbers or texts; nothing when there is no such attribute
 std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name);

@@ -160,6 +160,13 @@ DatasetInfo describe(Handle const& dataset) {
   return info;
 }
 
+void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte const> bytes) {
+  constexpr std::uint32_t no_filter_left_out = 0;
+  auto const start = extents(first);
+  checked(H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, no_filter_left_out, start.data(), bytes.size(), bytes.data()),
+          "write values");
+}
+
 void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
                 void const* values) {
   if (is_empty(info.shape) || count == 0) return;

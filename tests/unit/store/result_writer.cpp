@@ -26,7 +26,7 @@ TEST(ResultWriter, RoundTripsEveryKindOfValue) {
     std::string const sha256 = example::write_result(folder / "R.h5", {.gzip = gzip});
     ResultReader const reader(folder / "R.h5");
 
-    EXPECT_EQ(reader.attribute<std::int64_t>("/", "format"), 1);
+    EXPECT_EQ(reader.attribute<std::int64_t>("/", "format"), result_format);
     EXPECT_EQ(reader.attribute<std::string>("/", "creator"), std::string("torquescope ") + version);
     EXPECT_EQ(reader.content_sha256(), sha256);
     EXPECT_EQ(reader.verify(), sha256);
