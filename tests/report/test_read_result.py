@@ -135,6 +135,15 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
                 self.assertEqual(content_sha256(result._file), run.stdout.strip(), case)
                 result.verify()
 
+    def test_gzip_is_level_1_without_shuffle_for_every_dataset(self):
+        name = self.folder / "gzip.h5"
+        subprocess.run([WRITER, name, "large gzip"], check=True, capture_output=True)
+        with h5py.File(name, locking=False) as file:
+            found = []
+            file.visititems(lambda path, node: found.append(node) if isinstance(node, h5py.Dataset) and node.chunks else None)
+            self.assertEqual({(d.compression, d.compression_opts, d.shuffle, d.fletcher32) for d in found}, {("gzip", 1, False, True)})
+            self.assertGreater(len(found), 5)
+
     def test_the_digest_notices_what_was_changed_on_purpose(self):
         def changes():
             yield lambda file: file["runs/fade/population"].__setitem__((2, 4, 3, 1), 0.5)
