@@ -106,6 +106,36 @@ void ResultWriter::whole_numbers(std::string const& path, h5::Shape const& shape
   write_dataset(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, values.data(), note);
 }
 
+template <class Value>
+void ResultWriter::write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows,
+                                Note const& note) {
+  plan.gzip = options_.gzip;
+  if (has_values(plan.shape)) plan.chunk = chunk_of_array(plan.shape, sizeof(Value));
+  guarded(path, [&] {
+    h5::Handle const dataset = create(path, plan, note);
+    if (!has_values(plan.shape)) return;
+    h5::DatasetInfo const info{plan.element, plan.shape, plan.chunk, plan.text_size};
+    // whole chunks, each touched once
+    std::size_t const most_rows = plan.chunk.front(), width = info.values_per_row();
+    std::vector<Value> block(most_rows * width);
+    for (std::size_t first = 0; first < info.rows(); first += most_rows) {
+      std::size_t const count = std::min(most_rows, info.rows() - first);
+      rows(first, std::span(block).first(count * width));
+      h5::write_rows(dataset, info, first, count, block.data());
+    }
+  });
+}
+
+void ResultWriter::numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<double> const& rows,
+                                     Note const& note) {
+  write_blocks<double>(path, {.element = h5::Element::number, .shape = shape, .chunk = {}}, rows, note);
+}
+
+void ResultWriter::whole_numbers_in_blocks(std::string const& path, h5::Shape const& shape,
+                                           MakeRows<std::int64_t> const& rows, Note const& note) {
+  write_blocks<std::int64_t>(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, rows, note);
+}
+
 void ResultWriter::texts(std::string const& path, std::span<std::string const> values, Note const& note) {
   h5::PaddedTexts const padded(values);
   write_dataset(path,

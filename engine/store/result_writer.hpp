@@ -7,7 +7,7 @@
 //            for each run, in any order: writer.write_run("/runs/fade/population", run, values);
 //            std::string sha256 = writer.finish();
 // Shapes     row-major; {} is one number alone
-// Memory     the values of one call and 1 MiB per dataset declared; 25 MB for a history of 486 MB
+// Memory     the values of one call (in blocks: 1 MiB of them) and 1 MiB per dataset declared; 25 MB for a history of 486 MB
 // Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
 // Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
 //            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -50,6 +51,13 @@ class ResultWriter {
   void numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values, Note const& note);
   void whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
                      Note const& note);
+  // the same of arrays that nobody holds whole: rows(first, values) fills values with the rows from `first` on
+  template <class Value>
+  using MakeRows = std::function<void(std::size_t first, std::span<Value> values)>;
+  void numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<double> const& rows,
+                         Note const& note);
+  void whole_numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<std::int64_t> const& rows,
+                               Note const& note);
   void texts(std::string const& path, std::span<std::string const> values, Note const& note);
   // on a dataset or a group; the group is created when there is nothing of that name. A second value replaces the first
   void attribute(std::string const& object_path, std::string const& name, OptionValue const& value);
@@ -76,6 +84,8 @@ class ResultWriter {
 
   h5::Handle create(std::string const& path, h5::DatasetPlan const& plan, Note const& note);
   void write_dataset(std::string const& path, h5::DatasetPlan const& plan, void const* values, Note const& note);
+  template <class Value>
+  void write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows, Note const& note);
   void write_row(RunDataset& runs, std::size_t run, void const* values);
   void fill_missing_runs(RunDataset& runs);
   template <class Write>

@@ -18,8 +18,8 @@ std::string digest_of(std::string const& job, int threads) {
   IdentifyOptions options;
   options.threads = {threads, "test"};
   options.output = folder / "R.h5";
-  auto const experiment = Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job);
-  return identify(experiment, options, ProgressSink{}).content_sha256;
+  auto experiment = Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job);
+  return identify(std::move(experiment), options, ProgressSink{}).content_sha256;
 }
 
 TEST(SameBits, ForOneTwoAndThreeThreads) {
