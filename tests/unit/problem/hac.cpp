@@ -140,7 +140,7 @@ TEST(AndrewsLags, GrowWithTheMemoryOfTheNoise) {
 TEST(AndrewsLags, AgreeWithTheFormulaForAnAutoregression) {
   // rho = 0.9, n = 20000: 1.1447 (4 rho^2 / (1 - rho^2)^2 n)^(1/3) = 139.6
   auto const noise = test::autoregressive_noise(20000, 5, 1.0, 0.9);
-  EXPECT_NEAR(static_cast<double>(andrews_lags(noise, {0, 20000})), 138.6, 6.0);
+  EXPECT_NEAR(static_cast<double>(andrews_lags({noise, Eigen::VectorXd::Ones(20000), {0, 20000}})), 138.6, 6.0);
 }
 
 TEST(CriticalValue, IsNormalForShortMemoryAndWiderForLong) {
