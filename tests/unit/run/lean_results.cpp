@@ -9,7 +9,8 @@
 namespace torquescope {
 namespace {
 
-std::string const job = test::joint_model + "[model.bounds]\nevery = [-1, 1]\n" + test::simulated_joint +
+std::string const job = test::joint_model + "[filter]\nedge_s = 0\n[model.bounds]\nevery = [-1, 1]\n" +
+                        test::simulated_joint +
                         "[simulate.noise]\ntorque_std = 0.01\n[experiment]\nname = \"lean\"\nruns = 2\n"
                         "[[estimator]]\nname = \"ols\"\n[[estimator]]\nname = \"de\"\ngenerations = 20\n";
 
