@@ -56,7 +56,8 @@ torque_std = 0.05
 """
 
 FITNESS = {"direct": 'fitness = "direct"', "gram": 'fitness = "gram"',
-           "float32": 'fitness = "direct"\nprecision = "float32"'}
+           "float32": 'fitness = "direct"\nprecision = "float32"',
+           "lean": 'fitness = "gram"\n\n[output]\nsamples = false'}
 
 
 class SeedJob:

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/order_statistic.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 
@@ -19,58 +20,74 @@ constexpr double one_speed = 1.3;            // speed_spread below which speeds 
 constexpr double fewest_encoder_steps = 50;  // of position range
 constexpr double visited = 0.01;             // of moving time: a quadrant counts
 
-double percentile(std::vector<double>& values, double share) {
-  auto const place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 std::span<double const> numbers(Eigen::VectorXd const& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
 // near the ends the filter answers to what it was continued with
-Motion between_edges(Motion const& motion, Eigen::Index edge) {
-  Eigen::Index const kept = motion.q.size() - 2 * edge;
-  TORQUESCOPE_EXPECT(kept > 0 && motion.dq.size() == motion.torque.size());
-  auto const inner = [&](Eigen::VectorXd const& signal) -> Eigen::VectorXd { return signal.segment(edge, kept); };
-  return {motion.rate_hz,   inner(motion.time_s), inner(motion.q),
-          inner(motion.dq), inner(motion.ddq),    inner(motion.torque)};
-}
+struct BetweenEdges {
+  using Signal = Eigen::VectorBlock<Eigen::VectorXd const>;
+  BetweenEdges(Motion const& motion, Eigen::Index edge)
+      : q(inner(motion.q, edge)),
+        dq(inner(motion.dq, edge)),
+        ddq(inner(motion.ddq, edge)),
+        torque(inner(motion.torque, edge)) {}
+  static Signal inner(Eigen::VectorXd const& signal, Eigen::Index edge) {
+    TORQUESCOPE_EXPECT(signal.size() > 2 * edge);
+    return signal.segment(edge, signal.size() - 2 * edge);
+  }
+  Signal q, dq, ddq, torque;
+};
 
 // direction, reversals, quadrants, speeds: everything that looks only at moving samples
-void measure_movement(Motion const& motion, Excitation& facts) {
+void measure_movement(BetweenEdges const& motion, Excitation& facts) {
   double const threshold = moving_from * motion.dq.cwiseAbs().maxCoeff();
-  std::vector<double> speeds;
   int last_direction = 0;
   Eigen::Index forward = 0;
+  std::size_t n_moving = 0;
   for (Eigen::Index i = 0; i < motion.dq.size(); ++i) {
     if (std::fabs(motion.dq[i]) <= threshold) continue;
     int const direction = motion.dq[i] > 0 ? 1 : -1;
     facts.reversals += last_direction == -direction;
     last_direction = direction;
     forward += direction > 0;
-    speeds.push_back(std::fabs(motion.dq[i]));
+    ++n_moving;
     bool const positive_torque = motion.torque[i] > 0;
     facts.quadrant_share[positive_torque ? (direction > 0 ? 0 : 1) : (direction > 0 ? 3 : 2)] += 1;
   }
-  if (speeds.empty()) return;
-  auto const moving = static_cast<double>(speeds.size());
+  if (n_moving == 0) return;
+  auto const moving = static_cast<double>(n_moving);
   facts.moving_share = moving / static_cast<double>(motion.dq.size());
   facts.forward_share = static_cast<double>(forward) / moving;
   for (double& share : facts.quadrant_share) {
     share /= moving;
     facts.quadrants += share >= visited;
   }
-  double const slow = percentile(speeds, 0.10);
-  facts.speed_spread = percentile(speeds, 0.95) / slow;
+  auto const speed_percentile = [&](double share) {
+    auto const for_each_speed = [&](auto const& visit) {
+      for (double const velocity : motion.dq)
+        if (!(std::fabs(velocity) <= threshold)) visit(std::fabs(velocity));
+    };
+    return kth_smallest(for_each_speed, static_cast<std::size_t>(share * static_cast<double>(n_moving - 1)));
+  };
+  facts.speed_spread = speed_percentile(0.95) / speed_percentile(0.10);
 }
 
 }  // namespace
 
-Excitation measure_excitation(Recording const& recording, Motion const& whole, FilterOptions const& options) {
-  Motion const motion = between_edges(whole, edge_samples(options, whole.rate_hz));
+Excitation measure_channels(Recording const& recording) {
   Excitation facts;
+  auto const& rows = recording.rows;
+  facts.encoder_step = rows.encoder_step > 0 ? rows.encoder_step : quantisation_step(numbers(recording.position));
+  facts.torque_limit_share =
+      rows.torque_limit_share > 0 ? rows.torque_limit_share : limit_share(numbers(recording.torque));
+  facts.torque_noise = white_noise(recording.torque);
+  facts.jitter = rows.jitter;
+  return facts;
+}
+
+void measure_motion(Motion const& whole, FilterOptions const& options, Excitation& facts) {
+  BetweenEdges const motion(whole, edge_samples(options, whole.rate_hz));
   facts.duration_s = static_cast<double>(whole.q.size()) / whole.rate_hz;
   facts.position_least = motion.q.minCoeff();
   facts.position_most = motion.q.maxCoeff();
@@ -80,12 +97,11 @@ Excitation measure_excitation(Recording const& recording, Motion const& whole, F
   facts.torque_least = motion.torque.minCoeff();
   facts.torque_most = motion.torque.maxCoeff();
   measure_movement(motion, facts);
-  auto const& rows = recording.rows;
-  facts.encoder_step = rows.encoder_step > 0 ? rows.encoder_step : quantisation_step(numbers(recording.position));
-  facts.torque_limit_share =
-      rows.torque_limit_share > 0 ? rows.torque_limit_share : limit_share(numbers(recording.torque));
-  facts.torque_noise = white_noise(recording.torque);
-  facts.jitter = rows.jitter;
+}
+
+Excitation measure_excitation(Recording const& recording, Motion const& motion, FilterOptions const& options) {
+  Excitation facts = measure_channels(recording);
+  measure_motion(motion, options, facts);
   return facts;
 }
 

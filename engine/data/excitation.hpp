@@ -16,7 +16,7 @@ namespace torquescope {
 struct Excitation {
   double duration_s = 0.0;
   double position_least = 0.0, position_most = 0.0;
-  double speed_least = 0.0, speed_most = 0.0;        // signed
+  double speed_least = 0.0, speed_most = 0.0;  // signed
   double acceleration_rms = 0.0;
   double torque_least = 0.0, torque_most = 0.0;
   double moving_share = 0.0;               // of time
@@ -33,6 +33,11 @@ struct Excitation {
 
 // speeds, directions and quadrants come from between the edges that the filter drops
 Excitation measure_excitation(Recording const& recording, Motion const& motion, FilterOptions const& options);
+
+// the same in two halves, for a caller who gives the channels away for the motion: what they show by themselves, then the
+// motion
+Excitation measure_channels(Recording const& recording);
+void measure_motion(Motion const& motion, FilterOptions const& options, Excitation& facts);
 
 // what cannot be identified from such a motion, topic "excitation". `unit` of the position: "rad" or "m"
 std::vector<DataWarning> excitation_warnings(Excitation const& excitation, char const* unit);

@@ -39,6 +39,8 @@ struct FilterOptions {
 // acceleration channels are used as they are (low-passed alike)
 // Errors     Error 78 when a cutoff is not below half the rate, 65 when the recording is shorter than the filter
 Motion differentiate(Recording const& recording, FilterOptions const& options, Section const& section);
+// the same, out of the recording's own channels: nothing is copied that need not change
+Motion differentiate(Recording&& recording, FilterOptions const& options, Section const& section);
 
 // The same low-pass, decimation and edge cut for torque and every column.
 class ParallelFilter {
@@ -50,10 +52,11 @@ class ParallelFilter {
 
   Eigen::Index kept_samples() const;  // after decimation and edge cut
   double kept_rate_hz() const;
+  bool keeps_everything() const;  // neither low-pass nor decimation nor edge: apply() changes nothing
   Eigen::VectorXd apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // n_samples -> kept_samples()
   // every column of n_samples x k
   Eigen::MatrixXd apply_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals) const;
-  Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;   // the same samples, not low-passed
+  Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // the same samples, not low-passed
 
  private:
   struct State;

@@ -35,6 +35,10 @@ Eigen::Index ParallelFilter::kept_samples() const { return state_->kept; }
 
 double ParallelFilter::kept_rate_hz() const { return state_->rate_hz; }
 
+bool ParallelFilter::keeps_everything() const {
+  return state_->sections.empty() && state_->factor == 1 && state_->edge == 0;
+}
+
 Eigen::VectorXd ParallelFilter::apply(Eigen::Ref<Eigen::VectorXd const> const& signal) const {
   TORQUESCOPE_EXPECT(signal.size() == state_->n_samples);
   return state_->sections.empty() ? pick(signal) : apply_columns(signal).col(0);

@@ -2,17 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <vector>
+#include <limits>
+
+#include "engine/base/order_statistic.hpp"
 
 namespace torquescope {
 namespace {
 
-double median_of(std::vector<double>& values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// the upper median
+template <class ForEach>
+double median_of(ForEach const& for_each, std::size_t n_values) {
+  return kth_smallest(for_each, n_values / 2);
 }
+
+// the value furthest to one side, the next one, and how often each is met
+class Extreme {
+ public:
+  explicit Extreme(double side) : side_(side) {}
+  void count(double value) {
+    double const v = side_ * value;
+    if (v > first_) {
+      second_ = first_;
+      n_second_ = n_first_;
+      first_ = v;
+      n_first_ = 1;
+    } else if (v == first_) {
+      ++n_first_;
+    } else if (v > second_) {
+      second_ = v;
+      n_second_ = 1;
+    } else if (v == second_) {
+      ++n_second_;
+    }
+  }
+  double value() const { return side_ * first_; }
+  double next() const { return side_ * second_; }
+  // three times as often as its neighbour: a signal that turns round by itself visits both alike
+  bool is_limit() const { return n_first_ > 3 * n_second_; }
+
+ private:
+  double side_;
+  double first_ = -std::numeric_limits<double>::infinity(), second_ = first_;
+  std::size_t n_first_ = 0, n_second_ = 0;
+};
 
 // samples in runs of three and more at the given value
 std::size_t samples_resting_at(std::span<double const> values, double level) {
@@ -28,56 +60,68 @@ std::size_t samples_resting_at(std::span<double const> values, double level) {
 }  // namespace
 
 double quantisation_step(std::span<double const> values) {
-  std::vector<double> steps;
   double range = 0.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    double const step = std::fabs(values[i] - values[i - 1]);
-    range = std::max(range, step);
-    if (step > 0) steps.push_back(step);
-  }
+  for (std::size_t i = 1; i < values.size(); ++i) range = std::max(range, std::fabs(values[i] - values[i - 1]));
   // printed digits make equal steps differ a little: what is a thousand times smaller than the largest is no step
-  std::erase_if(steps, [&](double step) { return step < 1e-9 * range; });
-  if (steps.size() < 8) return 0.0;
-  double const least = *std::min_element(steps.begin(), steps.end());
+  auto const for_each_step = [&](auto const& visit) {
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      double const step = std::fabs(values[i] - values[i - 1]);
+      if (step > 0 && !(step < 1e-9 * range)) visit(step);
+    }
+  };
+  std::size_t n_steps = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for_each_step([&](double step) {
+    ++n_steps;
+    least = std::min(least, step);
+  });
+  if (n_steps < 8) return 0.0;
+
   // the smallest step, averaged over all that are about as small
-  std::vector<double> single;
-  for (double step : steps)
-    if (step < 1.5 * least) single.push_back(step);
-  double const candidate = median_of(single);
+  auto const for_each_single = [&](auto const& visit) {
+    for_each_step([&](double step) {
+      if (step < 1.5 * least) visit(step);
+    });
+  };
+  std::size_t n_single = 0;
+  for_each_single([&](double) { ++n_single; });
+  double const candidate = median_of(for_each_single, n_single);
   // a real step is met again and again, and every other difference is a multiple of it
+  bool const met_often = n_single * 200 >= n_steps && n_single >= 4;
+  if (!met_often) return 0.0;
   std::size_t multiples = 0, small = 0;
-  for (double step : steps) {
+  for_each_step([&](double step) {
     double const count = step / candidate;
-    if (count > 50) continue;  // printed digits blur large multiples
+    if (count > 50) return;  // printed digits blur large multiples
     ++small;
     multiples += std::fabs(count - std::round(count)) < 0.05;
-  }
-  bool const met_often = single.size() * 200 >= steps.size() && single.size() >= 4;
-  return met_often && multiples * 100 >= 98 * small ? candidate : 0.0;
+  });
+  return multiples * 100 >= 98 * small ? candidate : 0.0;
 }
 
 double limit_share(std::span<double const> values) {
   if (values.size() < 8) return 0.0;
-  std::map<double, std::size_t> count_of_value;
-  for (double value : values) ++count_of_value[value];
-  if (count_of_value.size() < 4) return 0.0;  // on and off: its levels are not limits
-  auto const resting_at = [&](auto level, auto next) {
-    // three times as often as its neighbour: a signal that turns round by itself visits both alike
-    return level->second > 3 * next->second ? samples_resting_at(values, level->first) : 0;
+  Extreme low(-1.0), high(1.0);
+  for (double value : values) {
+    low.count(value);
+    high.count(value);
+  }
+  if (!(low.next() < high.next())) return 0.0;  // at most three values: on and off, its levels are not limits
+  auto const resting_at = [&](Extreme const& level) {
+    return level.is_limit() ? samples_resting_at(values, level.value()) : 0;
   };
-  auto const low = count_of_value.begin();
-  auto const high = std::prev(count_of_value.end());
-  std::size_t const resting = resting_at(low, std::next(low)) + resting_at(high, std::prev(high));
-  return static_cast<double>(resting) / static_cast<double>(values.size());
+  return static_cast<double>(resting_at(low) + resting_at(high)) / static_cast<double>(values.size());
 }
 
 double white_noise(Eigen::Ref<Eigen::VectorXd const> const& signal) {
   if (signal.size() < 8) return 0.0;
-  std::vector<double> bends;
-  for (Eigen::Index i = 1; i + 1 < signal.size(); ++i)
-    bends.push_back(std::fabs(signal[i - 1] - 2 * signal[i] + signal[i + 1]));
-  constexpr double median_of_normal = 0.6744897501960817;         // of |z|
-  return median_of(bends) / (median_of_normal * std::sqrt(6.0));  // variance 1 + 4 + 1
+  auto const for_each_bend = [&](auto const& visit) {
+    for (Eigen::Index i = 1; i + 1 < signal.size(); ++i)
+      visit(std::fabs(signal[i - 1] - 2 * signal[i] + signal[i + 1]));
+  };
+  constexpr double median_of_normal = 0.6744897501960817;  // of |z|
+  // variance 1 + 4 + 1
+  return median_of(for_each_bend, static_cast<std::size_t>(signal.size() - 2)) / (median_of_normal * std::sqrt(6.0));
 }
 
 }  // namespace torquescope

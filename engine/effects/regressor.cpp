@@ -77,6 +77,9 @@ void find_needs(RegressorColumn& column, Effect const& effect, std::size_t index
   moved = base;
   moved.ddq = -1.7;
   column.needs_acceleration = torque(moved) != torque(base);
+  moved = base;
+  moved.time_s = 0.6;
+  column.needs_time = torque(moved) != torque(base);
 }
 
 }  // namespace
@@ -150,20 +153,22 @@ double Regressor::seen_velocity(Effect const& effect, double velocity) const {
   return at_rest ? 0.0 : velocity;
 }
 
-Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
+void Regressor::columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out) const {
   TORQUESCOPE_EXPECT(motion.q.size() == motion.dq.size() && motion.q.size() == motion.ddq.size() &&
                      motion.q.size() == motion.time_s.size());
+  auto const& effect = *terms_[term];
+  if (!effect.is_dry_friction() || velocity_deadband_ == 0.0) return effect.columns({motion}, {}, out);
   Motion deadened = motion;
+  for (double& velocity : deadened.dq) velocity = seen_velocity(effect, velocity);
+  effect.columns({deadened}, {}, out);
+}
+
+Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
   Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(size()));
   Eigen::Index first = 0;
-  for (auto const* effect : terms_) {
-    auto const count = static_cast<Eigen::Index>(effect->parameters().size());
-    if (effect->is_dry_friction() && velocity_deadband_ > 0.0) {
-      for (Eigen::Index i = 0; i < motion.dq.size(); ++i) deadened.dq[i] = seen_velocity(*effect, motion.dq[i]);
-      effect->columns({deadened}, {}, phi.middleCols(first, count));
-    } else {
-      effect->columns({motion}, {}, phi.middleCols(first, count));
-    }
+  for (std::size_t term = 0; term < terms_.size(); ++term) {
+    auto const count = static_cast<Eigen::Index>(terms_[term]->parameters().size());
+    columns_of_term(motion, term, phi.middleCols(first, count));
     first += count;
   }
   return phi;

@@ -27,6 +27,7 @@ struct RegressorColumn {
   bool needs_position = false;  // which part of the motion the column depends on, hence
   bool needs_velocity = false;  // what must vary in a recording to see it
   bool needs_acceleration = false;
+  bool needs_time = false;
 };
 
 class Regressor {
@@ -45,6 +46,8 @@ class Regressor {
   std::string equation() const;  // "tau = J ddq + Fv dq + Fc sign(dq)"
 
   Eigen::MatrixXd columns(Motion const& motion) const;
+  // those of one term only; a term is an instant's: any stretch of the motion gives its rows
+  void columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out) const;
   double torque(JointState const& state, std::span<double const> parameters) const;
 
  private:

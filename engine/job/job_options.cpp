@@ -20,6 +20,9 @@ OptionTable<OutputOptions> const& OutputOptions::table() {
       {
           {"file", &OutputOptions::file, "result file; default: NAME.h5 in the working folder"},
           {"compression", &OutputOptions::compression, {"none", "gzip"}, "compression of the histories"},
+          {"samples", &OutputOptions::samples,
+           "store every sample of the recordings with its row of the regressor; without them the file and the memory "
+           "are small, and there is no page"},
       });
   return options;
 }

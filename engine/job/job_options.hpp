@@ -20,6 +20,7 @@ struct ExperimentOptions {
 struct OutputOptions {
   std::string file{};                // default: NAME.h5 in the working folder
   std::string compression = "none";  // "none" or "gzip"
+  bool samples = true;               // false: no sample of a recording, which a page would draw
 
   static OptionTable<OutputOptions> const& table();
 };

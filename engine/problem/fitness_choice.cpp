@@ -17,19 +17,21 @@ FitnessChoice every_sample(ObjectiveOptions const& options, std::string const& w
 
 }  // namespace
 
-bool may_use_statistics(ObjectiveOptions const& options) {
-  return options.precision == "float32" || (options.fitness != "direct" && options.loss == "squares");
+bool wants_statistics(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations) {
+  if (options.precision == "float32") return true;  // they tell what noise the rounding hides in
+  if (options.fitness == "direct" || options.loss != "squares") return false;
+  return options.fitness == "gram" || evaluations >= repaid_after(n_parameters);
 }
 
-FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
-                             std::int64_t evaluations) {
+FitnessChoice choose_fitness(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations,
+                             SufficientStatistics const* statistics) {
   if (options.fitness == "direct") return every_sample(options, "as the job says");
   if (options.loss != "squares") return every_sample(options, options.loss + " is no sum of squares");
+  if (!wants_statistics(options, n_parameters, evaluations))
+    return every_sample(options, fmt::format("{} evaluations do not repay statistics, {} would", evaluations,
+                                             repaid_after(n_parameters)));
   TORQUESCOPE_EXPECT(statistics != nullptr);
   if (!statistics->usable()) return every_sample(options, "statistics would not be exact, " + statistics->refusal());
-  auto const repaid = repaid_after(statistics->centre().size());
-  if (options.fitness == "auto" && evaluations < repaid)
-    return every_sample(options, fmt::format("{} evaluations do not repay statistics, {} would", evaluations, repaid));
   return {true, false,
           fmt::format("sufficient statistics ({}): least error {:.1e} of the torque's mean square, condition {:.2g}, "
                       "{} evaluations",

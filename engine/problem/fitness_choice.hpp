@@ -21,12 +21,12 @@ struct FitnessChoice {
   std::string words;  // "statistics (auto): ...", for the log and the result file
 };
 
-// whether statistics have to be made at all before one of these can decide
-bool may_use_statistics(ObjectiveOptions const& options);
+// whether statistics have to be made: decided before they are, which costs two sweeps; evaluations: at most, of all runs
+bool wants_statistics(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations);
 
-// statistics: may be nullptr when may_use_statistics() says no; evaluations: at most, of all runs
-FitnessChoice choose_fitness(ObjectiveOptions const& options, SufficientStatistics const* statistics,
-                             std::int64_t evaluations);
+// statistics: may be nullptr when wants_statistics() says no
+FitnessChoice choose_fitness(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations,
+                             SufficientStatistics const* statistics);
 
 // of precision = "float32"
 // Requires   check.usable()

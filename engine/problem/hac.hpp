@@ -20,12 +20,17 @@
 
 namespace torquescope {
 
-// scores: [n][R]; first_row: [recordings + 1]
-std::int64_t andrews_lags(Eigen::MatrixXd const& scores, std::vector<Eigen::Index> const& first_row);
+// s_t = phi_t psi_t, made block by block where they are needed; points to its parts
+struct RowScores {
+  Eigen::MatrixXd const& phi;                  // [n][R]
+  Eigen::VectorXd const& psi;                  // [n]
+  std::vector<Eigen::Index> const& first_row;  // [recordings + 1]
+};
+
+std::int64_t andrews_lags(RowScores const& scores);
 
 // bread: [R][R], B above; lags >= 0
-Eigen::MatrixXd newey_west_covariance(Eigen::MatrixXd const& scores, Eigen::MatrixXd const& bread,
-                                      std::vector<Eigen::Index> const& first_row, std::int64_t lags);
+Eigen::MatrixXd newey_west_covariance(RowScores const& scores, Eigen::MatrixXd const& bread, std::int64_t lags);
 
 // half-width of a 95 % interval in standard errors; 1.96 for lags = 0
 double critical_value(std::int64_t lags, Eigen::Index n_rows);

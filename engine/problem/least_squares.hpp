@@ -1,8 +1,8 @@
 #pragma once
 // What a closed form estimator returns, and what all of them share: the weighted solution and its covariances.
 //
-// Equation   parameters = argmin sum_t w_t (tau_t - phi_t parameters)^2, by Householder QR of the column-scaled rows
-//            (the normal equations of the seed's eq. 11 square the condition number)
+// Equation   parameters = argmin sum_t w_t (tau_t - phi_t parameters)^2, by Householder QR of the column-scaled rows,
+//            block by block (row_reduction.hpp; the normal equations of the seed's eq. 11 square the condition number)
 // Shapes     R parameters, n rows
 // Units      covariances in products of parameter units
 // Errors     Error 65 when the recordings do not excite every column (regressor_health.hpp)
@@ -40,8 +40,8 @@ Eigen::VectorXd solve_weighted(RegressionData const& data, Eigen::VectorXd const
 Eigen::MatrixXd inverse_information(RegressionData const& data, Eigen::VectorXd const& d);
 
 // fills metrics, covariance_hac, standard errors and intervals from parameters, covariance_naive and weights;
-// scores: s_t = phi_t psi_t (hac.hpp); hac_lags: -1 for automatic
-void finish_fit(LeastSquaresFit& fit, RegressionData const& data, Eigen::MatrixXd const& scores,
+// psi: [n] of the scores s_t = phi_t psi_t (hac.hpp); hac_lags: -1 for automatic
+void finish_fit(LeastSquaresFit& fit, RegressionData const& data, Eigen::VectorXd const& psi,
                 Eigen::MatrixXd const& bread, std::int64_t hac_lags);
 
 }  // namespace torquescope

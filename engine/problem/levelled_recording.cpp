@@ -1,13 +1,12 @@
 #include "engine/problem/levelled_recording.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "kernels/sample_tiles.hpp"
 
 namespace torquescope {
 namespace {
-
-using Rows = std::vector<Eigen::Index>;
 
 constexpr std::size_t most_values = 3;
 constexpr std::size_t most_runs = 8;
@@ -26,39 +25,44 @@ bool takes_few_values(Eigen::MatrixXd const& phi, Eigen::Index column) {
   return true;
 }
 
-// the rows of each combination of values of these columns; empty when there are too many
-std::vector<Rows> rows_by_level(Eigen::MatrixXd const& phi, std::vector<std::size_t> const& columns) {
-  std::vector<Rows> levels;
+// which combination of values of these columns every row has
+struct Levels {
+  std::vector<std::uint8_t> of_row;
+  std::vector<Eigen::Index> first_row;  // [level] where it is met first
+  std::vector<std::size_t> count;       // [level] rows
+};
+
+// empty when there are too many
+std::optional<Levels> find_levels(Eigen::MatrixXd const& phi, std::vector<std::size_t> const& columns) {
+  Levels levels;
+  levels.of_row.resize(static_cast<std::size_t>(phi.rows()));
   auto const equal = [&](Eigen::Index a, Eigen::Index b) {
     return std::all_of(columns.begin(), columns.end(), [&](std::size_t c) {
       return phi(a, static_cast<Eigen::Index>(c)) == phi(b, static_cast<Eigen::Index>(c));
     });
   };
   for (Eigen::Index t = 0; t < phi.rows(); ++t) {
-    auto const level = std::find_if(levels.begin(), levels.end(), [&](Rows const& rows) { return equal(rows[0], t); });
-    if (level != levels.end()) {
-      level->push_back(t);
-    } else if (levels.size() == most_runs) {
-      return {};
-    } else {
-      levels.push_back({t});
+    std::size_t level = 0;
+    while (level < levels.first_row.size() && !equal(levels.first_row[level], t)) ++level;
+    if (level == most_runs) return {};
+    if (level == levels.first_row.size()) {
+      levels.first_row.push_back(t);
+      levels.count.push_back(0);
     }
+    ++levels.count[level];
+    levels.of_row[static_cast<std::size_t>(t)] = static_cast<std::uint8_t>(level);
   }
   return levels;
 }
 
-// rows of all given columns as tiles
-kernels::AlignedDoubles packed(Eigen::MatrixXd const& phi, Eigen::VectorXd const& tau,
-                               std::vector<std::size_t> const& columns, Rows const& rows) {
+// these columns and the torque of row t as sample i of the tiles
+void pack_row(Eigen::MatrixXd const& phi, Eigen::VectorXd const& tau, std::vector<std::size_t> const& columns,
+              Eigen::Index t, std::size_t i, double* tiles) {
   std::size_t const tile_size = (columns.size() + 1) * kernels::tile_samples;
-  kernels::AlignedDoubles tiles(kernels::packed_size(rows.size(), columns.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    double* const place = tiles.data() + i / kernels::tile_samples * tile_size + i % kernels::tile_samples;
-    for (std::size_t r = 0; r < columns.size(); ++r)
-      place[r * kernels::tile_samples] = phi(rows[i], static_cast<Eigen::Index>(columns[r]));
-    place[columns.size() * kernels::tile_samples] = tau[rows[i]];
-  }
-  return tiles;
+  double* const place = tiles + i / kernels::tile_samples * tile_size + i % kernels::tile_samples;
+  for (std::size_t r = 0; r < columns.size(); ++r)
+    place[r * kernels::tile_samples] = phi(t, static_cast<Eigen::Index>(columns[r]));
+  place[columns.size() * kernels::tile_samples] = tau[t];
 }
 
 }  // namespace
@@ -73,22 +77,32 @@ std::optional<LevelledRecording> LevelledRecording::make(Eigen::MatrixXd const& 
     (takes_few_values(phi, c) ? recording.constant_column_ : recording.varying_column_).push_back(column);
   }
   if (recording.constant_column_.size() < least_constant) return {};
-  auto const levels = rows_by_level(phi, recording.constant_column_);
-  if (levels.empty()) return {};
+  auto const levels = find_levels(phi, recording.constant_column_);
+  if (!levels) return {};
 
-  Rows whole, rest;
-  for (Rows const& rows : levels) {
-    auto const end =
-        rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / kernels::tile_samples * kernels::tile_samples);
-    whole.insert(whole.end(), rows.begin(), end);
-    rest.insert(rest.end(), end, rows.end());
-    recording.run_end_.push_back(whole.size() / kernels::tile_samples);
+  // where the next row of each level goes: whole tiles to its run, what fills none to the rest
+  std::vector<std::size_t> next_whole, next_rest, end_whole;
+  std::size_t n_whole = 0;
+  for (std::size_t level = 0; level < levels->count.size(); ++level) {
+    std::size_t const whole = levels->count[level] / kernels::tile_samples * kernels::tile_samples;
+    next_whole.push_back(n_whole);
+    end_whole.push_back(n_whole += whole);
+    next_rest.push_back(recording.rest_samples_);
+    recording.rest_samples_ += levels->count[level] - whole;
+    recording.run_end_.push_back(n_whole / kernels::tile_samples);
     for (auto const column : recording.constant_column_)
-      recording.level_.push_back(phi(rows[0], static_cast<Eigen::Index>(column)));
+      recording.level_.push_back(phi(levels->first_row[level], static_cast<Eigen::Index>(column)));
   }
-  recording.varying_ = packed(phi, tau, recording.varying_column_, whole);
-  recording.rest_ = packed(phi, tau, every_column, rest);
-  recording.rest_samples_ = rest.size();
+
+  recording.varying_.resize(kernels::packed_size(n_whole, recording.varying_column_.size()));
+  recording.rest_.resize(kernels::packed_size(recording.rest_samples_, every_column.size()));
+  for (Eigen::Index t = 0; t < phi.rows(); ++t) {
+    std::size_t const level = levels->of_row[static_cast<std::size_t>(t)];
+    if (next_whole[level] < end_whole[level])
+      pack_row(phi, tau, recording.varying_column_, t, next_whole[level]++, recording.varying_.data());
+    else
+      pack_row(phi, tau, every_column, t, next_rest[level]++, recording.rest_.data());
+  }
   return recording;
 }
 

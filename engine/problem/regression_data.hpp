@@ -9,7 +9,7 @@
 // Source     parallel filtering: Gautier 1997; Janot, Vandanjon, Gautier 2014
 
 #include <Eigen/Core>
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,7 +29,6 @@ struct RegressionData {
   Eigen::VectorXd q;
   Eigen::VectorXd dq;
   Eigen::VectorXd ddq;
-  std::vector<std::int64_t> recording;        // [n] which recording a row belongs to
   std::vector<Eigen::Index> first_row{0, 0};  // [recordings + 1]; recording k owns rows first_row[k] .. first_row[k+1]
 
   std::vector<std::string> recording_names;  // [recordings]
@@ -39,7 +38,24 @@ struct RegressionData {
   Eigen::Index rows() const { return tau.size(); }
   Eigen::Index parameters() const { return phi.cols(); }
   std::size_t recordings() const { return first_row.size() - 1; }
+  std::size_t recording_of(Eigen::Index row) const;
+
+  // velocities of both signs, also of a motion that is forgotten
+  bool moves_both_ways() const;
+  void note_directions(Eigen::VectorXd const& velocity);
+  // frees time_s, q, dq and ddq: a fit needs none of them
+  void forget_motion();
+
+ private:
+  bool forgotten_forwards_ = false, forgotten_backwards_ = false;
 };
+
+// whether time_s, q, dq and ddq are wanted beside phi and tau; used up, they make room for phi while it is made
+enum class RowMotion { kept, used_up };
+
+// the next recording's rows, below those that are there; takes the motion
+void append_rows(RegressionData& data, std::string const& recording_name, Motion&& motion, FilterOptions const& options,
+                 Regressor const& regressor, Section const& filter, RowMotion row_motion = RowMotion::kept);
 
 // differentiate, columns, parallel filter on torque and every column, one recording after the other;
 // `filter` is the job's [filter] section, for the places in messages

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
 namespace {
@@ -26,10 +27,6 @@ std::string listed(std::vector<std::string> const& words) {
   return text;
 }
 
-bool both_directions(RegressionData const& data) {
-  return data.dq.size() > 0 && data.dq.minCoeff() < 0.0 && data.dq.maxCoeff() > 0.0;
-}
-
 // the motion that the given columns need more of
 std::string advice(RegressionData const& data, std::vector<std::size_t> const& members) {
   bool position = false, velocity = false, acceleration = false;
@@ -39,19 +36,26 @@ std::string advice(RegressionData const& data, std::vector<std::size_t> const& m
     acceleration = acceleration || data.columns[member].needs_acceleration;
   }
   std::vector<std::string> wanted;
-  if (velocity) wanted.push_back(both_directions(data) ? "wider speeds" : "motion in both directions");
+  if (velocity) wanted.push_back(data.moves_both_ways() ? "wider speeds" : "motion in both directions");
   if (acceleration) wanted.push_back("stronger accelerations");
   if (position) wanted.push_back("a wider range of positions");
   return listed(wanted) + " would help";
 }
 
-Eigen::VectorXd column_lengths(RegressionData const& data) { return data.phi.colwise().norm(); }
-
-// columns of length one; a column of zeros stays
-Eigen::MatrixXd scaled(RegressionData const& data) {
+// to columns of length one; a column of zeros stays
+RowScaling to_unit_columns(RegressionData const& data) {
   Eigen::VectorXd lengths = column_lengths(data);
   for (auto& length : lengths) length = length > 0.0 ? length : 1.0;
-  return data.phi * lengths.cwiseInverse().asDiagonal();
+  return {{}, lengths.cwiseInverse()};
+}
+
+Eigen::MatrixXd products_of(RegressionData const& data, RowScaling const& scaling) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(data.parameters(), data.parameters());
+  for (Eigen::Index first = 0; first < data.rows(); first += reduced_block_rows) {
+    Eigen::MatrixXd const rows = scaled_rows(data, scaling, first, std::min(reduced_block_rows, data.rows() - first));
+    sum += rows.transpose() * rows;
+  }
+  return sum;
 }
 
 double condition(Eigen::VectorXd const& singular_values) {
@@ -61,10 +65,8 @@ double condition(Eigen::VectorXd const& singular_values) {
 
 // singular values and right vectors, from the R x R factor of phi = Q R
 using SquareSvd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>;
-SquareSvd right_svd(Eigen::MatrixXd const& phi) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(phi);
-  Eigen::MatrixXd const r = qr.matrixQR().topRows(phi.cols()).triangularView<Eigen::Upper>();
-  return SquareSvd(r, Eigen::ComputeFullV);
+SquareSvd right_svd(RegressionData const& data, RowScaling const& scaling = {}) {
+  return SquareSvd(triangular_factor(data, scaling), Eigen::ComputeFullV);
 }
 
 // columns that make up the weakest direction
@@ -113,11 +115,11 @@ RegressorHealth regressor_health(RegressionData const& data) {
     health.words = few_rows_words(data);
     return health;
   }
-  auto const unit_columns = scaled(data);
-  health.correlation = unit_columns.transpose() * unit_columns;
-  auto const svd = right_svd(unit_columns);
+  auto const unit_columns = to_unit_columns(data);
+  health.correlation = products_of(data, unit_columns);
+  auto const svd = right_svd(data, unit_columns);
   health.condition_number = condition(svd.singularValues());
-  health.condition_number_raw = condition(right_svd(data.phi).singularValues());
+  health.condition_number_raw = condition(right_svd(data).singularValues());
   health.identifiable = health.condition_number * identifiable_threshold < 1.0;
 
   health.words = pair_words(data, health.correlation);
@@ -142,7 +144,7 @@ Error not_identifiable(RegressionData const& data) {
   std::vector<std::size_t> silent;
   for (Eigen::Index r = 0; r < lengths.size(); ++r)
     if (lengths[r] == 0.0) silent.push_back(static_cast<std::size_t>(r));
-  auto const members = silent.empty() ? weakest_members(right_svd(scaled(data)).matrixV()) : silent;
+  auto const members = silent.empty() ? weakest_members(right_svd(data, to_unit_columns(data)).matrixV()) : silent;
   auto const names = listed(names_of(data, members));
   problem.what = silent.empty() ? "the recording cannot tell " + names + " apart: they are proportional in this motion"
                                 : "the recording never excites " + names + ": the regressor is zero there";

@@ -1,18 +1,16 @@
 #include "engine/problem/squared_error_floor.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "engine/base/contract.hpp"
 #include "engine/problem/least_squares.hpp"
+#include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
 namespace {
 
 Eigen::MatrixXd triangular_root(RegressionData const& data) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(data.phi);
-  Eigen::MatrixXd root = qr.matrixQR().topRows(data.parameters()).triangularView<Eigen::Upper>();
-  return root / std::sqrt(static_cast<double>(data.rows()));
+  return triangular_factor(data) / std::sqrt(static_cast<double>(data.rows()));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/job_sections.hpp"
@@ -88,21 +89,39 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
   }
 }
 
+// a diagnosis looks at the channels again, a fit only at its rows
+enum class Channels { kept, taken };
+
+void forget_channels(Recording& recording) {
+  for (auto* channel : {&recording.time_s, &recording.position, &recording.torque, &recording.reference,
+                        &recording.velocity, &recording.acceleration, &recording.simulated_torque})
+    *channel = Eigen::VectorXd();
+}
+
 // the rows of the fit, and what the motion can tell; excitation's warnings join those of the recording
-void prepare(DataSet& set, Experiment::Parts const& parts) {
+void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   Section const filter = section_or_empty(parts.job, "filter");
-  set.regression = make_regression_data(set.recordings, parts.filter, *parts.regressor, filter);
   char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
+  // the motion of the rows is for the result file and its page
+  auto const row_motion = channels == Channels::kept || parts.output.samples ? RowMotion::kept : RowMotion::used_up;
   for (auto& recording : set.recordings) {
-    set.excitation.push_back(
-        measure_excitation(recording, differentiate(recording, parts.filter, filter), parts.filter));
-    for (auto const& warning : excitation_warnings(set.excitation.back(), unit)) recording.warnings.push_back(warning);
+    set.n_samples.push_back(static_cast<std::size_t>(recording.time_s.size()));
+    auto facts = measure_channels(recording);
+    Motion motion = channels == Channels::kept ? differentiate(recording, parts.filter, filter)
+                                               : differentiate(std::move(recording), parts.filter, filter);
+    if (channels == Channels::taken) forget_channels(recording);
+    measure_motion(motion, parts.filter, facts);
+    for (auto const& warning : excitation_warnings(facts, unit)) recording.warnings.push_back(warning);
+    set.excitation.push_back(facts);
+    append_rows(set.regression, recording.name, std::move(motion), parts.filter, *parts.regressor, filter, row_motion);
   }
 }
 
-bool wants_statistics(std::vector<EstimatorPlan> const& plans) {
-  return std::any_of(plans.begin(), plans.end(), [](EstimatorPlan const& plan) {
-    return !plan.is_closed_form() && may_use_statistics(plan.objective);
+bool wants_statistics(Experiment::Parts const& parts) {
+  auto const& plans = parts.estimators;
+  return std::any_of(plans.begin(), plans.end(), [&](EstimatorPlan const& plan) {
+    return !plan.is_closed_form() &&
+           wants_statistics(plan.objective, parts.train.regression.parameters(), evaluations_of(parts, plan));
   });
 }
 
@@ -174,10 +193,11 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
     use_simulation(*parts, plan);
   else
     use_files(*parts, recording);
-  prepare(parts->train, *parts);
-  if (parts->validate) prepare(*parts->validate, *parts);
+  auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
+  prepare(parts->train, *parts, channels);
+  if (parts->validate) prepare(*parts->validate, *parts, channels);
   parts->health = regressor_health(parts->train.regression);
-  if (purpose == Purpose::identify && wants_statistics(parts->estimators))
+  if (purpose == Purpose::identify && wants_statistics(*parts))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
   check_precision(*parts);
   return Experiment(std::move(parts));

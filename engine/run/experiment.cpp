@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/base/digest.hpp"
 #include "engine/run/experiment_parts.hpp"
@@ -20,30 +21,24 @@ std::size_t runs_of(EstimatorPlan const& plan, ExperimentOptions const& experime
   return plan.is_closed_form() ? 1 : static_cast<std::size_t>(experiment.runs);
 }
 
-// at most, of all runs of a population method
-std::int64_t evaluations_of(EstimatorPlan const& plan, Experiment::Parts const& parts) {
-  auto const members = static_cast<std::int64_t>(plan.make_optimiser(parts.box, {})->batch_size());
-  std::int64_t const each = (plan.stop_rules.generations + 1) * members;
-  return parts.experiment.runs * (plan.stop_rules.evaluations > 0 ? std::min(each, plan.stop_rules.evaluations) : each);
-}
-
 std::string excitation_words(Excitation const& facts, JointKind joint) {
   return fmt::format("speed {:.3g} to {:.3g} {}/s, {} reversals, {}", facts.speed_least, facts.speed_most,
                      joint == JointKind::revolute ? "rad" : "m", facts.reversals,
                      counted(static_cast<std::size_t>(facts.quadrants), "quadrant"));
 }
 
-std::size_t samples_of(std::vector<Recording> const& recordings) {
-  std::size_t samples = 0;
-  for (auto const& recording : recordings) samples += static_cast<std::size_t>(recording.time_s.size());
-  return samples;
+std::size_t samples_of(DataSet const& set) {
+  return std::accumulate(set.n_samples.begin(), set.n_samples.end(), std::size_t{0});
 }
 
-double seconds_of(std::vector<Recording> const& recordings) {
-  return static_cast<double>(samples_of(recordings)) / recordings.front().rate_hz;
-}
+double seconds_of(DataSet const& set) { return static_cast<double>(samples_of(set)) / set.recordings.front().rate_hz; }
 
 }  // namespace
+
+void Experiment::forget_motion() {
+  parts_->train.regression.forget_motion();
+  if (parts_->validate) parts_->validate->regression.forget_motion();
+}
 
 std::string const& Experiment::name() const { return parts_->experiment.name; }
 
@@ -84,9 +79,16 @@ std::vector<std::string> Experiment::fitness_lines() const {
   return lines;
 }
 
+std::int64_t evaluations_of(Experiment::Parts const& parts, EstimatorPlan const& plan) {
+  auto const members = static_cast<std::int64_t>(plan.make_optimiser(parts.box, {})->batch_size());
+  std::int64_t const each = (plan.stop_rules.generations + 1) * members;
+  return parts.experiment.runs * (plan.stop_rules.evaluations > 0 ? std::min(each, plan.stop_rules.evaluations) : each);
+}
+
 FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const& plan) {
   if (plan.objective.precision == "float32") return single_precision_choice(plan.objective, *parts.single_precision);
-  return choose_fitness(plan.objective, parts.statistics ? &*parts.statistics : nullptr, evaluations_of(plan, parts));
+  return choose_fitness(plan.objective, parts.train.regression.parameters(), evaluations_of(parts, plan),
+                        parts.statistics ? &*parts.statistics : nullptr);
 }
 
 std::string Experiment::diagnose_line() const {
@@ -98,10 +100,10 @@ std::string Experiment::diagnose_line() const {
 std::string Experiment::data_line() const {
   auto const& recordings = parts_->train.recordings;
   std::string line = recordings.size() == 1 ? recordings.front().name : counted(recordings.size(), "recording");
-  line += fmt::format(", {} samples, {:.4g} s at {:.6g} Hz", samples_of(recordings), seconds_of(recordings),
+  line += fmt::format(", {} samples, {:.4g} s at {:.6g} Hz", samples_of(parts_->train), seconds_of(parts_->train),
                       recordings.front().rate_hz);
   if (parts_->filter.cutoff_hz > 0.0) line += fmt::format("; cutoff {:.4g} Hz", parts_->filter.cutoff_hz);
-  if (parts_->validate) line += fmt::format("; unseen {:.4g} s", seconds_of(parts_->validate->recordings));
+  if (parts_->validate) line += fmt::format("; unseen {:.4g} s", seconds_of(*parts_->validate));
   return line;
 }
 
@@ -126,10 +128,11 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   lines.push_back({Level::ok, "job", fmt::format("{}, none unknown", counted(keys, "key"))});
 
   auto const add_set = [&](DataSet const& set, std::string const& purpose) {
-    for (auto const& recording : set.recordings) {
+    for (std::size_t k = 0; k < set.recordings.size(); ++k) {
+      auto const& recording = set.recordings[k];
       lines.push_back(
           {Level::ok, purpose,
-           fmt::format("{}: {} samples at {:.6g} Hz", recording.name, recording.time_s.size(), recording.rate_hz)});
+           fmt::format("{}: {} samples at {:.6g} Hz", recording.name, set.n_samples[k], recording.rate_hz)});
       for (auto const& warning : recording.warnings) lines.push_back({Level::warn, warning.topic, warning.text});
     }
   };

@@ -1,8 +1,10 @@
 #pragma once
-// A job turned into objects: what Experiment::load makes and the workflows use. Nothing here changes after load().
+// A job turned into objects: what Experiment::load makes and the workflows use. Nothing here changes after load(), but
+// that identify() lets go of the motion once it is written.
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,10 +31,11 @@ namespace torquescope {
 
 // recordings of one purpose, as read and as the estimators see them
 struct DataSet {
-  std::vector<Recording> recordings;
+  std::vector<Recording> recordings;  // for a diagnosis whole, else without their channels: `regression` has taken them
   RegressionData regression;
   std::vector<Excitation> excitation;  // per recording
   bool simulated = false;
+  std::vector<std::size_t> n_samples{};  // per recording, as read
 };
 
 struct Experiment::Parts {
@@ -47,11 +50,14 @@ struct Experiment::Parts {
   Bounds box;
   Eigen::VectorXd truth;                                 // NaN where unknown
   std::vector<EstimatorPlan> estimators;                 // may be empty unless loaded for identify
-  std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator may use them
+  std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator would use them
   std::optional<SinglePrecisionCheck> single_precision;  // when an estimator wants float32
   DiagnoseOptions diagnose;
   std::vector<Effect const*> effects;  // a diagnosis looks for
 };
+
+// at most, of all runs of a population method
+std::int64_t evaluations_of(Experiment::Parts const& parts, EstimatorPlan const& plan);
 
 // whether this population method looks at every sample or at the statistics, and why
 FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const& plan);

@@ -158,12 +158,13 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
 
 }  // namespace
 
-IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress) {
+IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
   auto const start = Clock::now();
   std::string const started = utc_now();
   auto const& parts = experiment.parts();
   ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
+  experiment.forget_motion();
 
   SquaredErrorFloor const floor(parts.train.regression);
   bool const revolute = parts.regressor->joint() == JointKind::revolute;

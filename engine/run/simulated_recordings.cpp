@@ -1,22 +1,26 @@
 #include "engine/run/simulated_recordings.hpp"
 
+#include <utility>
+
 namespace torquescope {
 
 namespace {
 
 // what a reader would have made of the file that `torquescope simulate` writes
-Recording as_recording(SimulatedRecording const& simulated) {
+Recording as_recording(SimulatedRecording&& simulated) {
   Recording recording;
-  recording.name = simulated.name;
-  recording.sha256 = simulated.sha256;
+  recording.name = std::move(simulated.name);
+  recording.sha256 = std::move(simulated.sha256);
   recording.rate_hz = simulated.rate_hz;
-  recording.time_s = simulated.time_s;
-  recording.position = simulated.position;
-  recording.torque = simulated.torque;
-  recording.reference = simulated.reference;
+  recording.time_s = std::move(simulated.time_s);
+  recording.position = std::move(simulated.position);
+  recording.torque = std::move(simulated.torque);
+  simulated.true_torque = Eigen::VectorXd();
+  // after an exact motion it is the position itself
+  recording.reference = simulated.has_exact_motion ? recording.position : std::move(simulated.reference);
   if (simulated.has_exact_motion) {
-    recording.velocity = simulated.true_velocity;
-    recording.acceleration = simulated.true_acceleration;
+    recording.velocity = std::move(simulated.true_velocity);
+    recording.acceleration = std::move(simulated.true_acceleration);
   }
   if (simulated.saturated_samples > 0)
     recording.warnings.push_back(
@@ -35,9 +39,9 @@ SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Prob
 
 SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed) {
   SimulatedRecordings recordings;
-  SimulatedRecording const train = simulate_joint(plan, seed, 0);
-  recordings.train = as_recording(train);
+  SimulatedRecording train = simulate_joint(plan, seed, 0);
   for (auto const& value : train.truth) recordings.truth.emplace_back(value.name, value.value);
+  recordings.train = as_recording(std::move(train));
   if (plan.simulation.validate) recordings.validate.push_back(as_recording(simulate_joint(plan, seed, 1)));
   return recordings;
 }

@@ -42,10 +42,11 @@ void write_data_attributes(ResultWriter& writer, std::string const& group, DataS
                            FilterOptions const& filter) {
   std::vector<std::string> names, digests;
   double duration_s = 0.0;
-  for (auto const& recording : set.recordings) {
+  for (std::size_t k = 0; k < set.recordings.size(); ++k) {
+    auto const& recording = set.recordings[k];
     names.push_back(recording.name);
     digests.push_back(recording.sha256);
-    duration_s += static_cast<double>(recording.time_s.size()) / recording.rate_hz;
+    duration_s += static_cast<double>(set.n_samples[k]) / recording.rate_hz;
   }
   writer.attribute(group, "recordings", names);
   writer.attribute(group, "sha256", digests);
@@ -59,30 +60,47 @@ void write_data_attributes(ResultWriter& writer, std::string const& group, DataS
   writer.attribute(group, "reversals", reversals);
 }
 
-void write_data_set(ResultWriter& writer, std::string const& group, DataSet const& set, FilterOptions const& filter,
-                    JointKind joint) {
-  RegressionData const& data = set.regression;
+void write_samples(ResultWriter& writer, std::string const& group, RegressionData const& data, JointKind joint) {
   auto const n = static_cast<std::size_t>(data.rows());
   bool const revolute = joint == JointKind::revolute;
   std::string const length = revolute ? "rad" : "m";
   std::string const torque_unit = revolute ? "N m" : "N";
   writer.numbers(group + "/time", {n}, numbers_of(data.time_s), {"s", "time"});
-  writer.whole_numbers(group + "/recording", {n}, data.recording, {"1", "index of the recording"});
+  writer.whole_numbers_in_blocks(
+      group + "/recording", {n},
+      [&](std::size_t first, std::span<std::int64_t> values) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+          values[i] = static_cast<std::int64_t>(data.recording_of(static_cast<Eigen::Index>(first + i)));
+      },
+      {"1", "index of the recording"});
   writer.numbers(group + "/position", {n}, numbers_of(data.q), {length, "position"});
   writer.numbers(group + "/velocity", {n}, numbers_of(data.dq), {length + "/s", "velocity"});
   writer.numbers(group + "/acceleration", {n}, numbers_of(data.ddq), {length + "/s2", "acceleration"});
   writer.numbers(group + "/torque", {n}, numbers_of(data.tau), {torque_unit, revolute ? "torque" : "force"});
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const rows = data.phi;
   auto const columns = static_cast<std::size_t>(data.parameters());
-  writer.numbers(group + "/regressor", {n, columns}, {rows.data(), n * columns}, {"SI", "regressor"});
+  writer.numbers_in_blocks(group + "/regressor", {n, columns},
+                           [&](std::size_t first, std::span<double> values) {
+                             auto const count = static_cast<Eigen::Index>(values.size() / columns);
+                             Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+                                 values.data(), count, data.parameters()) =
+                                 data.phi.middleRows(static_cast<Eigen::Index>(first), count);
+                           },
+                           {"SI", "regressor"});
+  writer.plottable(group, "torque", {"time"});
+}
 
+void write_data_set(ResultWriter& writer, std::string const& group, DataSet const& set,
+                    Experiment::Parts const& parts) {
+  if (parts.output.samples)
+    write_samples(writer, group, set.regression, parts.regressor->joint());
+  else
+    writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
   std::vector<std::string> warnings;
   for (auto const& recording : set.recordings)
     for (auto const& warning : recording.warnings)
       warnings.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));
   if (!warnings.empty()) writer.texts(group + "/warnings", warnings, {"1", "what `check` would say"});
-  write_data_attributes(writer, group, set, filter);
-  writer.plottable(group, "torque", {"time"});
+  write_data_attributes(writer, group, set, parts.filter);
 }
 
 void write_health(ResultWriter& writer, RegressorHealth const& health) {
@@ -101,8 +119,8 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   write_job(writer, parts);
   writer.attribute("/job", "inputs_sha256", experiment.inputs_sha256());
   write_model(writer, parts);
-  write_data_set(writer, "/data/train", parts.train, parts.filter, parts.regressor->joint());
-  if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts.filter, parts.regressor->joint());
+  write_data_set(writer, "/data/train", parts.train, parts);
+  if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts);
   write_health(writer, parts.health);
 }
 

@@ -51,6 +51,8 @@ class Experiment {
 
   struct Parts;
   Parts const& parts() const { return *parts_; }
+  // what only people look at: once written, a fit does without
+  void forget_motion();
 
  private:
   explicit Experiment(std::unique_ptr<Parts> parts);
@@ -81,8 +83,8 @@ struct IdentifyReport {
   std::string content_sha256;
 };
 
-// runs every estimator of the job and writes the result file
-IdentifyReport identify(Experiment const& experiment, IdentifyOptions const& options, ProgressSink const& progress);
+// runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed
+IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
 
 struct DiagnoseRequest {
   ThreadChoice threads{};

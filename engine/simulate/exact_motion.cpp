@@ -1,6 +1,9 @@
 #include "engine/simulate/exact_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/simulate/orthogonal_noise.hpp"
 
@@ -8,32 +11,62 @@ namespace torquescope {
 
 namespace {
 
-struct LinearModel {
-  Eigen::MatrixXd phi;
-  Eigen::VectorXd parameters;
-};
+// samples whose columns are held at one time
+constexpr Eigen::Index block_samples = 4096;
 
-LinearModel linear_model(std::vector<PlantTerm> const& terms, Motion const& motion) {
+// columns of every linear parameter
+Eigen::MatrixXd columns_of(std::vector<PlantTerm> const& terms, Motion const& motion) {
   Eigen::Index size = 0;
   for (auto const& term : terms) size += static_cast<Eigen::Index>(term.effect->n_linear());
-
-  LinearModel model{Eigen::MatrixXd(motion.q.size(), size), Eigen::VectorXd(size)};
+  Eigen::MatrixXd phi(motion.q.size(), size);
   Eigen::Index first = 0;
   for (auto const& term : terms) {
     auto const linear = static_cast<Eigen::Index>(term.effect->n_linear());
     std::span<double const> const values(term.parameters);
-    auto const shape = values.subspan(term.effect->n_linear());
-    term.effect->columns({motion}, shape, model.phi.middleCols(first, linear));
-    for (Eigen::Index i = 0; i < linear; ++i) model.parameters[first + i] = values[static_cast<std::size_t>(i)];
+    term.effect->columns({motion}, values.subspan(term.effect->n_linear()), phi.middleCols(first, linear));
     first += linear;
   }
-  return model;
+  return phi;
+}
+
+Eigen::VectorXd linear_parameters(std::vector<PlantTerm> const& terms) {
+  std::vector<double> parameters;
+  for (auto const& term : terms)
+    parameters.insert(parameters.end(), term.parameters.begin(),
+                      term.parameters.begin() + static_cast<std::ptrdiff_t>(term.effect->n_linear()));
+  return Eigen::Map<Eigen::VectorXd const>(parameters.data(), static_cast<Eigen::Index>(parameters.size()));
+}
+
+Motion block_of(Motion const& motion, Eigen::Index first, Eigen::Index count) {
+  return {motion.rate_hz,
+          motion.time_s.segment(first, count),
+          motion.q.segment(first, count),
+          motion.dq.segment(first, count),
+          motion.ddq.segment(first, count),
+          {}};
+}
+
+bool has_memory(std::vector<PlantTerm> const& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](PlantTerm const& term) { return term.effect->has_memory(); });
+}
+
+// block by block, unless an effect remembers what was before
+Eigen::VectorXd torque_of(std::vector<PlantTerm> const& terms, Motion const& motion) {
+  Eigen::VectorXd const parameters = linear_parameters(terms);
+  if (has_memory(terms)) return columns_of(terms, motion) * parameters;
+  Eigen::Index const n = motion.q.size();
+  Eigen::VectorXd torque(n);
+  for (Eigen::Index first = 0; first < n; first += block_samples) {
+    Eigen::Index const count = std::min(block_samples, n - first);
+    torque.segment(first, count) = columns_of(terms, block_of(motion, first, count)) * parameters;
+  }
+  return torque;
 }
 
 Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index samples) {
   Motion motion;
   motion.rate_hz = rate_hz;
-  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq, &motion.torque}) channel->setZero(samples);
+  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) channel->resize(samples);
   for (Eigen::Index i = 0; i < samples; ++i) {
     motion.time_s[i] = static_cast<double>(i) / rate_hz;
     ReferencePoint const point = reference.at(motion.time_s[i]);
@@ -50,19 +83,17 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
                          SimulatedRecording& recording) {
   NoiseOptions const& noise = plan.noise;
   double const rate_hz = plan.simulation.rate_hz;
-  Motion const motion = exact_motion(reference, rate_hz, plan.simulation.samples());
-  LinearModel const model = linear_model(plan.plant, motion);
-
+  Motion motion = exact_motion(reference, rate_hz, plan.simulation.samples());
   recording.has_exact_motion = true;
-  recording.time_s = motion.time_s;
-  recording.reference = recording.position = recording.true_position = motion.q;
-  recording.true_velocity = motion.dq;
-  recording.true_acceleration = motion.ddq;
-  recording.true_torque = model.phi * model.parameters;
-
-  bool const unseen = key.run > 0;
-  if (noise.orthogonal_mse > 0.0 && !unseen) {
-    recording.torque = recording.true_torque + orthogonal_noise(model.phi, noise.orthogonal_mse, key);
+  recording.true_torque = torque_of(plan.plant, motion);
+  bool const unseen = key.run > 0, orthogonal = noise.orthogonal_mse > 0.0 && !unseen;
+  if (orthogonal) recording.torque = orthogonal_noise(columns_of(plan.plant, motion), noise.orthogonal_mse, key);
+  recording.time_s = std::move(motion.time_s);
+  recording.position = std::move(motion.q);  // reference and true position too (joint_simulation.hpp)
+  recording.true_velocity = std::move(motion.dq);
+  recording.true_acceleration = std::move(motion.ddq);
+  if (orthogonal) {
+    recording.torque += recording.true_torque;
     return;
   }
   double const white_std = noise.orthogonal_mse > 0.0 ? std::sqrt(noise.orthogonal_mse) : noise.torque_std;

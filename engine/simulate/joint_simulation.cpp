@@ -37,12 +37,14 @@ std::vector<SimulatedColumn> columns(SimulatedRecording const& recording) {
   std::string const torque_true = revolute ? "tau_true_Nm" : "F_true_N";
   std::string const torque_unit = revolute ? "N m" : "N";
   bool const exact = recording.has_exact_motion;
+  auto const* const reference = exact ? &recording.position : &recording.reference;
+  auto const* const true_position = exact ? &recording.position : &recording.true_position;
   return {
       {"t_s", "s", "time", &recording.time_s},
-      {"q_ref_" + length, length, "reference", &recording.reference},
+      {"q_ref_" + length, length, "reference", reference},
       {"q_" + length, length, "position", &recording.position},
       {torque, torque_unit, "torque", &recording.torque},
-      {"q_true_" + length, length, "", &recording.true_position},
+      {"q_true_" + length, length, "", true_position},
       {(exact ? "dq_" : "dq_true_") + length + "_s", length + "/s", exact ? "velocity" : "", &recording.true_velocity},
       {(exact ? "ddq_" : "ddq_true_") + length + "_s2", length + "/s^2", exact ? "acceleration" : "",
        &recording.true_acceleration},

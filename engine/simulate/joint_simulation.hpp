@@ -25,7 +25,9 @@ struct SimulatedRecording {
   std::string sha256;  // of rate and channels
   JointKind joint = JointKind::revolute;
   double rate_hz = 0.0;
-  bool has_exact_motion = false;  // inverse_dynamics: velocity and acceleration are channels of the recording
+  // inverse_dynamics: velocity and acceleration are channels of the recording; reference and true_position are the
+  // position and stay empty
+  bool has_exact_motion = false;
   Eigen::VectorXd time_s, reference;
   Eigen::VectorXd position;  // as measured
   Eigen::VectorXd torque;    // as measured

@@ -8,7 +8,7 @@
 
 namespace torquescope {
 
-Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd const& phi, double mse, RandomKey const& key) {
+Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd phi, double mse, RandomKey const& key) {
   TORQUESCOPE_EXPECT(phi.rows() > phi.cols() && mse >= 0.0);
   Eigen::Index const n = phi.rows();
   Eigen::VectorXd noise(n);
@@ -16,11 +16,11 @@ Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd const& phi, double mse, RandomK
     noise[i] = addressed_normal(key, NoiseStream::orthogonal, static_cast<std::size_t>(i));
 
   // columns of a common size, so that the rank does not depend on units
-  Eigen::MatrixXd scaled = phi;
-  for (auto column : scaled.colwise())
+  for (auto column : phi.colwise())
     if (column.norm() > 0.0) column.normalize();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> const qr(scaled);
-  Eigen::MatrixXd const basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
+  Eigen::ColPivHouseholderQR<Eigen::Ref<Eigen::MatrixXd>> const qr(phi);  // in place
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, qr.rank());
+  basis.applyOnTheLeft(qr.householderQ());
 
   // twice: the second pass removes what the rounding of the first left
   for (int pass = 0; pass < 2; ++pass) noise -= basis * (basis.transpose() * noise).eval();

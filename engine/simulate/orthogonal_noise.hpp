@@ -12,6 +12,6 @@
 
 namespace torquescope {
 
-Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd const& phi, double mse, RandomKey const& key);
+Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd phi, double mse, RandomKey const& key);
 
 }  // namespace torquescope

@@ -158,6 +158,29 @@ std::string ContentDigest::hex() const {
   return digest.hex();
 }
 
+ArrayDigest::ArrayDigest(ContentDigest& digest, std::string path, h5::Element element, h5::Shape const& shape)
+    : digest_(digest), path_(std::move(path)), block_bytes_(rows_of_block(element, shape) * bytes_of_row(shape)) {}
+
+void ArrayDigest::add(std::span<std::byte const> values) {
+  while (!values.empty()) {
+    bool const is_whole = begun_.empty() && values.size() >= block_bytes_;
+    auto const part = values.first(std::min(block_bytes_ - begun_.size(), values.size()));
+    values = values.subspan(part.size());
+    if (is_whole) {
+      digest_.block(path_, index_++, part.data(), part.size());
+      continue;
+    }
+    begun_.insert(begun_.end(), part.begin(), part.end());
+    if (begun_.size() == block_bytes_) end();
+  }
+}
+
+void ArrayDigest::end() {
+  if (begun_.empty()) return;
+  digest_.block(path_, index_++, begun_.data(), begun_.size());
+  begun_.clear();
+}
+
 std::string content_digest(h5::Handle const& file) {
   ContentDigest digest;
   add_object(digest, file, "/");

@@ -55,6 +55,20 @@ class ContentDigest {
   std::map<std::string, Object> objects_;
 };
 
+// Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.
+class ArrayDigest {
+ public:
+  ArrayDigest(ContentDigest& digest, std::string path, h5::Element element, h5::Shape const& shape);
+  void add(std::span<std::byte const> values);
+  void end();  // the last block may be short
+
+ private:
+  ContentDigest& digest_;
+  std::string path_;
+  std::size_t block_bytes_, index_ = 0;
+  std::vector<std::byte> begun_{};  // of a block that is not whole yet
+};
+
 // of a file, all of which is read
 std::string content_digest(h5::Handle const& file);
 

@@ -113,10 +113,9 @@ void ResultWriter::write_dataset(std::string const& path, h5::DatasetPlan const&
 void ResultWriter::digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
                                 std::span<std::byte const> values) {
   if (values.empty()) return;
-  std::size_t const rows = shape.empty() ? 1 : shape[0];
-  std::size_t const block_bytes = rows_of_block(element, shape) * (values.size() / rows);
-  for (std::size_t begin = 0; begin < values.size(); begin += block_bytes)
-    digest_.block(path, begin / block_bytes, values.data() + begin, std::min(block_bytes, values.size() - begin));
+  ArrayDigest digest(digest_, path, element, shape);
+  digest.add(values);
+  digest.end();
 }
 
 void ResultWriter::numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values,
@@ -131,6 +130,39 @@ void ResultWriter::whole_numbers(std::string const& path, h5::Shape const& shape
   TORQUESCOPE_EXPECT(values.size() == count_of(shape));
   write_dataset(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, values.data(), note);
   digest_array(path, h5::Element::whole_number, shape, std::as_bytes(values));
+}
+
+template <class Value>
+void ResultWriter::write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows,
+                                Note const& note) {
+  plan.gzip = options_.gzip;
+  if (has_values(plan.shape)) plan.chunk = chunk_of_array(plan.shape, sizeof(Value));
+  guarded(path, [&] {
+    h5::Handle const dataset = create(path, plan, note);
+    if (!has_values(plan.shape)) return;
+    h5::DatasetInfo const info{plan.element, plan.shape, plan.chunk, plan.text_size};
+    // whole chunks, each touched once
+    std::size_t const most_rows = plan.chunk.front(), width = info.values_per_row();
+    std::vector<Value> block(most_rows * width);
+    ArrayDigest digest(digest_, path, plan.element, plan.shape);
+    for (std::size_t first = 0; first < info.rows(); first += most_rows) {
+      std::size_t const count = std::min(most_rows, info.rows() - first);
+      rows(first, std::span(block).first(count * width));
+      digest.add(std::as_bytes(std::span(block).first(count * width)));
+      chunks_.write(dataset, info, first, count, block.data());
+    }
+    digest.end();
+  });
+}
+
+void ResultWriter::numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<double> const& rows,
+                                     Note const& note) {
+  write_blocks<double>(path, {.element = h5::Element::number, .shape = shape, .chunk = {}}, rows, note);
+}
+
+void ResultWriter::whole_numbers_in_blocks(std::string const& path, h5::Shape const& shape,
+                                           MakeRows<std::int64_t> const& rows, Note const& note) {
+  write_blocks<std::int64_t>(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, rows, note);
 }
 
 void ResultWriter::texts(std::string const& path, std::span<std::string const> values, Note const& note) {

@@ -7,8 +7,8 @@
 //            for each run, in any order: writer.write_run("/runs/fade/population", run, values);
 //            std::string sha256 = writer.finish();
 // Shapes     row-major; {} is one number alone
-// Memory     the values of one call, a chunk, and 64 KiB per dataset of small runs (for each block of runs that is begun
-//            and not whole: one, when runs come in order)
+// Memory     the values of one call (in blocks: 1 MiB of them), a chunk, and 64 KiB per dataset of small runs (for each
+//            block of runs that is begun and not whole: one, when runs come in order)
 // Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
 // Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
 //            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -54,6 +55,13 @@ class ResultWriter {
   void numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values, Note const& note);
   void whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
                      Note const& note);
+  // the same of arrays that nobody holds whole: rows(first, values) fills values with the rows from `first` on
+  template <class Value>
+  using MakeRows = std::function<void(std::size_t first, std::span<Value> values)>;
+  void numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<double> const& rows,
+                         Note const& note);
+  void whole_numbers_in_blocks(std::string const& path, h5::Shape const& shape, MakeRows<std::int64_t> const& rows,
+                               Note const& note);
   void texts(std::string const& path, std::span<std::string const> values, Note const& note);
   // on a dataset or a group; the group is created when there is nothing of that name. A second value replaces the first
   void attribute(std::string const& object_path, std::string const& name, OptionValue const& value);
@@ -82,6 +90,8 @@ class ResultWriter {
   void add_attribute(h5::Handle const& object, std::string const& path, std::string const& name,
                      OptionValue const& value);
   void write_dataset(std::string const& path, h5::DatasetPlan const& plan, void const* values, Note const& note);
+  template <class Value>
+  void write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows, Note const& note);
   void digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
                     std::span<std::byte const> values);
   void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values);

@@ -224,7 +224,8 @@ def summary(result):
     yield f"{job.get('name', '?')}: {result.creator}, format {result.format}, sha256 {result.content_sha256[:16]}"
     for name, data in (("train", result.train), ("validate", result.validate)):
         if data is not None:
-            yield f"{name:9} {len(data.torque)} samples of {', '.join(data.get('recordings', []))}"
+            samples = len(data.torque) if "torque" in data else data.samples
+            yield f"{name:9} {samples} samples of {', '.join(data.get('recordings', []))}"
     yield ""
     if result.diagnosis is not None:
         yield from _diagnosis_summary(result.diagnosis)

@@ -7,7 +7,7 @@ import numpy as np
 
 import seed
 import style
-from read_result import Result
+from read_result import Result, ResultError
 
 LEAST_SQUARES = ("ols", "wls", "irls")
 
@@ -109,6 +109,8 @@ class Study:
         self.provenance = View(self._result.provenance)
         self.diagnosis = self._result.diagnosis  # diagnosis_records.py; None for an identification
         self.train = Recording(self._result.train)
+        if not self.train.has("torque"):
+            raise ResultError(f"{path} keeps no samples to draw: its job says [output] samples = false")
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
         self.health = View(self._result.data.regressor_health)
         self.estimators = [Estimator(name, group) for name, group in self._result.estimators.items()]

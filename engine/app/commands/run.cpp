@@ -2,6 +2,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <utility>
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
@@ -31,7 +32,7 @@ void print_results(Session const& session, ResultSummary const& summary) {
 }
 
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
-  Experiment const experiment = Experiment::load(arguments.job);
+  Experiment experiment = Experiment::load(arguments.job);
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 
@@ -53,7 +54,8 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   {
     ProgressPrinter print_progress(progress_settings(session));
-    identify(experiment, options, [&print_progress](ProgressUpdate const& update) { print_progress(update); });
+    identify(std::move(experiment), options,
+             [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
   ResultSummary const summary = read_summary(output);
   print_results(session, summary);

@@ -72,7 +72,10 @@ DataSummary read_data(ResultReader const& reader, std::string const& group) {
   DataSummary summary;
   summary.recordings =
       reader.find_attribute<std::vector<std::string>>(group, "recordings").value_or(std::vector<std::string>{});
-  summary.samples = static_cast<std::int64_t>(reader.numbers(group + "/time").values.size());
+  // without its samples a result says how many there were
+  summary.samples = reader.exists(group + "/time")
+                        ? static_cast<std::int64_t>(reader.numbers(group + "/time").values.size())
+                        : reader.attribute<std::int64_t>(group, "samples");
   summary.rate_hz = number_or_nan(reader, group, "rate_hz");
   summary.kept_rate_hz = number_or_nan(reader, group, "kept_rate_hz");
   summary.duration_s = number_or_nan(reader, group, "duration_s");

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
+#include "engine/base/order_statistic.hpp"
 #include "engine/problem/estimator.hpp"
 
 namespace torquescope::estimators {
@@ -35,12 +35,12 @@ struct IrlsOptions {
 };
 
 double median_absolute(Eigen::VectorXd const& residual) {
-  std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
-  for (Eigen::Index i = 0; i < residual.size(); ++i) sizes[static_cast<std::size_t>(i)] = std::abs(residual[i]);
-  auto const middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  if (sizes.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(sizes.begin(), middle));
+  auto const for_each_size = [&](auto const& visit) {
+    for (double const e : residual) visit(std::abs(e));
+  };
+  auto const n = static_cast<std::size_t>(residual.size());
+  double const middle = kth_smallest(for_each_size, n / 2);
+  return n % 2 == 1 ? middle : 0.5 * (middle + kth_smallest(for_each_size, n / 2 - 1));
 }
 
 Eigen::VectorXd huber_weights(Eigen::VectorXd const& residual, double limit) {
@@ -57,7 +57,7 @@ void add_errors(LeastSquaresFit& fit, RegressionData const& data, double limit, 
   double const freedom = std::max(1.0, n - static_cast<double>(data.parameters()));
   Eigen::MatrixXd const bread = inverse_information(data, {}) / mean_slope;
   fit.covariance_naive = psi.squaredNorm() / freedom / mean_slope * bread;
-  finish_fit(fit, data, psi.asDiagonal() * data.phi, bread, hac_lags);
+  finish_fit(fit, data, psi, bread, hac_lags);
 }
 
 LeastSquaresFit fit_irls(RegressionData const& data, IrlsOptions const& options) {

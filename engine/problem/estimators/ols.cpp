@@ -28,7 +28,7 @@ LeastSquaresFit fit_ols(RegressionData const& data, OlsOptions const& options) {
   auto const bread = inverse_information(data, {});
   fit.covariance_naive = variance * bread;
   fit.scale = std::sqrt(variance);
-  finish_fit(fit, data, residual.asDiagonal() * data.phi, bread, options.hac_lags);
+  finish_fit(fit, data, residual, bread, options.hac_lags);
   return fit;
 }
 

@@ -52,7 +52,7 @@ LeastSquaresFit fit_wls(RegressionData const& data, WlsOptions const& options) {
   auto const bread = inverse_information(data, fit.weights);
   fit.covariance_naive = variance * bread;
   fit.scale = std::sqrt(variance);
-  finish_fit(fit, data, fit.weights.cwiseProduct(residual).asDiagonal() * data.phi, bread, options.hac_lags);
+  finish_fit(fit, data, fit.weights.cwiseProduct(residual), bread, options.hac_lags);
   return fit;
 }
 

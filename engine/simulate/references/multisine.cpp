@@ -5,7 +5,9 @@
 // Source     Schroeder 1970 for the crest factor of phases; random ones, because recordings must differ by seed
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "engine/simulate/noise.hpp"
@@ -27,18 +29,32 @@ class Multisine : public Reference {
 
   ReferencePoint at(double time_s) const override {
     ReferencePoint sum;
-    for (Line const& line : lines_) {
-      double const turns = line.frequency_hz * time_s + line.phase_turns;
-      double const omega = 2.0 * std::numbers::pi * line.frequency_hz;
-      double const sine = sine_of_turns(turns);
-      sum.q += sine / omega;
-      sum.dq += cosine_of_turns(turns);
-      sum.ddq -= omega * sine;
-    }
+    for (std::size_t first = 0; first < lines_.size(); first += side_by_side)
+      add(std::span(lines_).subspan(first, std::min(side_by_side, lines_.size() - first)), time_s, sum);
     return sum;
   }
 
  private:
+  static constexpr std::size_t side_by_side = 32;
+
+  static void add(std::span<Line const> lines, double time_s, ReferencePoint& sum) {
+    // sines, then cosines
+    std::array<double, 2 * side_by_side> turns, values;
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      turns[k] = turns[lines.size() + k] = lines[k].frequency_hz * time_s + lines[k].phase_turns;
+    auto const angles = std::span(turns).first(2 * lines.size());
+    quarter_ahead(angles.last(lines.size()));
+    sines_of_turns(angles, std::span(values).first(angles.size()));
+
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      double const omega = 2.0 * std::numbers::pi * lines[k].frequency_hz;
+      double const sine = values[k];
+      sum.q += sine / omega;
+      sum.dq += values[lines.size() + k];
+      sum.ddq -= omega * sine;
+    }
+  }
+
   std::vector<Line> lines_;
 };
 

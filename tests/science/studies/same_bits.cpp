@@ -13,12 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string digest_of(Experiment const& experiment, int threads) {
+std::string digest_of(Experiment experiment, int threads) {
   test::TemporaryFolder const folder;
   IdentifyOptions options;
   options.threads = {threads, "test"};
   options.output = folder / "R.h5";
-  return identify(experiment, options, ProgressSink{}).content_sha256;
+  return identify(std::move(experiment), options, ProgressSink{}).content_sha256;
 }
 
 std::string digest_of(std::string const& job, int threads) {

@@ -44,5 +44,13 @@ TEST(OutputOptions, KnowTwoCompressions) {
   EXPECT_EQ(options.file, "r.h5");
 }
 
+TEST(OutputOptions, StoreSamplesUnlessTold) {
+  EXPECT_TRUE(OutputOptions{}.samples);
+  Job const job = parse_job("[output]\nsamples = false\n", "lab.toml");
+  OutputOptions options;
+  EXPECT_TRUE(applied(job, "output", options).empty());
+  EXPECT_FALSE(options.samples);
+}
+
 }  // namespace
 }  // namespace torquescope

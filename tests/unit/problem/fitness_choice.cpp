@@ -13,7 +13,7 @@ FitnessChoice choose(std::string const& fitness, double noise, std::int64_t eval
                      std::string const& loss = "squares") {
   auto const data = test::seed_data(10.0, noise);
   SufficientStatistics const statistics(data.phi, data.tau);
-  return choose_fitness({loss, 0.0, "mse", fitness}, &statistics, evaluations);
+  return choose_fitness({loss, 0.0, "mse", fitness}, 4, evaluations, &statistics);
 }
 
 TEST(FitnessChoice, TakesStatisticsWhereTheyAreExactAndRepaid) {
@@ -37,11 +37,20 @@ TEST(FitnessChoice, FallsBackToEverySampleAndSaysWhy) {
 
 TEST(FitnessChoice, DoesWhatTheJobSays) {
   EXPECT_FALSE(choose("direct", 0.3, 90'900).from_statistics);
-  EXPECT_FALSE(may_use_statistics({"squares", 0.0, "mse", "direct"}));
-  EXPECT_FALSE(may_use_statistics({"huber", 0.0, "mse", "gram"}));
-  EXPECT_TRUE(may_use_statistics({}));
+  EXPECT_FALSE(wants_statistics({"squares", 0.0, "mse", "direct"}, 4, 90'900));
+  EXPECT_FALSE(wants_statistics({"huber", 0.0, "mse", "gram"}, 4, 90'900));
+  EXPECT_TRUE(wants_statistics({}, 4, 90'900));
   // no statistics are needed to decide that
-  EXPECT_FALSE(choose_fitness({"squares", 0.0, "mse", "direct"}, nullptr, 90'900).from_statistics);
+  EXPECT_FALSE(choose_fitness({"squares", 0.0, "mse", "direct"}, 4, 90'900, nullptr).from_statistics);
+}
+
+TEST(FitnessChoice, CountsEvaluationsBeforeStatisticsAreMade) {
+  // two sweeps cost some 50 evaluations of four parameters: a search of ten is told so without them
+  EXPECT_FALSE(wants_statistics({}, 4, 10));
+  EXPECT_TRUE(wants_statistics({"squares", 0.0, "mse", "gram"}, 4, 10));
+  auto const choice = choose_fitness({}, 4, 10, nullptr);
+  EXPECT_FALSE(choice.from_statistics);
+  EXPECT_THAT(choice.words, HasSubstr("10 evaluations do not repay statistics"));
 }
 
 }  // namespace

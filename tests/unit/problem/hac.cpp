@@ -69,7 +69,8 @@ TEST(NeweyWest, OfNoLagsIsWhite) {
   Eigen::Matrix4d meat = Eigen::Matrix4d::Zero();
   for (Eigen::Index t = 0; t < 500; ++t) meat += scores.row(t).transpose() * scores.row(t);
   Eigen::MatrixXd const white = 500.0 / 496.0 * bread * meat * bread;
-  EXPECT_LT((newey_west_covariance(scores, bread, {0, 500}, 0) - white).norm(), 1e-12 * white.norm());
+  EXPECT_LT((newey_west_covariance({data.phi, residual, data.first_row}, bread, 0) - white).norm(),
+            1e-12 * white.norm());
 }
 
 TEST(NeweyWest, EqualsTheDoubleSumOverAllPairs) {
@@ -80,8 +81,28 @@ TEST(NeweyWest, EqualsTheDoubleSumOverAllPairs) {
     for (Eigen::Index t = 0; t < 100; ++t)
       meat +=
           std::max(0.0, 1.0 - std::abs(static_cast<double>(s - t)) / 8.0) * scores.row(s).transpose() * scores.row(t);
-  Eigen::MatrixXd const covariance = newey_west_covariance(scores, Eigen::MatrixXd::Identity(4, 4), {0, 100}, 7);
+  Eigen::MatrixXd const covariance =
+      newey_west_covariance({data.phi, data.tau, data.first_row}, Eigen::MatrixXd::Identity(4, 4), 7);
   EXPECT_LT((covariance - 100.0 / 96.0 * meat).norm(), 1e-12 * meat.norm());
+}
+
+TEST(NeweyWest, OfManyBlocksIsThatOfAllRowsAtOnce) {
+  // 20000 rows are three blocks; two recordings, so that blocks end at a border and inside
+  auto const data = test::seed_data(200.0, 0.3);
+  std::vector<Eigen::Index> const first_row{0, 9000, 20000};
+  Eigen::MatrixXd const scores = data.tau.asDiagonal() * data.phi;
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(4, 4);
+  for (Eigen::Index lag = 0; lag <= 30; ++lag) {
+    double const weight = 1.0 - static_cast<double>(lag) / 31.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto const rows = first_row[k + 1] - first_row[k] - lag;
+      Eigen::MatrixXd const product =
+          scores.middleRows(first_row[k] + lag, rows).transpose() * scores.middleRows(first_row[k], rows);
+      meat += lag == 0 ? product : weight * (product + product.transpose());
+    }
+  }
+  auto const covariance = newey_west_covariance({data.phi, data.tau, first_row}, Eigen::MatrixXd::Identity(4, 4), 30);
+  EXPECT_LT((covariance - 20000.0 / 19996.0 * meat).norm(), 1e-12 * meat.norm());
 }
 
 TEST(NeweyWest, IsPositiveSemidefinite) {
@@ -94,13 +115,17 @@ TEST(NeweyWest, IsPositiveSemidefinite) {
 TEST(NeweyWest, NeverPairsRowsOfTwoRecordings) {
   // one recording cut in two: the pairs across the cut go, so exchanging the recordings changes nothing
   auto const data = test::seed_data(2.0, 0.3);
-  Eigen::MatrixXd const scores = data.tau.asDiagonal() * data.phi;
   Eigen::MatrixXd exchanged(200, 4);
-  exchanged << scores.bottomRows(80), scores.topRows(120);
-  auto const unit = Eigen::MatrixXd::Identity(4, 4);
-  auto const before = newey_west_covariance(scores, unit, {0, 120, 200}, 9);
-  EXPECT_LT((newey_west_covariance(exchanged, unit, {0, 80, 200}, 9) - before).norm(), 1e-13 * before.norm());
-  EXPECT_GT((newey_west_covariance(scores, unit, {0, 200}, 9) - before).norm(), 1e-6 * before.norm());
+  exchanged << data.phi.bottomRows(80), data.phi.topRows(120);
+  Eigen::VectorXd psi(200);
+  psi << data.tau.tail(80), data.tau.head(120);
+  auto const covariance = [](Eigen::MatrixXd const& phi, Eigen::VectorXd const& tau,
+                             std::vector<Eigen::Index> const& first_row) {
+    return newey_west_covariance({phi, tau, first_row}, Eigen::MatrixXd::Identity(4, 4), 9);
+  };
+  auto const before = covariance(data.phi, data.tau, {0, 120, 200});
+  EXPECT_LT((covariance(exchanged, psi, {0, 80, 200}) - before).norm(), 1e-13 * before.norm());
+  EXPECT_GT((covariance(data.phi, data.tau, {0, 200}) - before).norm(), 1e-6 * before.norm());
 }
 
 TEST(AndrewsLags, GrowWithTheMemoryOfTheNoise) {
@@ -115,7 +140,7 @@ TEST(AndrewsLags, GrowWithTheMemoryOfTheNoise) {
 TEST(AndrewsLags, AgreeWithTheFormulaForAnAutoregression) {
   // rho = 0.9, n = 20000: 1.1447 (4 rho^2 / (1 - rho^2)^2 n)^(1/3) = 139.6
   auto const noise = test::autoregressive_noise(20000, 5, 1.0, 0.9);
-  EXPECT_NEAR(static_cast<double>(andrews_lags(noise, {0, 20000})), 138.6, 6.0);
+  EXPECT_NEAR(static_cast<double>(andrews_lags({noise, Eigen::VectorXd::Ones(20000), {0, 20000}})), 138.6, 6.0);
 }
 
 TEST(CriticalValue, IsNormalForShortMemoryAndWiderForLong) {

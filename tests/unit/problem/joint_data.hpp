@@ -48,7 +48,6 @@ inline RegressionData regression_data(Motion const& motion, Regressor const& reg
   data.q = motion.q;
   data.dq = motion.dq;
   data.ddq = motion.ddq;
-  data.recording.assign(static_cast<std::size_t>(motion.q.size()), 0);
   data.first_row = {0, motion.q.size()};
   data.recording_names = {"multisine"};
   data.rate_hz = {motion.rate_hz};

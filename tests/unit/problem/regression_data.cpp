@@ -62,14 +62,55 @@ TEST(RegressionData, StacksRecordingsAndKnowsWhoseRowsAreWhose) {
   EXPECT_EQ(both.rows() - both.first_row[1], alone.rows());
   EXPECT_EQ(both.phi.bottomRows(alone.rows()), alone.phi);  // no filter runs across the border
   EXPECT_EQ(both.tau.tail(alone.rows()), alone.tau);
-  EXPECT_EQ(both.recording.front(), 0);
-  EXPECT_EQ(both.recording[static_cast<std::size_t>(both.first_row[1])], 1);
+  EXPECT_EQ(both.recording_of(0), 0u);
+  EXPECT_EQ(both.recording_of(both.first_row[1]), 1u);
   EXPECT_THAT(both.recording_names, testing::ElementsAre("first", "second"));
   EXPECT_THAT(both.rate_hz, testing::ElementsAre(1000.0, 500.0));
   EXPECT_EQ(both.kept_rate_hz, 100.0);
   EXPECT_EQ(both.phi.rows(), both.rows());
   EXPECT_EQ(both.q.size(), both.rows());
-  EXPECT_EQ(both.recording.size(), static_cast<std::size_t>(both.rows()));
+  EXPECT_EQ(both.recording_of(both.rows() - 1), 1u);
+}
+
+// without a filter: every sample is a row
+FilterOptions no_filter() {
+  FilterOptions options;
+  options.edge_s = 0.0;
+  return options;
+}
+
+TEST(RegressionData, OfAMotionThatIsUsedUpHasTheSameRows) {
+  auto const recording = logged("a", 20.0, 1000.0, test::seed_ols);
+  for (auto const& options : {no_filter(), filter()}) {
+    auto const kept = make_regression_data({recording}, options, seed_regressor(), {});
+    RegressionData lean;
+    append_rows(lean, "a", differentiate(recording, options, {}), options, seed_regressor(), {}, RowMotion::used_up);
+    EXPECT_EQ(lean.phi, kept.phi);
+    EXPECT_EQ(lean.tau, kept.tau);
+    EXPECT_EQ(lean.rows(), kept.rows());
+    EXPECT_EQ(lean.dq.size(), 0);
+    EXPECT_TRUE(lean.moves_both_ways());
+  }
+}
+
+TEST(RegressionData, UsesUpNothingThatALaterTermNeeds) {
+  // a deadband, gravity last (it needs the position) and terms that need nothing
+  Regressor const regressor({"offset", "inertia", "coulomb", "gravity"}, JointKind::revolute, 0.2);
+  auto const recording = logged("a", 20.0, 1000.0, test::seed_ols);
+  auto const motion = differentiate(recording, no_filter(), {});
+  RegressionData lean;
+  append_rows(lean, "a", Motion(motion), no_filter(), regressor, {}, RowMotion::used_up);
+  EXPECT_EQ(lean.phi, regressor.columns(motion));
+}
+
+TEST(RegressionData, KnowsDirectionsOfAMotionItHasForgotten) {
+  auto both = test::seed_data(5.0);
+  auto forwards = both;
+  forwards.dq = forwards.dq.cwiseAbs();
+  for (auto* data : {&both, &forwards}) data->forget_motion();
+  EXPECT_TRUE(both.moves_both_ways());
+  EXPECT_FALSE(forwards.moves_both_ways());
+  EXPECT_EQ(both.q.size() + both.dq.size() + both.ddq.size() + both.time_s.size(), 0);
 }
 
 TEST(RegressionData, FiltersTorqueAndColumnsAlike) {

@@ -59,7 +59,7 @@ TEST(SinglePrecision, IsRefusedWhereColumnsAreDependent) {
 TEST(SinglePrecision, SaysItsErrorInTheLog) {
   ObjectiveOptions options;
   options.precision = "float32";
-  EXPECT_TRUE(may_use_statistics(options));
+  EXPECT_TRUE(wants_statistics(options, 4, 1));
   auto const choice = single_precision_choice(options, {0.02, 3e-8});
   EXPECT_TRUE(choice.in_float32);
   EXPECT_FALSE(choice.from_statistics);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace torquescope;
 
@@ -29,5 +30,20 @@ TEST(Turns, SquaresAddUpToOne) {
   for (double turns = -0.6; turns <= 0.6; turns += 0.00071) {
     double const s = sine_of_turns(turns), c = cosine_of_turns(turns);
     EXPECT_NEAR(s * s + c * c, 1.0, 8e-16);
+  }
+}
+
+TEST(Turns, OfManyAnglesHaveTheBitsOfEach) {
+  std::vector<double> turns;
+  for (int i = 0; i < 75; ++i) turns.push_back(-40.0 + 1.0937 * i);
+  for (std::size_t count : {1u, 15u, 16u, 17u, 75u}) {
+    std::vector<double> angles(turns.begin(), turns.begin() + count), sines(count), cosines(count);
+    sines_of_turns(angles, sines);
+    quarter_ahead(angles);
+    sines_of_turns(angles, cosines);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(sines[i], sine_of_turns(turns[i])) << i;
+      EXPECT_EQ(cosines[i], cosine_of_turns(turns[i])) << i;
+    }
   }
 }

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <thread>
 
 #include "engine/base/contract.hpp"
@@ -220,6 +222,40 @@ TEST(ResultWriter, NeverWritesThroughALink) {
   example::write_result(folder / "R.h5");
   EXPECT_EQ(test::bytes_of(folder / "victim"), "precious");
   EXPECT_FALSE(fs::is_symlink(folder / "R.h5"));
+}
+
+TEST(ResultWriter, WritesInBlocksWhatItWritesWhole) {
+  // 2.1 and 0.7 MiB: blocks of whole chunks, the last one shorter
+  constexpr std::size_t rows = 90'001, width = 3;
+  std::vector<double> values(rows * width);
+  std::vector<std::int64_t> places(rows);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sqrt(static_cast<double>(i));
+  for (std::size_t i = 0; i < rows; ++i) places[i] = static_cast<std::int64_t>(i * i);
+
+  test::TemporaryFolder const folder;
+  ResultWriter whole(folder / "whole.h5"), blocks(folder / "blocks.h5");
+  whole.numbers("/a/values", {rows, width}, values, {"1", "values"});
+  whole.whole_numbers("/a/places", {rows}, places, {"1", "places"});
+  std::size_t largest = 0, next = 0;
+  blocks.numbers_in_blocks("/a/values", {rows, width},
+                           [&](std::size_t first, std::span<double> block) {
+                             EXPECT_EQ(first, next);
+                             next += block.size() / width;
+                             largest = std::max(largest, block.size_bytes());
+                             std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first * width), block.size(),
+                                         block.begin());
+                           },
+                           {"1", "values"});
+  blocks.whole_numbers_in_blocks("/a/places", {rows},
+                                 [&](std::size_t first, std::span<std::int64_t> block) {
+                                   std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(first), block.size(),
+                                               block.begin());
+                                 },
+                                 {"1", "places"});
+  EXPECT_EQ(next, rows);
+  EXPECT_LE(largest, std::size_t{1} << 20);
+  EXPECT_EQ(blocks.finish(), whole.finish());
+  EXPECT_EQ(ResultReader(folder / "blocks.h5").numbers("/a/values").values, values);
 }
 
 TEST(ResultWriter, LetsTheUmaskDecideWhoMayRead) {
