@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "concealed/joint_units.hpp"
+
 namespace concealed {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-std::string torque_unit(JointDesign const& joint) { return joint.revolute ? "N m" : "N"; }
-std::string position_unit(JointDesign const& joint) { return joint.revolute ? "rad" : "m"; }
 
 }  // namespace
 

@@ -13,10 +13,12 @@
 
 namespace concealed {
 
-// one instant of the motor side; direction is the branch of dry friction the joint slides on (-1, 1), 0 while it rests
+// one instant of the motor side; direction is the branch of dry friction the joint slides on (-1, 1), 0 while it rests;
+// motor is the torque the drive believes to deliver, and records
 struct Instant {
   double t = 0.0, q = 0.0, v = 0.0, a = 0.0;
   int direction = 0;
+  double motor = 0.0;
 };
 
 class HiddenEffect {
@@ -29,7 +31,7 @@ class HiddenEffect {
   virtual double dry(Instant const&, double const* /*z*/) const { return 0.0; }
   // share of the baseline's inertia that is not the motor's but lives in z
   virtual double moved_inertia() const { return 0.0; }
-  // dry() depends on the acceleration, which then follows from an equation that has to be solved
+  // torque() or dry() depend on the acceleration, which then follows from an equation that has to be solved
   virtual bool feels_load() const { return false; }
 };
 

@@ -1,0 +1,41 @@
+// Teeth that are not where they should be: the link stands at q + h(q), rigidly.
+//
+// Equation   h = amplitude (sin x + 0.35 sin(2 x + 0.9)), x = order q + phase; with k = 1 + h' the motor delivers
+//            inertia (k^2 a + k h'' v^2) + viscous k^2 v + k gravity(q + h) for the link in place of
+//            inertia a + viscous v + gravity(q): the difference is the effect (exact kinematics, no small-error series)
+#include <cmath>
+
+#include "concealed/effects/laws.hpp"
+
+namespace concealed {
+namespace {
+
+class GearError final : public HiddenEffect {
+ public:
+  GearError(double amplitude, double order, double phase, double link_viscous, Link const& link)
+      : amplitude_(amplitude), order_(order), phase_(phase), viscous_(link_viscous), link_(link) {}
+  double torque(Instant const& now, double const*) const override {
+    double const x = order_ * now.q + phase_, y = 2.0 * x + 0.9;
+    double const h = amplitude_ * (std::sin(x) + 0.35 * std::sin(y));
+    double const slope = amplitude_ * order_ * (std::cos(x) + 0.7 * std::cos(y));
+    double const bend = -amplitude_ * order_ * order_ * (std::sin(x) + 1.4 * std::sin(y));
+    double const k = 1.0 + slope, more = slope * (1.0 + k);
+    return link_.inertia * (more * now.a + k * bend * now.v * now.v) + viscous_ * more * now.v + k * weight(now.q + h) -
+           weight(now.q);
+  }
+  bool feels_load() const override { return true; }
+
+ private:
+  double weight(double q) const { return link_.gravity_sin * std::sin(q) + link_.gravity_cos * std::cos(q); }
+
+  double amplitude_, order_, phase_, viscous_;
+  Link link_;
+};
+
+}  // namespace
+
+Effect gear_error(double amplitude, double order, double phase, double link_viscous, Link const& link) {
+  return std::make_shared<GearError>(amplitude, order, phase, link_viscous, link);
+}
+
+}  // namespace concealed

@@ -1,0 +1,30 @@
+// A load that is picked up in the middle of the record and kept.
+#include <algorithm>
+#include <cmath>
+
+#include "concealed/effects/laws.hpp"
+
+namespace concealed {
+namespace {
+
+constexpr double closing_s = 0.2;  // of the gripper
+
+class PickedUpLoad final : public HiddenEffect {
+ public:
+  PickedUpLoad(double time_s, Link const& load) : time_s_(time_s), load_(load) {}
+  double torque(Instant const& now, double const*) const override {
+    double const held = std::clamp((now.t - time_s_) / closing_s, 0.0, 1.0);
+    return held * (load_.inertia * now.a + load_.gravity_sin * std::sin(now.q) + load_.gravity_cos * std::cos(now.q));
+  }
+  bool feels_load() const override { return true; }
+
+ private:
+  double time_s_;
+  Link load_;
+};
+
+}  // namespace
+
+Effect picked_up_load(double time_s, Link const& load) { return std::make_shared<PickedUpLoad>(time_s, load); }
+
+}  // namespace concealed
