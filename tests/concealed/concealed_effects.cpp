@@ -49,7 +49,7 @@ EffectMaker presliding_of(double distance_of_range) {
   };
 }
 
-EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz) {
+EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz, double film_per_s) {
   return [=](JointDesign const& joint) -> ConcealedEffect {
     double const load = load_of_inertia * joint.baseline.inertia;
     double const motor = joint.baseline.inertia - load;
@@ -62,7 +62,7 @@ EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double
             {"reversal"},
             "two masses, gap, Hunt-Crossley flanks",
             false,
-            backlash(load, half_gap, stiffness, damping),
+            backlash(load, half_gap, stiffness, damping, film_per_s * load),
             {{"backlash_half_gap", half_gap, position_unit(joint)}}};
   };
 }

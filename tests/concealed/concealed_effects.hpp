@@ -38,7 +38,7 @@ using EffectMaker = std::function<ConcealedEffect(JointDesign const&)>;
 EffectMaker lorentzian_stribeck_of(double rise_of_coulomb, double speed_of_peak);
 EffectMaker rational_stribeck_of(double rise_of_coulomb, double speed_of_peak);
 EffectMaker presliding_of(double distance_of_range);
-EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz);
+EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz, double film_per_s = 0.0);
 EffectMaker cogging_of(double amplitude_of_coulomb, double order);
 EffectMaker warm_up_of(double share, double fast_s, double slow_s);
 EffectMaker asymmetric_viscous_of(double drag_of_viscous);

@@ -128,7 +128,8 @@ std::vector<DrawableEffect> structure() {
       {"backlash", any, 0.1, 0.6,
        [](Random& r, JointDesign const&) -> Amplifier {
          double const half_gap = log_between(r, 3e-4, 2e-3), contact_hz = r.between(50.0, 100.0);
-         return [=](double x) { return backlash_of(x, half_gap, contact_hz); };
+         double const film_per_s = r.between(25.0, 50.0);
+         return [=](double x) { return backlash_of(x, half_gap, contact_hz, film_per_s); };
        }},
       {"contact", any, 0.3, 8.0,
        [](Random& r, JointDesign const&) -> Amplifier {

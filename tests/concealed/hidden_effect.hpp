@@ -1,7 +1,7 @@
 #pragma once
 // Physics that the plant has and the job's baseline model lacks.
 //
-// Equation   inertia * a = drive - offset - viscous v - gravity(q) - sum torque() - s max(0, coulomb + sum dry())
+// Equation   (inertia + added_inertia()) a = drive - offset - viscous v - gravity(q) - sum torque() - s max(0, coulomb + sum dry())
 //            so torque() and dry() are what the motor has to deliver in addition, dry() along the motion
 // State      z, n_states() numbers integrated with the joint (bristles, temperatures, a second mass)
 // Units      SI of the joint: N m, rad or N, m
@@ -29,9 +29,11 @@ class HiddenEffect {
   virtual void rates(Instant const&, double const* /*z*/, double* /*dz*/) const {}
   virtual double torque(Instant const&, double const* /*z*/) const { return 0.0; }
   virtual double dry(Instant const&, double const* /*z*/) const { return 0.0; }
+  // what moves with the joint beyond the baseline's inertia; its torque, times the acceleration, is not in torque()
+  virtual double added_inertia(Instant const&) const { return 0.0; }
   // share of the baseline's inertia that is not the motor's but lives in z
   virtual double moved_inertia() const { return 0.0; }
-  // torque() or dry() depend on the acceleration, which then follows from an equation that has to be solved
+  // dry() depends on the acceleration, which then follows from an equation that has to be solved
   virtual bool feels_load() const { return false; }
 };
 

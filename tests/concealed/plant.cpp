@@ -63,16 +63,18 @@ int Plant::direction(State const& state, Drive const& drive) const {
 }
 
 double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive const& drive) const {
+  double const push = drive.total() - smooth_torque(now, y);
+  double inertia = motor_inertia_;
+  for (auto const& effect : effects_) inertia += effect->added_inertia(now);
   auto answer = [&](double a) {
     Instant loaded = now;
     loaded.a = a;
-    double const push = drive.total() - smooth_torque(loaded, y);
-    return (push - now.direction * dry_level(loaded, y, drive)) / motor_inertia_;
+    return (push - now.direction * dry_level(loaded, y, drive)) / inertia;
   };
   double a = answer(0.0);
   if (!feels_load_) return a;
 
-  // secant on a - answer(a): the effects take only a part of the load back, so the root is unique and near
+  // secant on a - answer(a): friction takes only a part of the load back, so the root is unique and near
   double last = a, last_error = last - answer(last);
   a = last - last_error;
   for (int i = 0; i < max_iterations; ++i) {
@@ -97,7 +99,8 @@ double Plant::added_torque(std::size_t index, State const& state, Drive const& d
   double const* z = state.y.data() + first_state_[index];
   Instant now = at(state.t, state.y, direction(state, drive), drive);
   now.a = acceleration(state, drive);
-  return effect.torque(now, z) + now.direction * effect.dry(now, z) - effect.moved_inertia() * now.a;
+  return effect.torque(now, z) + now.direction * effect.dry(now, z) +
+         (effect.added_inertia(now) - effect.moved_inertia()) * now.a;
 }
 
 void Plant::derivative(double t, Vector const& y, int direction, Drive const& drive, Vector& dy) const {

@@ -15,17 +15,25 @@ class GearError final : public HiddenEffect {
   GearError(double amplitude, double order, double phase, double link_viscous, Link const& link)
       : amplitude_(amplitude), order_(order), phase_(phase), viscous_(link_viscous), link_(link) {}
   double torque(Instant const& now, double const*) const override {
-    double const x = order_ * now.q + phase_, y = 2.0 * x + 0.9;
-    double const h = amplitude_ * (std::sin(x) + 0.35 * std::sin(y));
-    double const slope = amplitude_ * order_ * (std::cos(x) + 0.7 * std::cos(y));
-    double const bend = -amplitude_ * order_ * order_ * (std::sin(x) + 1.4 * std::sin(y));
-    double const k = 1.0 + slope, more = slope * (1.0 + k);
-    return link_.inertia * (more * now.a + k * bend * now.v * now.v) + viscous_ * more * now.v + k * weight(now.q + h) -
+    auto const [h, slope, bend] = error(now.q);
+    double const k = 1.0 + slope;
+    return link_.inertia * k * bend * now.v * now.v + viscous_ * slope * (1.0 + k) * now.v + k * weight(now.q + h) -
            weight(now.q);
   }
-  bool feels_load() const override { return true; }
+  double added_inertia(Instant const& now) const override {
+    double const slope = error(now.q).slope;
+    return link_.inertia * slope * (2.0 + slope);
+  }
 
  private:
+  struct Error {
+    double h, slope, bend;
+  };
+  Error error(double q) const {
+    double const x = order_ * q + phase_, y = 2.0 * x + 0.9;
+    return {amplitude_ * (std::sin(x) + 0.35 * std::sin(y)), amplitude_ * order_ * (std::cos(x) + 0.7 * std::cos(y)),
+            -amplitude_ * order_ * order_ * (std::sin(x) + 1.4 * std::sin(y))};
+  }
   double weight(double q) const { return link_.gravity_sin * std::sin(q) + link_.gravity_cos * std::cos(q); }
 
   double amplitude_, order_, phase_, viscous_;

@@ -42,8 +42,8 @@ struct Link {
 Effect load_friction(double share, double round, Link const& link);
 
 // backlash (*): a part of the inertia hangs on the motor through a gap of 2 * half_gap with a spring and
-// damper at each flank whose damping fades to zero where the flanks part
-Effect backlash(double load_inertia, double half_gap, double stiffness, double damping);
+// damper at each flank whose damping fades to zero where the flanks part; a film drags it along in the gap
+Effect backlash(double load_inertia, double half_gap, double stiffness, double damping, double film = 0.0);
 
 // outside the catalogue: magnetorheological drag whose chains build up at rest and break up under shear,
 // d(build)/dt = (1 - build) / build_s - break_per_unit |v| build; torque drag build^2 v / sqrt(v^2 + knee^2)

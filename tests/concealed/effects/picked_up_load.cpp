@@ -13,12 +13,13 @@ class PickedUpLoad final : public HiddenEffect {
  public:
   PickedUpLoad(double time_s, Link const& load) : time_s_(time_s), load_(load) {}
   double torque(Instant const& now, double const*) const override {
-    double const held = std::clamp((now.t - time_s_) / closing_s, 0.0, 1.0);
-    return held * (load_.inertia * now.a + load_.gravity_sin * std::sin(now.q) + load_.gravity_cos * std::cos(now.q));
+    return held(now.t) * (load_.gravity_sin * std::sin(now.q) + load_.gravity_cos * std::cos(now.q));
   }
-  bool feels_load() const override { return true; }
+  double added_inertia(Instant const& now) const override { return held(now.t) * load_.inertia; }
 
  private:
+  double held(double t) const { return std::clamp((t - time_s_) / closing_s, 0.0, 1.0); }
+
   double time_s_;
   Link load_;
 };
