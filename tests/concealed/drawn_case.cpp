@@ -39,7 +39,9 @@ struct Draw {
   double nearest = 0.0;  // smallest share of the wanted size among the effects
 };
 
-Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::string const& special, int attempt) {
+// without `to_the_end` the first effect that does not reach its size ends it
+Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::string const& special, int attempt,
+          bool to_the_end) {
   Random random(name.stream() + static_cast<std::uint64_t>(attempt), "drawn rig");
   Draw out;
   Case& made = out.drawn;
@@ -72,7 +74,8 @@ Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::s
       Amplifier const amplify = effect.draw(random, made.rig.joint);
       SizedEffect const sized = sizing.find(amplify, effect.usual, effect.largest, name.size);
       made.effects.push_back(sized.effect);
-      out.nearest = std::min(out.nearest, sized.reached ? 1.0 : sized.snr / name.size);
+      out.nearest = std::min(out.nearest, sized.reached ? 1.0 : std::min(0.99, sized.snr / name.size));
+      if (out.nearest < 1.0 && !to_the_end) return out;
     }
     if (name.tier == 5) made.train = weak_recipe(special);
   }
@@ -88,13 +91,16 @@ Case drawn_case(DrawnName const& name) {
     special = effects.front();
     effects.erase(effects.begin());
   }
-  Draw best;
+  int nearest_attempt = 0;
+  double nearest = -1.0;
   for (int attempt = 0; attempt < most_draws; ++attempt) {
-    Draw const next = draw(name, effects, special, attempt);
-    if (attempt == 0 || next.nearest > best.nearest) best = next;
-    if (best.nearest >= 1.0) break;
+    Draw const next = draw(name, effects, special, attempt, false);
+    if (next.nearest >= 1.0) return next.drawn;
+    if (next.nearest <= nearest) continue;
+    nearest = next.nearest;
+    nearest_attempt = attempt;
   }
-  return best.drawn;
+  return draw(name, effects, special, nearest_attempt, true).drawn;
 }
 
 }  // namespace concealed

@@ -17,8 +17,8 @@ class GearError final : public HiddenEffect {
   double torque(Instant const& now, double const*) const override {
     auto const [h, slope, bend] = error(now.q);
     double const k = 1.0 + slope;
-    return link_.inertia * k * bend * now.v * now.v + viscous_ * slope * (1.0 + k) * now.v + k * weight(now.q + h) -
-           weight(now.q);
+    return link_.inertia * k * bend * now.v * now.v + viscous_ * slope * (1.0 + k) * now.v +
+           k * link_.weight(now.q + h) - link_.weight(now.q);
   }
   double added_inertia(Instant const& now) const override {
     double const slope = error(now.q).slope;
@@ -34,8 +34,6 @@ class GearError final : public HiddenEffect {
     return {amplitude_ * (std::sin(x) + 0.35 * std::sin(y)), amplitude_ * order_ * (std::cos(x) + 0.7 * std::cos(y)),
             -amplitude_ * order_ * order_ * (std::sin(x) + 1.4 * std::sin(y))};
   }
-  double weight(double q) const { return link_.gravity_sin * std::sin(q) + link_.gravity_cos * std::cos(q); }
-
   double amplitude_, order_, phase_, viscous_;
   Link link_;
 };

@@ -13,10 +13,8 @@ class GearLosses final : public HiddenEffect {
   GearLosses(double driving, double driven, double round, Link const& link)
       : mean_(0.5 * (driving + driven)), half_(0.5 * (driving - driven)), round_(round), link_(link) {}
   double dry(Instant const& now, double const*) const override {
-    double const load =
-        link_.inertia * now.a + link_.gravity_sin * std::sin(now.q) + link_.gravity_cos * std::cos(now.q);
-    double const side = std::tanh(now.direction * load / round_);
-    return (mean_ + half_ * side) * load * std::tanh(load / round_);
+    double const load = link_.load(now), side = std::tanh(load / round_);
+    return (mean_ + now.direction * half_ * side) * load * side;
   }
   bool feels_load() const override { return true; }
 

@@ -3,6 +3,7 @@
 //
 // Units      SI of the joint: N m, rad or N, m; Hz where the name says so
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 
@@ -38,6 +39,12 @@ Effect hardening_spring(double stiffness, double rest, double hardening);
 // load_dependent_friction (*): share (sqrt(load^2 + round^2) - round), load = inertia a + gravity of the link
 struct Link {
   double inertia = 0.0, gravity_sin = 0.0, gravity_cos = 0.0;
+  bool has_weight() const { return gravity_sin != 0.0 || gravity_cos != 0.0; }
+  double weight(double q) const { return has_weight() ? gravity_sin * std::sin(q) + gravity_cos * std::cos(q) : 0.0; }
+  double load(Instant const& now) const {
+    double const moved = inertia * now.a;
+    return has_weight() ? moved + gravity_sin * std::sin(now.q) + gravity_cos * std::cos(now.q) : moved;
+  }
 };
 Effect load_friction(double share, double round, Link const& link);
 

@@ -1,6 +1,5 @@
 // A load that is picked up in the middle of the record and kept.
 #include <algorithm>
-#include <cmath>
 
 #include "concealed/effects/laws.hpp"
 
@@ -12,9 +11,7 @@ constexpr double closing_s = 0.2;  // of the gripper
 class PickedUpLoad final : public HiddenEffect {
  public:
   PickedUpLoad(double time_s, Link const& load) : time_s_(time_s), load_(load) {}
-  double torque(Instant const& now, double const*) const override {
-    return held(now.t) * (load_.gravity_sin * std::sin(now.q) + load_.gravity_cos * std::cos(now.q));
-  }
+  double torque(Instant const& now, double const*) const override { return held(now.t) * load_.weight(now.q); }
   double added_inertia(Instant const& now) const override { return held(now.t) * load_.inertia; }
 
  private:
