@@ -8,6 +8,9 @@
 // Shapes     samples: n_samples x cascade_signals, one sample of all signals after the other
 // Bits       the same on every instruction set and for any company: no operation is fused, each signal is its own lane
 // Speed      two sections go along the samples together: the second fills the time in which the first waits
+// Not faster 16 signals side by side, loading and filtering piece by piece in the L1 cache, and loading by squares of two
+//            signals (60 000 samples, Intel Xeon, 2 MB of L2: 5 % better to 20 % worse): the zero-phase filter waits for
+//            reading its columns and writing its block, 8 MB of each eight signals
 // Threads    free function
 // Source     Oppenheim, Schafer: Discrete-Time Signal Processing, section 6.3
 

@@ -1,10 +1,12 @@
 #include "engine/diagnose/bounded_projection.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "kernels/column_products.hpp"
 
 namespace torquescope {
 namespace {
@@ -22,16 +24,9 @@ BoundedGain solve_subset(Eigen::MatrixXd const& r, Eigen::VectorXd const& c, std
   return result;
 }
 
-}  // namespace
-
-OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
-                                   std::vector<bool> non_negative) {
-  TORQUESCOPE_EXPECT(columns.rows() == nuisance.rows());
-  TORQUESCOPE_EXPECT(non_negative.size() == static_cast<std::size_t>(columns.cols()));
-  Eigen::RowVectorXd const whole = columns.colwise().norm();
-  // twice is enough (Kahan): a column that is nearly nuisance loses its digits in the first pass
-  for (int pass = 0; pass < 2; ++pass) columns -= nuisance * (nuisance.transpose() * columns).eval();
-
+// columns that nuisance has been taken out of, and their lengths before
+OrthonormalGroup group_of(Eigen::Ref<Eigen::MatrixXd const> const& columns,
+                          Eigen::Ref<Eigen::RowVectorXd const> const& whole, std::vector<bool> non_negative) {
   OrthonormalGroup group;
   group.non_negative = std::move(non_negative);
   // modified Gram-Schmidt with pivoting by what is left of each column
@@ -56,11 +51,41 @@ OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd cons
     left -= direction * (direction.transpose() * left).eval();
     left.col(best).setZero();
   }
-  group.r = group.q.transpose() * columns;
+  group.r = inner_products(group.q, columns);
   // what is left of a dropped column is rounding: alone it must not count as a direction
   for (Eigen::Index k = 0; k < columns.cols(); ++k)
     if (columns.col(k).norm() <= negligible * whole[k]) group.r.col(k).setZero();
   return group;
+}
+
+}  // namespace
+
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b) {
+  TORQUESCOPE_EXPECT(a.rows() == b.rows() && a.outerStride() == a.rows() && b.outerStride() == b.rows());
+  Eigen::MatrixXd products(a.cols(), b.cols());
+  kernels::column_products(a.data(), static_cast<std::size_t>(a.cols()), b.data(), static_cast<std::size_t>(b.cols()),
+                           static_cast<std::size_t>(a.rows()), products.data());
+  return products;
+}
+
+std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                                 std::vector<bool> const& non_negative) {
+  auto const width = static_cast<Eigen::Index>(non_negative.size());
+  TORQUESCOPE_EXPECT(columns.rows() == nuisance.rows() && columns.cols() % std::max<Eigen::Index>(width, 1) == 0);
+  Eigen::RowVectorXd const whole = columns.colwise().norm();
+  // twice is enough (Kahan): a column that is nearly nuisance loses its digits in the first pass
+  for (int pass = 0; pass < 2; ++pass) columns.noalias() -= nuisance * inner_products(nuisance, columns);
+  std::vector<OrthonormalGroup> groups;
+  for (Eigen::Index first = 0; first < columns.cols(); first += width)
+    groups.push_back(group_of(columns.middleCols(first, width), whole.segment(first, width), non_negative));
+  return groups;
+}
+
+OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                   std::vector<bool> const& non_negative) {
+  TORQUESCOPE_EXPECT(non_negative.size() == static_cast<std::size_t>(columns.cols()));
+  if (columns.cols() == 0) return {Eigen::MatrixXd(columns.rows(), 0), Eigen::MatrixXd(0, 0)};
+  return std::move(orthonormal_groups(std::move(columns), nuisance, non_negative).front());
 }
 
 BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c) {

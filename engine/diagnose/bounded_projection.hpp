@@ -24,7 +24,13 @@ struct OrthonormalGroup {
 
 // columns: n x L; nuisance: n x k, orthonormal. Directions that keep less than a millionth of a column are dropped
 OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
-                                   std::vector<bool> non_negative);
+                                   std::vector<bool> const& non_negative);
+// several groups of L columns, side by side: the nuisance is read once for all of them
+std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
+                                                 std::vector<bool> const& non_negative);
+
+// A' B; columns without gaps
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b);
 
 struct BoundedGain {
   double gain = 0.0;           // energy

@@ -77,12 +77,7 @@ Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double
 
 std::vector<OrthonormalGroup> CandidateColumns::groups(Effect const& effect,
                                                        std::vector<std::vector<double>> const& shapes) const {
-  auto const linear = static_cast<Eigen::Index>(effect.n_linear());
-  Eigen::MatrixXd const all = columns_of(effect, shapes);
-  std::vector<OrthonormalGroup> result;
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(shapes.size()); ++i)
-    result.push_back(orthonormal_group(all.middleCols(i * linear, linear), nuisance_, signs(effect)));
-  return result;
+  return orthonormal_groups(columns_of(effect, shapes), nuisance_, signs(effect));
 }
 
 OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double const> shape) const {

@@ -47,7 +47,7 @@ class Scanner {
       q.middleCols(at, group.rank()) = group.q;
       at += group.rank();
     }
-    Eigen::MatrixXd const products = q.transpose() * deviations_;
+    Eigen::MatrixXd const products = inner_products(q, deviations_);
     std::vector<PointResult> results;
     at = 0;
     for (auto const& group : groups) {

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "engine/base/contract.hpp"
+#include "engine/diagnose/acting_region.hpp"
 #include "engine/diagnose/map_axes.hpp"
 
 namespace torquescope {
 namespace {
-
-constexpr double region_share = 0.8;
 
 Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
@@ -81,24 +78,6 @@ std::optional<AxisInterval> wave_region(ShapedEffect const& shaped, SignatureAxi
 
 }  // namespace
 
-std::pair<double, double> shortest_interval(Eigen::VectorXd const& at, Eigen::VectorXd const& weight, double share) {
-  TORQUESCOPE_EXPECT(at.size() == weight.size() && at.size() > 0);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(at.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at[a] < at[b]; });
-  double const wanted = share * weight.sum();
-  std::pair<double, double> best{at[order.front()], at[order.back()]};
-  double inside = 0.0;
-  std::size_t from = 0;
-  for (std::size_t to = 0; to < order.size(); ++to) {
-    inside += weight[order[to]];
-    while (inside - weight[order[from]] >= wanted && from < to) inside -= weight[order[from++]];
-    double const width = at[order[to]] - at[order[from]];
-    if (inside >= wanted && width < best.second - best.first) best = {at[order[from]], at[order[to]]};
-  }
-  return best;
-}
-
 EffectAccount account_of(ModelStage const& stage, std::size_t i) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
   auto const& rows = stage.comparison.rows;
@@ -110,9 +89,14 @@ EffectAccount account_of(ModelStage const& stage, std::size_t i) {
   account.peak = torque.cwiseAbs().maxCoeff();
   if (auto const wave = wave_region(shaped, axis, columns.scales())) {
     account.region = *wave;
+    account.places = {*wave};
   } else {
-    auto const [from, to] = shortest_interval(values_on(axis, rows), torque.array().square().matrix(), region_share);
-    account.region = {word(axis), from, to, axis_unit(axis, columns.joint())};
+    ActingRegion const found = acting_region(values_on(axis, rows), torque.array().square().matrix());
+    auto const on_axis = [&](std::pair<double, double> const& interval) {
+      return AxisInterval{word(axis), interval.first, interval.second, axis_unit(axis, columns.joint())};
+    };
+    account.region = on_axis(found.interval);
+    for (auto const& interval : found.intervals) account.places.push_back(on_axis(interval));
   }
   SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
   account.curve = curve_on(drawn, rows, torque, stage.mismatch(), columns.joint());

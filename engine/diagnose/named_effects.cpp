@@ -1,5 +1,7 @@
 #include "engine/diagnose/named_effects.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -41,12 +43,27 @@ NamedEffect described(Selection const& selection, std::size_t i, std::vector<Par
   named.gain.train = accepted.gain / residual;
   named.gain.cv = accepted.cv_gain / residual;
   named.region = account.region;
+  named.places = std::move(account.places);
   named.region_gain = accepted.region_gain;
   named.curve = std::move(account.curve);
   named.rms = account.rms;
   named.peak = account.peak;
   named.parameters = parameters;
   return named;
+}
+
+// a wave of the same effect once more: its parameters are told from those of the first by a number
+std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameters, std::size_t number) {
+  if (number > 1)
+    for (auto& parameter : parameters) parameter.name += fmt::format("_{}", number);
+  return parameters;
+}
+
+// which of the same name the i-th accepted is, from 1
+std::size_t number_of(Selection const& selection, std::size_t i) {
+  std::size_t number = 1;
+  for (std::size_t k = 0; k < i; ++k) number += selection.accepted[k].effect == selection.accepted[i].effect ? 1 : 0;
+  return number;
 }
 
 }  // namespace
@@ -58,7 +75,7 @@ NamedEffects name_effects(Selection const& selection, ShapeSearch const& search,
   result.parameters = estimate.baseline;
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
     auto const& accepted = selection.accepted[i];
-    auto const& parameters = estimate.effects[i];
+    auto const parameters = numbered(estimate.effects[i], number_of(selection, i));
     result.parameters.insert(result.parameters.end(), parameters.begin(), parameters.end());
     auto const same = std::find_if(result.effects.begin(), result.effects.end(),
                                    [&](NamedEffect const& one) { return one.name == accepted.effect->name(); });

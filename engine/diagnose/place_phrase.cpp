@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/contract.hpp"
 #include "engine/base/quantity_text.hpp"
 #include "engine/diagnose/sentences.hpp"
 
@@ -58,6 +59,27 @@ std::string velocity_phrase(Place const& place) {
   return "at speeds " + place.between();
 }
 
+// one of two intervals
+std::string side_phrase(Place const& place) {
+  if (place.at_start) return "below " + place.to();
+  if (place.at_end) return "above " + place.from();
+  return place.between();
+}
+
+// two intervals of which one mirrors the other, in one phrase; "" when they do not
+std::string both_directions(Place const& negative, Place const& positive) {
+  double const outer = std::max(-negative.interval.from, positive.interval.to);
+  double const slowest = std::min(-negative.interval.to, positive.interval.from);
+  constexpr double alike = 0.1;
+  if (!(slowest > 0.0) || std::abs(negative.interval.to + positive.interval.from) > alike * outer) return "";
+  std::string const& unit = positive.interval.unit;
+  if (negative.at_start && positive.at_end)
+    return fmt::format("above {} in both directions", quantity_text(slowest, unit));
+  if (std::abs(negative.interval.from + positive.interval.to) > alike * outer) return "";
+  AxisInterval const both{positive.interval.axis, slowest, outer, unit};
+  return fmt::format("at speeds {} in both directions", Place(both, {}).between());
+}
+
 std::string distance_phrase(Place const& place, std::string const& event) {
   if (place.at_start && place.at_end) return "at all distances after " + event;
   if (place.at_start || place.interval.from <= 0.0) return fmt::format("within {} after {}", place.to(), event);
@@ -103,6 +125,23 @@ std::string place_phrase(JointDiagnosis const& joint, AxisInterval const& interv
   if (interval.axis == "acceleration")
     return everywhere ? "at all accelerations" : "at accelerations " + place.between();
   return "";
+}
+
+std::string place_phrase(JointDiagnosis const& joint, std::vector<AxisInterval> const& intervals) {
+  if (intervals.empty()) return "";
+  if (intervals.size() == 1) return place_phrase(joint, intervals.front());
+  TORQUESCOPE_EXPECT(intervals.size() == 2);
+  auto const& [axis, from, to, unit] = intervals.front();
+  Extent const extent = extent_of(joint, axis);
+  Place const low(intervals.front(), extent), high(intervals.back(), extent);
+  if (axis == "velocity") {
+    if (std::string mirrored = both_directions(low, high); !mirrored.empty()) return mirrored;
+    return fmt::format("at velocities {} and {}", side_phrase(low), side_phrase(high));
+  }
+  if (axis == "load") return fmt::format("at loads {} and {}", side_phrase(low), side_phrase(high));
+  if (axis == "acceleration") return fmt::format("at accelerations {} and {}", side_phrase(low), side_phrase(high));
+  if (axis == "position") return fmt::format("at positions {} and {}", side_phrase(low), side_phrase(high));
+  return fmt::format("{} and {}", place_phrase(joint, intervals.front()), place_phrase(joint, intervals.back()));
 }
 
 }  // namespace torquescope

@@ -86,7 +86,7 @@ std::string joint_clause(JointDiagnosis const& joint, NamedEffect const& effect)
 
 // whole clause with its place
 std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effect) {
-  std::string const where = place_phrase(joint, effect.region);
+  std::string const where = place_phrase(joint, effect.places);
   std::string const at = where.empty() ? "" : " " + where;
   auto const linear = linear_parameters(effect);
   if (effect.acts_on == word(ActsOn::recorded_torque)) {

@@ -9,6 +9,7 @@
 // Source     UX.md section 3, verdict table
 
 #include <string>
+#include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
 
@@ -24,5 +25,7 @@ std::string reason_sentence(Diagnosis const& diagnosis);
 
 // "below 0.12 rad/s in both directions", "around 12 waves per turn"; "" for an interval without axis
 std::string place_phrase(JointDiagnosis const& joint, AxisInterval const& interval);
+// of one or two of the same axis: "above 0.40 rad/s in both directions"; "" for none
+std::string place_phrase(JointDiagnosis const& joint, std::vector<AxisInterval> const& intervals);
 
 }  // namespace torquescope

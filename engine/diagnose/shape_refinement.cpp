@@ -63,7 +63,7 @@ class Refinement {
  private:
   BoundedGain gain_at(std::vector<double> const& shape) const {
     OrthonormalGroup const group = columns_.group(effect_, shape);
-    return bounded_gain(group, group.q.transpose() * mismatch_);
+    return bounded_gain(group, inner_products(group.q, mismatch_));
   }
 
   double noise_at(std::vector<double> const& shape) const {

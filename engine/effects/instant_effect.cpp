@@ -1,5 +1,6 @@
 #include "engine/effects/instant_effect.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "engine/base/contract.hpp"
@@ -26,11 +27,16 @@ void InstantEffect::columns(EffectInput const& input, std::span<double const> sh
                             Eigen::Ref<Eigen::MatrixXd> out) const {
   TORQUESCOPE_EXPECT(shape.size() == n_shape());
   TORQUESCOPE_EXPECT(out.rows() == input.size() && out.cols() == static_cast<Eigen::Index>(n_linear()));
-  std::array<double, 8> values{};
-  auto const one_row = std::span(values).first(n_linear());
-  for (Eigen::Index i = 0; i < input.size(); ++i) {
-    row(input.state(i), shape, input.scales, one_row);
-    for (Eigen::Index k = 0; k < out.cols(); ++k) out(i, k) = values[static_cast<std::size_t>(k)];
+  static Eigen::ArrayXd const nothing = Eigen::ArrayXd::Zero(states_at_once);
+  for (Eigen::Index first = 0; first < input.size(); first += states_at_once) {
+    Eigen::Index const n = std::min(states_at_once, input.size() - first);
+    auto const part = [&](double const* whole) {
+      return JointStates::Quantity(whole != nullptr ? whole + first : nothing.data(), n);
+    };
+    auto const& motion = input.motion;
+    JointStates const at{part(motion.time_s.data()), part(motion.q.data()),          part(motion.dq.data()),
+                         part(motion.ddq.data()),    part(input.load_torque.data()), part(input.model_torque.data())};
+    law(at, shape, input.scales, out.middleRows(first, n).array());
   }
 }
 
@@ -42,12 +48,24 @@ std::unique_ptr<EffectRunner> InstantEffect::runner(std::span<double const> para
 
 double InstantEffect::torque(JointState const& state, std::span<double const> parameters,
                              JointScales const& scales) const {
+  auto const alone = [](double const& value) { return JointStates::Quantity(&value, 1); };
+  JointStates const at{alone(state.time_s), alone(state.q),           alone(state.dq),
+                       alone(state.ddq),    alone(state.load_torque), alone(state.motor_torque)};
+  double torque = 0.0;
+  torques(at, parameters, scales, {&torque, 1});
+  return torque;
+}
+
+void InstantEffect::torques(JointStates const& at, std::span<double const> parameters, JointScales const& scales,
+                            std::span<double> out) const {
   TORQUESCOPE_EXPECT(parameters.size() == n_linear() + n_shape());
-  std::array<double, 8> values{};
-  row(state, parameters.subspan(n_linear()), scales, std::span(values).first(n_linear()));
-  double sum = 0.0;
-  for (std::size_t k = 0; k < n_linear(); ++k) sum += parameters[k] * values[k];
-  return sum;
+  TORQUESCOPE_EXPECT(at.size() <= states_at_once && out.size() == static_cast<std::size_t>(at.size()));
+  std::array<double, 8 * states_at_once> values;
+  Eigen::Map<Eigen::ArrayXXd> columns(values.data(), at.size(), static_cast<Eigen::Index>(n_linear()));
+  law(at, parameters.subspan(n_linear()), scales, columns);
+  Eigen::Map<Eigen::ArrayXd> sum(out.data(), at.size());
+  sum.setZero();
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) sum += parameters[static_cast<std::size_t>(k)] * columns.col(k);
 }
 
 }  // namespace torquescope

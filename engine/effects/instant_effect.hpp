@@ -1,7 +1,9 @@
 #pragma once
-// An effect without memory: its columns at one instant are a function of that instant. Files in effects/ add row().
+// An effect without memory: its columns at one instant are a function of that instant. Files in effects/ add law(), the
+// equation over arrays: recordings, twins and single instants all go through it.
 
 #include "engine/effects/effect.hpp"
+#include "engine/effects/joint_states.hpp"
 
 namespace torquescope {
 
@@ -12,14 +14,14 @@ class InstantEffect : public Effect {
   void columns(EffectInput const& input, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override;
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
   double torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const final;
+  // torque of each of these instants; all parameters, linear ones first; out: states.size()
+  void torques(JointStates const& at, std::span<double const> parameters, JointScales const& scales,
+               std::span<double> out) const;
 
  protected:
-  // torque per unit of each linear parameter; out: n_linear()
-  virtual void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-                   std::span<double> out) const = 0;
+  // out: states.size() x n_linear(), no part of the states
+  virtual void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+                   LawColumns out) const = 0;
 };
-
-// -1, 0, 1; sign(0) = 0
-inline double sign(double velocity) { return static_cast<double>((velocity > 0.0) - (velocity < 0.0)); }
 
 }  // namespace torquescope

@@ -167,6 +167,11 @@ NamedEffect read_effect(Objects const& in, std::string const& group) {
   effect.z = in.number(group, "z");
   effect.gain = {in.number(group, "gain_train"), in.number(group, "gain_cv"), in.number(group, "gain_validation")};
   effect.region = read_interval(in, group, "region");
+  auto const from = in.numbers(group + "/places/from"), to = in.numbers(group + "/places/to");
+  in.check_same_length(group + "/places", from.size(), to);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    effect.places.push_back({effect.region.axis, from[i], to[i], effect.region.unit});
+  if (effect.places.empty()) effect.places = {effect.region};
   effect.region_gain = in.number(group, "region_gain");
   effect.rms = in.number(group, "rms");
   effect.peak = in.number(group, "peak");

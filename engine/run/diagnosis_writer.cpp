@@ -145,6 +145,9 @@ void write_effect(ResultWriter& writer, std::string const& group, NamedEffect co
   writer.attribute(group, "gain_cv", effect.gain.cv);
   writer.attribute(group, "gain_validation", effect.gain.validation);
   write_interval(writer, group, "region", effect.region);
+  Columns<AxisInterval>(writer, group + "/places", effect.places)
+      .numbers("from", [](AxisInterval const& i) { return i.from; }, {effect.region.unit, "lower end"})
+      .numbers("to", [](AxisInterval const& i) { return i.to; }, {effect.region.unit, "upper end"});
   writer.attribute(group, "region_gain", effect.region_gain);
   writer.attribute(group, "rms", effect.rms);
   writer.attribute(group, "peak", effect.peak);

@@ -1,16 +1,19 @@
 #include "engine/simulate/lane_effect.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/effects/instant_effect.hpp"
 
 namespace torquescope {
 namespace {
 
-// one runner per lane: each twin has its own memory
+using LaneTorques = std::array<double, twin_lanes>;
+
 class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
@@ -20,7 +23,11 @@ class CatalogueEffect final : public LaneEffect {
         has_memory_(effect.has_memory()),
         needs_baseline_(effect.needs_baseline()),
         has_weight_(baseline.gravity_sin != 0.0 || baseline.gravity_cos != 0.0),
-        baseline_(baseline) {
+        baseline_(baseline),
+        parameters_(parameters),
+        scales_(scales) {
+    if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
+    if (law_ != nullptr) return;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
 
@@ -29,18 +36,22 @@ class CatalogueEffect final : public LaneEffect {
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      JointState const state = state_of(at, lane);
-      runners_[lane]->advance(state, at.step_s);
-      if (is_dry_friction_) {
-        demand.forward[lane] += sliding(*runners_[lane], state, 1.0);
-        demand.backward[lane] += sliding(*runners_[lane], state, -1.0);
-      } else {
-        // with the acceleration of the step before, what goes with the acceleration would lag behind it
-        double const coasting = at_acceleration(*runners_[lane], state, 0.0);
-        demand.smooth[lane] += coasting;
-        demand.inertia[lane] += at_acceleration(*runners_[lane], state, 1.0) - coasting;
-      }
+    LaneTorques const load = load_torques(at);
+    for (std::size_t lane = 0; lane < runners_.size(); ++lane)
+      runners_[lane]->advance(state_of(at, load, lane), at.step_s);
+    LaneInstant trial = at;
+    if (is_dry_friction_) {
+      add_to(demand.forward, sliding(trial, at, load, 1.0));
+      add_to(demand.backward, sliding(trial, at, load, -1.0));
+    } else {
+      // with the acceleration of the step before, what goes with the acceleration would lag behind it
+      std::fill_n(trial.ddq, twin_lanes, 0.0);
+      LaneTorques const coasting = torques(trial, load);
+      std::fill_n(trial.ddq, twin_lanes, 1.0);
+      LaneTorques per_acceleration = torques(trial, load);
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) per_acceleration[lane] -= coasting[lane];
+      add_to(demand.smooth, coasting);
+      add_to(demand.inertia, per_acceleration);
     }
   }
 
@@ -53,36 +64,62 @@ class CatalogueEffect final : public LaneEffect {
   }
 
  private:
-  JointState state_of(LaneInstant const& at, std::size_t lane) const {
-    JointState state{at.time_s, at.q[lane], at.dq[lane], at.ddq[lane]};
-    state.motor_torque = at.motor_torque[lane];
-    if (!needs_baseline_) return state;
-    state.load_torque = baseline_.inertia * state.ddq;
-    if (has_weight_)
-      state.load_torque += baseline_.gravity_sin * std::sin(state.q) + baseline_.gravity_cos * std::cos(state.q);
-    return state;
+  LaneTorques load_torques(LaneInstant const& at) const {
+    LaneTorques load{};
+    if (!needs_baseline_) return load;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      load[lane] = baseline_.inertia * at.ddq[lane];
+      if (has_weight_)
+        load[lane] += baseline_.gravity_sin * std::sin(at.q[lane]) + baseline_.gravity_cos * std::cos(at.q[lane]);
+    }
+    return load;
+  }
+
+  static JointState state_of(LaneInstant const& at, LaneTorques const& load, std::size_t lane) {
+    return {at.time_s, at.q[lane], at.dq[lane], at.ddq[lane], load[lane], at.motor_torque[lane]};
   }
 
   void shift(LaneInstant const& tick, double* channel) {
+    LaneTorques const load = load_torques(tick);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      channel[lane] += runners_[lane]->torque(state_of(tick, lane), tick.step_s);
+      channel[lane] += runners_[lane]->torque(state_of(tick, load, lane), tick.step_s);
   }
 
-  static double at_acceleration(EffectRunner const& runner, JointState state, double ddq) {
-    state.ddq = ddq;
-    return runner.torque(state);
+  static void add_to(double* sum, LaneTorques const& torque) {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += torque[lane];
+  }
+
+  // memory as it stands
+  LaneTorques torques(LaneInstant const& at, LaneTorques const& load) const {
+    LaneTorques found{};
+    if (law_ == nullptr) {
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+        found[lane] = runners_[lane]->torque(state_of(at, load, lane));
+      return found;
+    }
+    LaneTorques time_s;
+    time_s.fill(at.time_s);
+    auto const of_lanes = [](double const* values) { return JointStates::Quantity(values, twin_lanes); };
+    JointStates const states{of_lanes(time_s.data()), of_lanes(at.q),        of_lanes(at.dq),
+                             of_lanes(at.ddq),        of_lanes(load.data()), of_lanes(at.motor_torque)};
+    law_->torques(states, parameters_, scales_, found);
+    return found;
   }
 
   // the branch that moves in `direction`, continued to rest
-  static double sliding(EffectRunner const& runner, JointState state, double direction) {
-    state.dq = direction * std::max(direction * state.dq, std::numeric_limits<double>::min());
-    return runner.torque(state);
+  LaneTorques sliding(LaneInstant& trial, LaneInstant const& at, LaneTorques const& load, double direction) const {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      trial.dq[lane] = direction * std::max(direction * at.dq[lane], std::numeric_limits<double>::min());
+    return torques(trial, load);
   }
 
   ActsOn acts_on_;
   bool is_dry_friction_, has_memory_, needs_baseline_, has_weight_;
   LaneJoint baseline_;
-  std::vector<std::unique_ptr<EffectRunner>> runners_;
+  std::vector<double> parameters_;
+  JointScales scales_;
+  InstantEffect const* law_ = nullptr;                  // in the joint without memory: all lanes at once
+  std::vector<std::unique_ptr<EffectRunner>> runners_;  // otherwise one per lane: each twin has its own memory
 };
 
 }  // namespace

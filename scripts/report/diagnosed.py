@@ -71,6 +71,16 @@ def rows_without_effects(joint):
     return (rows + others)[:2]
 
 
+def regions_on(effect, axis):
+    """[(from, to)] of an effect on that axis."""
+    return [(place.start, place.stop) for place in effect.places if place.axis == axis]
+
+
+def partial_regions(regions, start, stop):
+    """Those worth shading between start and stop: what is everywhere is nowhere in particular."""
+    return [region for region in regions if region[0] > start or region[1] < stop]
+
+
 def effect_row(joint, effect):
     """The row on which an effect is drawn before and after: its region's, or its curve's when the region is in a spectrum."""
     row = joint.map.get(effect.region.axis)

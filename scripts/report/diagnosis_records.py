@@ -107,6 +107,7 @@ class NamedEffect:
     gain_cv: float
     gain_validation: float
     region: Interval
+    places: list  # [Interval] of the region's axis: one, or two where one would not do
     region_gain: float
     rms: float
     peak: float

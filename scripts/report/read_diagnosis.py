@@ -97,12 +97,16 @@ def _effect(group):
     plain = {name: group.get(name, "") for name in ("name", "family", "title", "equation", "acts_on", "sentence")}
     numbers = {name: group.get(name, UNKNOWN) for name in
                ("p", "q", "z", "gain_train", "gain_cv", "gain_validation", "region_gain", "rms", "peak")}
-    curve = None
+    region, curve = _interval(group, "region"), None
+    places = [region]
+    if "places" in group:
+        ends = (getattr(group.places, key).tolist() for key in ("from", "to"))
+        places = [Interval(region.axis, start, stop, region.unit) for start, stop in zip(*ends)]
     if "curve" in group:
         drawn = group.curve
         curve = Curve(_interval(drawn, "range"), drawn.at, drawn.partial, drawn.modelled, drawn.spread)
     return NamedEffect(**plain, **numbers, equivalent=group.get("equivalent", []), p_is_bound=bool(group.get("p_is_bound", 0)),
-                       region=_interval(group, "region"), parameters=_parameters(group.get("parameters")), curve=curve)
+                       region=region, places=places, parameters=_parameters(group.get("parameters")), curve=curve)
 
 
 def _unexplained(group):

@@ -156,6 +156,7 @@ NamedEffect invented_stribeck() {
   effect.z = 11.8;
   effect.gain = {0.281, 0.284, 0.277};
   effect.region = {"velocity", -0.12, 0.12, "rad/s"};
+  effect.places = {effect.region};
   effect.region_gain = 0.81;
   effect.rms = 0.09;
   effect.peak = 0.34;
@@ -171,6 +172,7 @@ NamedEffect invented_cogging() {
   effect.z = 7.4;
   effect.gain = {0.058, 0.061, 0.055};
   effect.region = {"order", 11.5, 12.5, "1/rad"};
+  effect.places = {effect.region};
   effect.region_gain = 0.78;
   effect.rms = 0.042;
   effect.peak = 0.06;
@@ -325,6 +327,7 @@ Diagnosis invented_data_fault() {
   NamedEffect effect = named("delay");
   effect.z = 14.2;
   effect.region = {"acceleration", -6.0, 6.0, "rad/s2"};
+  effect.places = {effect.region};
   effect.region_gain = 0.8;
   effect.rms = 0.05;
   effect.peak = 0.21;

@@ -1,8 +1,6 @@
 #pragma once
 // A loop for tests: one optimiser, one function, no recording, no stop rule but a number of generations.
 
-#include <gtest/gtest.h>
-
 #include <functional>
 #include <memory>
 #include <span>

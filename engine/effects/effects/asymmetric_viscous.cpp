@@ -6,8 +6,6 @@
 // Confused   offset and gravity while the joint moves one way only
 // Source     Elhami, Brookfield 1996
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -31,8 +29,8 @@ class AsymmetricViscous final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = std::abs(state.dq);
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.dq.abs();
   }
 };
 

@@ -6,8 +6,6 @@
 // Confused   torque_constant
 // Source     definition of saturation; PHYSICS.md A4
 
-#include <algorithm>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -31,9 +29,8 @@ class Clipping final : public InstantEffect {
                        .needs_baseline = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const&,
-           std::span<double> out) const override {
-    out[0] = std::clamp(state.motor_torque, -shape[0], shape[0]) - state.motor_torque;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.motor_torque.max(-shape[0]).min(shape[0]) - at.motor_torque;
   }
 };
 

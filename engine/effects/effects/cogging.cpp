@@ -6,8 +6,6 @@
 // Confused   torque_ripple, transmission_error, encoder_eccentricity; periodic_disturbance at a single speed
 // Source     Islam, Mir, Sebastian 2004; usual size 1 to 5 % of rated torque (MuJoCo documentation)
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -31,10 +29,8 @@ class Cogging final : public InstantEffect {
              .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const&,
-           std::span<double> out) const override {
-    out[0] = std::cos(shape[0] * state.q);
-    out[1] = std::sin(shape[0] * state.q);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+    cosine_sine(shape[0], at.q, out.col(0), out.col(1));
   }
 };
 

@@ -6,7 +6,6 @@
 // Confused   sensor_drift
 // Source     De Luca, Mattone 2005 (momentum observer; the push itself has no law)
 
-#include <cmath>
 #include <numbers>
 
 #include "engine/effects/instant_effect.hpp"
@@ -32,11 +31,12 @@ class Contact final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const&,
-           std::span<double> out) const override {
-    double const phase = (state.time_s - shape[0]) / shape[1];
-    double const wave = std::sin(std::numbers::pi * phase);
-    out[0] = phase > 0.0 && phase < 1.0 ? wave * wave : 0.0;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+    Scratch const phase = (at.time_s - shape[0]) / shape[1];
+    Scratch cosine(phase.size());
+    auto wave = out.col(0);
+    cosine_sine(std::numbers::pi, phase, cosine, wave);
+    wave = (phase > 0.0 && phase < 1.0).select(wave.square(), 0.0);
   }
 };
 

@@ -21,8 +21,8 @@ class Coulomb final : public InstantEffect {
                        .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = sign(state.dq);
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = sign(at.dq);
   }
 };
 

@@ -21,8 +21,8 @@ class CoulombPositive final : public InstantEffect {
                        .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = state.dq > 0.0 ? 1.0 : 0.0;
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = (at.dq > 0.0).cast<double>();
   }
 };
 

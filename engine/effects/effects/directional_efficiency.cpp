@@ -7,8 +7,6 @@
 //            s |tau_load| [driving] - s |tau_load| [driven] = tau_load is a column of the baseline already
 // Source     BAM models M5, M6; Giberti, Cinquemani, Legnani 2010
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -31,9 +29,9 @@ class DirectionalEfficiency final : public InstantEffect {
                        .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    out[0] = scales.friction_sign(state.dq) * std::abs(state.motor_torque - shape[0] * state.load_torque);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    out.col(0) = friction_sign(at.dq, scales) * (at.motor_torque - shape[0] * at.load_torque).abs();
   }
 };
 

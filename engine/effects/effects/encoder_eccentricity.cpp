@@ -50,14 +50,14 @@ class EncoderEccentricity final : public InstantEffect {
   }
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const& scales,
-           std::span<double> out) const override {
-    double const s = std::sin(state.q), c = std::cos(state.q);
-    double const gravity_slope = scales.gravity_sin * c - scales.gravity_cos * s;
-    double const per_slope = scales.viscous * state.dq + scales.inertia * state.ddq;
-    double const per_curvature = scales.inertia * state.dq * state.dq;
-    out[0] = -(gravity_slope * s + per_slope * c - per_curvature * s);
-    out[1] = -(gravity_slope * c - per_slope * s - per_curvature * c);
+  void law(JointStates const& at, std::span<double const>, JointScales const& scales, LawColumns out) const override {
+    Scratch c(at.size()), s(at.size());
+    cosine_sine(1.0, at.q, c, s);
+    Scratch const gravity_slope = scales.gravity_sin * c - scales.gravity_cos * s;
+    Scratch const per_slope = scales.viscous * at.dq + scales.inertia * at.ddq;
+    Scratch const per_curvature = scales.inertia * at.dq.square();
+    out.col(0) = -(gravity_slope * s + per_slope * c - per_curvature * s);
+    out.col(1) = -(gravity_slope * c - per_slope * s - per_curvature * c);
   }
 };
 

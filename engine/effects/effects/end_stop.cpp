@@ -37,12 +37,12 @@ class EndStop final : public InstantEffect {
   }
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
     double const side = shape[0] >= scales.position_centre ? 1.0 : -1.0;
-    bool const is_beyond = side * (state.q - shape[0]) > 0.0;
-    out[0] = is_beyond ? state.q - shape[0] : 0.0;
-    out[1] = is_beyond ? state.dq : 0.0;
+    auto const is_beyond = side * (at.q - shape[0]) > 0.0;
+    out.col(0) = is_beyond.select(at.q - shape[0], 0.0);
+    out.col(1) = is_beyond.select(at.dq, 0.0);
   }
 };
 

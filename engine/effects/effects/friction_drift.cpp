@@ -40,13 +40,12 @@ class FrictionDrift final : public InstantEffect {
              .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const s = scales.friction_sign(state.dq);
-    double const elapsed_s = state.time_s - scales.start_s;
-    out[0] = elapsed_s * s;
-    out[1] = elapsed_s * state.dq;
-    out[2] = state.time_s >= shape[0] ? s : 0.0;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    Scratch const s = friction_sign(at.dq, scales), elapsed_s = at.time_s - scales.start_s;
+    out.col(0) = elapsed_s * s;
+    out.col(1) = elapsed_s * at.dq;
+    out.col(2) = is_after(at.time_s, shape[0]) * s;
   }
 };
 

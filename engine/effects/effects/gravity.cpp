@@ -6,8 +6,6 @@
 
 #include "engine/effects/instant_effect.hpp"
 
-#include <cmath>
-
 namespace torquescope::effects {
 namespace {
 
@@ -26,9 +24,8 @@ class Gravity final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = std::sin(state.q);
-    out[1] = std::cos(state.q);
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    cosine_sine(1.0, at.q, out.col(1), out.col(0));
   }
 };
 

@@ -20,8 +20,8 @@ class Inertia final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = state.ddq;
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.ddq;
   }
 };
 

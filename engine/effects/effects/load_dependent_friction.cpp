@@ -7,8 +7,6 @@
 // Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
 // Source     Hamon, Gautier, Garrec, Janot 2010; BAM model M3
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -30,9 +28,8 @@ class LoadDependentFriction final : public InstantEffect {
                        .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const& scales,
-           std::span<double> out) const override {
-    out[0] = scales.friction_sign(state.dq) * std::abs(state.load_torque);
+  void law(JointStates const& at, std::span<double const>, JointScales const& scales, LawColumns out) const override {
+    out.col(0) = friction_sign(at.dq, scales) * at.load_torque.abs();
   }
 };
 

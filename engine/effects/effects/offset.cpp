@@ -20,8 +20,8 @@ class Offset final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const&, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = 1.0;
+  void law(JointStates const&, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = 1.0;
   }
 };
 

@@ -7,8 +7,6 @@
 // Confused   sensor_drift, friction_drift
 // Source     Gaz, De Luca 2017 (payload parameters)
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -34,13 +32,18 @@ class PayloadChange final : public InstantEffect {
              .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    bool const is_angle = scales.joint == JointKind::revolute;
-    double const carried = state.time_s >= shape[0] ? 1.0 : 0.0;
-    out[0] = carried * state.ddq;
-    out[1] = is_angle ? carried * std::sin(state.q) : 0.0;
-    out[2] = is_angle ? carried * std::cos(state.q) : carried;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    auto const carried = is_after(at.time_s, shape[0]);
+    out.col(0) = carried * at.ddq;
+    if (scales.joint == JointKind::prismatic) {
+      out.col(1) = 0.0;
+      out.col(2) = carried;
+      return;
+    }
+    cosine_sine(1.0, at.q, out.col(2), out.col(1));
+    out.col(1) *= carried;
+    out.col(2) *= carried;
   }
 };
 

@@ -7,7 +7,6 @@
 // Confused   cogging at a single speed
 // Source     definition; PHYSICS.md D1
 
-#include <cmath>
 #include <numbers>
 
 #include "engine/effects/instant_effect.hpp"
@@ -34,11 +33,10 @@ class PeriodicDisturbance final : public InstantEffect {
              .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const phase = 2.0 * std::numbers::pi * shape[0] * (state.time_s - scales.start_s);
-    out[0] = std::sin(phase);
-    out[1] = std::cos(phase);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    Scratch const elapsed_s = at.time_s - scales.start_s;
+    cosine_sine(2.0 * std::numbers::pi * shape[0], elapsed_s, out.col(1), out.col(0));
   }
 };
 

@@ -7,8 +7,6 @@
 // Confused   load_dependent_friction under gravity; gravity when the Coulomb levels of the directions differ
 // Source     Bittencourt, Gunnarsson 2012 (dependence on the angle)
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -39,12 +37,13 @@ class PositionDependentFriction final : public InstantEffect {
              .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const s = scales.friction_sign(state.dq);
-    out[0] = s * state.q;
-    out[1] = s * std::cos(shape[0] * state.q);
-    out[2] = s * std::sin(shape[0] * state.q);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    Scratch const s = friction_sign(at.dq, scales);
+    cosine_sine(shape[0], at.q, out.col(1), out.col(2));
+    out.col(0) = s * at.q;
+    out.col(1) *= s;
+    out.col(2) *= s;
   }
 };
 

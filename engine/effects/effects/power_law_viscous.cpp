@@ -7,8 +7,6 @@
 // Confused   stribeck with a wide speed, speed_drag
 // Source     Waiboer, Aarts, Jonker 2005
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -29,9 +27,11 @@ class PowerLawViscous final : public InstantEffect {
                        .parity = Parity::odd}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const&,
-           std::span<double> out) const override {
-    out[0] = sign(state.dq) * std::pow(std::abs(state.dq), shape[0]);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+    auto grown = out.col(0);
+    grown = at.dq;
+    power_of_size(grown, shape[0]);
+    grown *= sign(at.dq);
   }
 };
 

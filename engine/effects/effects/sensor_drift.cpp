@@ -34,10 +34,10 @@ class SensorDrift final : public InstantEffect {
              .acts_on = ActsOn::recorded_torque}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    out[0] = state.time_s - scales.start_s;
-    out[1] = state.time_s >= shape[0] ? 1.0 : 0.0;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    out.col(0) = at.time_s - scales.start_s;
+    out.col(1) = is_after(at.time_s, shape[0]);
   }
 };
 

@@ -6,8 +6,6 @@
 // Confused   power_law_viscous above 1
 // Source     MuJoCo XML reference, dcmotor damping polynomial; Wahrburg et al. 2018
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -29,9 +27,9 @@ class SpeedDrag final : public InstantEffect {
              .parity = Parity::odd}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = state.dq * std::abs(state.dq);
-    out[1] = state.dq * state.dq * state.dq;
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.dq * at.dq.abs();
+    out.col(1) = at.dq * at.dq * at.dq;
   }
 };
 

@@ -29,8 +29,8 @@ class Spring final : public InstantEffect {
                        .parity = Parity::even}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = state.q;
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.q;
   }
 };
 

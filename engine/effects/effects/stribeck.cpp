@@ -7,8 +7,6 @@
 // Confused   presliding, power_law_viscous below 1, the filter's own artefact at reversals
 // Source     Armstrong-Helouvry 1991; Bittencourt, Gunnarsson 2012
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -34,10 +32,14 @@ class Stribeck final : public InstantEffect {
              .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const faded = std::exp(-std::pow(std::abs(state.dq) / shape[0], shape[1]));
-    out[0] = scales.friction_sign(state.dq) * faded;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    auto faded = out.col(0);
+    faded = at.dq / shape[0];
+    power_of_size(faded, shape[1]);
+    faded = -faded;
+    exponential(faded);
+    faded *= friction_sign(at.dq, scales);
   }
 };
 

@@ -7,8 +7,6 @@
 // Confused   friction_drift; any friction law when slow and fast stretches are not interleaved in time
 // Source     Simoni, Beschi, Legnani, Visioli 2015; Bittencourt, Gunnarsson 2012
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -35,11 +33,12 @@ class ThermalFriction final : public InstantEffect {
              .is_dry_friction = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const cold = std::exp(-(state.time_s - scales.start_s) / shape[0]);
-    out[0] = cold * scales.friction_sign(state.dq);
-    out[1] = cold * state.dq;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    Scratch cold = (at.time_s - scales.start_s) / -shape[0];
+    exponential(cold);
+    out.col(0) = cold * friction_sign(at.dq, scales);
+    out.col(1) = cold * at.dq;
   }
 };
 

@@ -28,8 +28,8 @@ class TorqueConstant final : public InstantEffect {
              .needs_baseline = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const>, JointScales const&, std::span<double> out) const override {
-    out[0] = state.motor_torque * state.motor_torque * state.motor_torque;
+  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+    out.col(0) = at.motor_torque * at.motor_torque * at.motor_torque;
   }
 };
 

@@ -6,8 +6,6 @@
 // Confused   cogging; two levels of load tell them apart
 // Source     Islam, Mir, Sebastian 2004; Holtz, Springob 1996
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -32,10 +30,10 @@ class TorqueRipple final : public InstantEffect {
              .needs_baseline = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const&,
-           std::span<double> out) const override {
-    out[0] = state.motor_torque * std::cos(shape[0] * state.q);
-    out[1] = state.motor_torque * std::sin(shape[0] * state.q);
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
+    cosine_sine(shape[0], at.q, out.col(0), out.col(1));
+    out.col(0) *= at.motor_torque;
+    out.col(1) *= at.motor_torque;
   }
 };
 

@@ -9,8 +9,6 @@
 // Confused   cogging at low speed, encoder_eccentricity
 // Source     Tuttle, Seering 1996
 
-#include <cmath>
-
 #include "engine/effects/instant_effect.hpp"
 
 namespace torquescope::effects {
@@ -43,14 +41,17 @@ class TransmissionError final : public InstantEffect {
              .needs_baseline = true}) {}
 
  private:
-  void row(JointState const& state, std::span<double const> shape, JointScales const& scales,
-           std::span<double> out) const override {
-    double const n = shape[0], c = std::cos(n * state.q), s = std::sin(n * state.q);
-    double const per_slope = state.load_torque + scales.inertia * state.ddq + 2.0 * scales.viscous * state.dq;
-    double const per_error = scales.gravity_sin * std::cos(state.q) - scales.gravity_cos * std::sin(state.q);
-    double const per_curvature = scales.inertia * state.dq * state.dq;
-    out[0] = c * per_error - n * s * per_slope - n * n * c * per_curvature;
-    out[1] = s * per_error + n * c * per_slope - n * n * s * per_curvature;
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    double const n = shape[0];
+    Scratch c(at.size()), s(at.size()), once_c(at.size()), once_s(at.size());
+    cosine_sine(n, at.q, c, s);
+    cosine_sine(1.0, at.q, once_c, once_s);
+    Scratch const per_slope = at.load_torque + scales.inertia * at.ddq + 2.0 * scales.viscous * at.dq;
+    Scratch const per_error = scales.gravity_sin * once_c - scales.gravity_cos * once_s;
+    Scratch const per_curvature = scales.inertia * at.dq.square();
+    out.col(0) = c * per_error - n * s * per_slope - n * n * c * per_curvature;
+    out.col(1) = s * per_error + n * c * per_slope - n * n * s * per_curvature;
   }
 };
 

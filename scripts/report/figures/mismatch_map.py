@@ -174,7 +174,8 @@ def cases(study):
 
 
 def _arguments(joint, row):
-    frames = [(e.region.start, e.region.stop, diagnosed.plain(e.name), "effect") for e in joint.effects if e.region.axis == row.axis]
+    frames = [(place.start, place.stop, diagnosed.plain(e.name), "effect") for e in joint.effects for place in e.places
+              if place.axis == row.axis]
     frames += [(where.start, where.stop, "unexplained", "unexplained") for where, _ in joint.unexplained if where.axis == row.axis]
     known = {(start, stop) for start, stop, *_ in frames}
     frames += [(r.where.start, r.where.stop, "", "region") for r in row.regions if (r.where.start, r.where.stop) not in known]

@@ -8,11 +8,11 @@ import style
 from figures import Case
 
 
-def draw(axis_words, unit, at, partial, modelled, spread, region, width=style.SMALL):
-    """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; region: (from, to) or None."""
+def draw(axis_words, unit, at, partial, modelled, spread, regions, width=style.SMALL):
+    """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; regions: [(from, to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 188)
-    if region and (region[0] > at[0] or region[1] < at[-1]):
+    for region in diagnosed.partial_regions(regions, at[0], at[-1]):
         axes.axvspan(max(region[0], at[0]), min(region[1], at[-1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
     axes.fill_between(at, modelled - diagnosed.Z95 * spread, modelled + diagnosed.Z95 * spread, color=style.LIGHT["floor"],
                       linewidth=0, zorder=0.5)
@@ -36,9 +36,9 @@ def cases(study):
             curve = effect.curve
             if curve is None:
                 continue
-            region = (effect.region.start, effect.region.stop) if effect.region.axis == curve.range.axis else None
+            regions = diagnosed.regions_on(effect, curve.range.axis)
             arguments = {"axis_words": diagnosed.axis_title(curve.range.axis), "unit": diagnosed.axis_unit(curve.range),
-                         "at": curve.at, "partial": curve.partial, "modelled": curve.modelled, "spread": curve.spread, "region": region}
+                         "at": curve.at, "partial": curve.partial, "modelled": curve.modelled, "spread": curve.spread, "regions": regions}
             sentence = f"Dots: {diagnosed.plain(effect.name)} and what is left, in {quantities.unit(joint.unit_torque)}; line: as modelled."
             name = diagnosed.figure_name(study, joint, f"effect_{number}_missing")
             found[name] = Case(draw, arguments, f"The missing {study.effort}, as modelled", sentence)

@@ -10,14 +10,14 @@ import style
 from figures import Case
 
 
-def draw(axis_words, unit, centre, before, after, low, high, samples, outside, region, is_spectrum, width=style.SMALL):
+def draw(axis_words, unit, centre, before, after, low, high, samples, outside, regions, is_spectrum, width=style.SMALL):
     """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside: cells beyond
-    it; region: (from, to) or None."""
+    it; regions: [(from, to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 158)
     time = canvas.axes(54, 162, width - 14, 188)
     span = (centre[0], centre[-1])
-    if region and (region[0] > span[0] or region[1] < span[1]):
+    for region in diagnosed.partial_regions(regions, span[0], span[1]):
         axes.axvspan(max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
     axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
@@ -40,7 +40,7 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
     return canvas.figure
 
 
-def arguments(study, joint, row, region=None):
+def arguments(study, joint, row, regions=()):
     """What draw() needs of a row of the map; the unit of the residual goes into the caption."""
     measured = np.asarray(row.samples) > 0
     known = lambda values: np.where(measured, values, np.nan)  # noqa: E731
@@ -50,7 +50,7 @@ def arguments(study, joint, row, region=None):
     outside = measured & ((row.mean_residual < low) | (row.mean_residual > high))
     return {"axis_words": diagnosed.axis_title(row.axis), "unit": diagnosed.axis_unit(row), "centre": row.centre, "before": before,
             "after": after, "low": known(np.maximum(low, 0) if row.is_spectrum else low), "high": known(high),
-            "samples": row.samples, "outside": outside, "region": region, "is_spectrum": row.is_spectrum}
+            "samples": row.samples, "outside": outside, "regions": list(regions), "is_spectrum": row.is_spectrum}
 
 
 def cases(study):
@@ -62,8 +62,7 @@ def cases(study):
         for number, effect in enumerate(joint.effects, start=1):
             row = diagnosed.effect_row(joint, effect)
             if row is not None:
-                region = (effect.region.start, effect.region.stop) if effect.region.axis == row.axis else None
-                given = arguments(study, joint, row, region)
+                given = arguments(study, joint, row, diagnosed.regions_on(effect, row.axis))
                 title = "Residual of the baseline" if given["after"] is None else "Residual before and after"
                 found[name(f"effect_{number}_residual")] = Case(draw, given, title, _sentence(unit))
             quiet, rival = diagnosed.quiet_rival(joint, effect, shown)
@@ -71,7 +70,7 @@ def cases(study):
                 shown.add(quiet.axis)
                 found[name(f"effect_{number}_not_here")] = _not_here(study, joint, quiet, rival, unit)
         if not joint.effects:
-            found.update({name(f"residual_{row.axis}"): Case(draw, arguments(study, joint, row, region),
+            found.update({name(f"residual_{row.axis}"): Case(draw, arguments(study, joint, row, [region] if region else []),
                                                              f"Residual over {diagnosed.axis_title(row.axis)}", _sentence(unit))
                           for row, region in diagnosed.rows_without_effects(joint)})
     return found

@@ -142,7 +142,7 @@ TEST(EffectSentence, OfEveryEffectIsOneSentenceWithItsNameAndWithoutForbiddenWor
     for (double value : {-0.1, 0.1})
       for (auto const& axis : joint.map) {
         NamedEffect named = effect_of(*effect, value);
-        named.region = {axis.axis, axis.cells[20].from, axis.cells[30].to, axis.unit};
+        named.places = {{axis.axis, axis.cells[20].from, axis.cells[30].to, axis.unit}};
         std::string const text = effect_sentence(joint, named);
         SCOPED_TRACE(text);
         std::string name = effect->name(), lower = text;
@@ -155,6 +155,20 @@ TEST(EffectSentence, OfEveryEffectIsOneSentenceWithItsNameAndWithoutForbiddenWor
           EXPECT_THAT(lower, Not(HasSubstr(never)));
         EXPECT_FALSE(std::regex_search(text, too_exact));
       }
+}
+
+TEST(PlacePhrase, SaysTwoIntervalsInOneWhereOneMirrorsTheOther) {
+  JointDiagnosis const joint = example::invented_diagnosis().joints[0];  // velocity -1.1 .. 1, time 0 .. 60
+  auto const phrase = [&](char const* axis, double a, double b, double c, double d, char const* unit) {
+    return place_phrase(joint, std::vector<AxisInterval>{{axis, a, b, unit}, {axis, c, d, unit}});
+  };
+  EXPECT_EQ(phrase("velocity", -1.1, -0.52, 0.5, 1.0, "rad/s"), "above 0.50 rad/s in both directions");
+  EXPECT_EQ(phrase("velocity", -0.4, -0.2, 0.2, 0.41, "rad/s"),
+            "at speeds between 0.20 and 0.41 rad/s in both directions");
+  EXPECT_EQ(phrase("velocity", -1.1, -0.8, 0.2, 1.0, "rad/s"), "at velocities below -0.80 rad/s and above 0.20 rad/s");
+  EXPECT_EQ(phrase("time", 0.0, 5.0, 50.0, 60.0, "s"), "before 5.0 s and after 50 s");
+  EXPECT_EQ(place_phrase(joint, std::vector<AxisInterval>{}), "");
+  EXPECT_EQ(place_phrase(joint, std::vector<AxisInterval>{{"time", 12.0, 60.0, "s"}}), "after 12 s");
 }
 
 TEST(PlacePhrase, SaysWhatTheIntervalTouches) {
