@@ -116,11 +116,11 @@ def _number(value, form):
     return "-" if value is None else format(value, form)
 
 
-def case_line(j):
+def case_line(j, width):
     levels = ", ".join(f"{f.name} {f.level}" for f in j.found) or "-"
     iou = ", ".join(_number(f.iou, ".2f") for f in j.found) or "-"
     error = ", ".join(_number(f.parameter_error, ".1%") for f in j.found) or "-"
-    return (f"{j.drawn or j.case:10} {j.expected:12} {j.snr:7.2f}  {j.verdict:12} {'right' if j.right else 'WRONG':6} {levels:36} "
+    return (f"{j.drawn or j.case:{width}} {j.expected:12} {j.snr:7.2f}  {j.verdict:12} {'right' if j.right else 'WRONG':6} {levels:36} "
             f"{', '.join(j.false_names) or '-':20} {iou:10} {error:12} {_number(j.gap_closed, '.0%'):>6}")
 
 
@@ -151,9 +151,10 @@ def main(arguments):
         print(f"score.py: {problem}", file=sys.stderr)
         return 65
     board = scoreboard(judgements)
-    print(f"{'case':10} {'expected':12} {'SNR_eff':>7}  {'verdict':12} {'':6} {'true effects':36} {'false names':20} "
+    width = max(10, *(len(j.drawn or j.case) for j in judgements))
+    print(f"{'case':{width}} {'expected':12} {'SNR_eff':>7}  {'verdict':12} {'':6} {'true effects':36} {'false names':20} "
           f"{'IoU':10} {'parameters':12} {'gap':>6}")
-    print("\n".join(case_line(j) for j in judgements))
+    print("\n".join(case_line(j, width) for j in judgements))
     print()
     print("\n".join(board_line(name, entry) for name, entry in board.items() if name != "cases"))
     tiers, curve = by_tier(judgements), power_curve(judgements)
