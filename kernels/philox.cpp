@@ -50,14 +50,11 @@ HWY_INLINE void block_of(PhiloxStreams const& streams, Keys const& keys, Words w
   }
   Words const low = hn::Set(wide, 0xFFFFFFFFu);
   // words 0, 1 and 2, 3 of a stream as one 64-bit number each, low word first as x86 stores it
-  HWY_ALIGN std::uint64_t front[hn::MaxLanes(wide)], back[hn::MaxLanes(wide)];
-  hn::Store(hn::Or(hn::And(c0, low), hn::ShiftLeft<32>(c1)), wide, front);
-  hn::Store(hn::Or(hn::And(c2, low), hn::ShiftLeft<32>(c3)), wide, back);
-  for (std::size_t lane = 0; lane < n; ++lane) {
-    std::uint32_t* const words = out + ((first + lane) * n_blocks + block) * 4;
-    std::memcpy(words, &front[lane], sizeof(front[lane]));
-    std::memcpy(words + 2, &back[lane], sizeof(back[lane]));
-  }
+  HWY_ALIGN std::uint64_t halves[2 * hn::MaxLanes(wide)];
+  hn::StoreInterleaved2(hn::Or(hn::And(c0, low), hn::ShiftLeft<32>(c1)),
+                        hn::Or(hn::And(c2, low), hn::ShiftLeft<32>(c3)), wide, halves);
+  for (std::size_t lane = 0; lane < n; ++lane)
+    std::memcpy(out + ((first + lane) * n_blocks + block) * 4, halves + 2 * lane, 2 * sizeof(halves[0]));
 }
 
 void all_blocks(PhiloxStreams const& streams, std::size_t n_streams, std::size_t n_blocks, std::uint32_t* out) {

@@ -34,11 +34,18 @@ struct DoubledSum {
   HWY_INLINE void add_correction(V a, V b) { error = fused_mul_add(a, b, error); }
 };
 
-// members side by side in lanes; high, low: [r][n_lanes] members - centre; energy: n_lanes
-void lanes_energy(QuadraticForm const& form, double const* HWY_RESTRICT high, double const* HWY_RESTRICT low,
+// members side by side in lanes; high: [r][n_lanes] the members, then members - centre; low: what that lost when it was
+// rounded (Knuth's TwoSum); energy: n_lanes
+void lanes_energy(QuadraticForm const& form, double* HWY_RESTRICT high, double* HWY_RESTRICT low,
                   double* HWY_RESTRICT energy) {
   hn::CappedTag<double, n_lanes> const d;
   for (std::size_t lane = 0; lane < n_lanes; lane += hn::MaxLanes(d)) {
+    for (std::size_t r = 0; r < form.n_regressors; ++r) {
+      auto const member = hn::LoadU(d, high + r * n_lanes + lane), centre = hn::Set(d, form.centre[r]);
+      auto const step = hn::Sub(member, centre), back = hn::Sub(step, member);
+      hn::StoreU(step, d, high + r * n_lanes + lane);
+      hn::StoreU(hn::Sub(hn::Sub(member, hn::Sub(step, back)), hn::Add(centre, back)), d, low + r * n_lanes + lane);
+    }
     auto squares = hn::Zero(d), slope = hn::Zero(d);
     for (std::size_t i = 0; i < form.n_regressors; ++i) {
       DoubledSum<hn::Vec<decltype(d)>> row{hn::Zero(d), hn::Zero(d)};
@@ -68,13 +75,6 @@ namespace {
 
 HWY_EXPORT(lanes_energy);
 
-// high + low = a - b (Knuth's TwoSum)
-void exact_difference(double a, double b, double& high, double& low) {
-  high = a - b;
-  double const back = high - a;
-  low = (a - (high - back)) - (b + back);
-}
-
 }  // namespace
 
 std::size_t quadratic_workspace_size(std::size_t n_regressors) { return (2 * n_regressors + 1) * n_lanes; }
@@ -90,8 +90,7 @@ void quadratic_energy(QuadraticForm const& form, Candidates const& candidates, d
     for (std::size_t lane = 0; lane < n_lanes; ++lane) {
       // lanes without a member repeat the last one
       double const* const member = candidates.data + (first + std::min(lane, count - 1)) * candidates.leading_dimension;
-      for (std::size_t r = 0; r < form.n_regressors; ++r)
-        exact_difference(member[r], form.centre[r], high[r * n_lanes + lane], low[r * n_lanes + lane]);
+      for (std::size_t r = 0; r < form.n_regressors; ++r) high[r * n_lanes + lane] = member[r];
     }
     evaluate(form, high, low, lanes);
     std::copy_n(lanes, count, energy + first);

@@ -1,15 +1,18 @@
 // Our side of the seed's job without simulation, reading and terminal: DE on a linear problem, with or without storing it.
 //
-// Use        bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS [OUT.h5]
+// Use        bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS[:TOGETHER] [OUT.h5]
 //            DATA: a file of bench/seed_job.py, or random:N:R; FITNESS: in_time, direct, float32, gram
+//            TOGETHER: runs side by side; without it as many as `torquescope run` takes
 //            ("in_time" keeps every sample where it is; "direct" sorts by the direction of motion where it can)
 // Prints     JSON: CPU seconds of setting up (packing, statistics), of the searches, of storing; the median MSE
-// Threads    as many as said; CPU seconds are those of the process, storing is measured in the thread that does it
+// Threads    as many as said; CPU seconds are those of the process. Storing is measured in the thread that hands results
+//            over; with one thread, what the writing thread takes is added
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <exception>
 #include <fstream>
@@ -38,6 +41,7 @@ struct Request {
   std::string data, fitness;
   HistoryShape shape;
   int threads = 1;
+  std::size_t together = 0;
   std::string output;
 };
 
@@ -146,16 +150,22 @@ int run(Request const& request) {
   std::vector<double> mse;
   schedule_runs(
       shape.runs, request.threads,
-      [&](std::size_t index, int team) {
-        auto const optimiser = make_optimiser(box, {1, static_cast<std::uint32_t>(index)});
+      request.together > 0 ? request.together : runs_side_by_side(*fitness.objective, rules, shape.members),
+      [&](std::size_t first, std::size_t count, int team) {
+        std::vector<std::unique_ptr<Optimiser>> searches;
+        for (std::size_t index = first; index < first + count; ++index)
+          searches.push_back(make_optimiser(box, {1, static_cast<std::uint32_t>(index)}));
         std::vector<Workspace> workspaces;
-        return optimise(*optimiser, setting, team, workspaces);
+        return optimise(searches, setting, team, workspaces);
       },
       [&](std::size_t index, RunHistory const& history) {
         mse.push_back(history.best.back());
         if (writer) timed([&] { write_history(*writer, "de", index, history); });
       });
   if (writer) timed([&] { writer->finish(); });
+  writer.reset();
+  // nothing else has a thread of its own then
+  if (request.threads == 1) storing_s += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - seconds_of(CLOCK_THREAD_CPUTIME_ID);
   double const ended = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 
   std::sort(mse.begin(), mse.end());
@@ -169,14 +179,17 @@ int run(Request const& request) {
 
 int main(int argc, char** argv) try {
   if (argc != 7 && argc != 8) {
-    std::fprintf(stderr, "bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS [OUT.h5]\n");
+    std::fprintf(stderr, "bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS[:TOGETHER] [OUT.h5]\n");
     return 64;
   }
   auto const count = [&](int i) { return static_cast<std::size_t>(std::stoul(argv[i])); };
+  char const* const colon = std::strchr(argv[6], ':');
+  std::size_t const together = colon ? std::stoul(colon + 1) : 0;
   return torquescope::bench::run({argv[1],
                                   argv[2],
                                   {.runs = count(3), .generations = count(5), .members = count(4)},
                                   static_cast<int>(count(6)),
+                                  together,
                                   argc == 8 ? argv[7] : ""});
 } catch (std::exception const& error) {
   std::fprintf(stderr, "bench_seed_search: %s\n", error.what());

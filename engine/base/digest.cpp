@@ -1,25 +1,20 @@
+// the plain functions rather than EVP: looking up a provider takes OpenSSL 3 more than a millisecond per process
+#define OPENSSL_SUPPRESS_DEPRECATED
+
 #include "engine/base/digest.hpp"
 
-#include <openssl/evp.h>
+#include <openssl/sha.h>
 
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <stdexcept>
 
 namespace torquescope {
 
 static_assert(std::endian::native == std::endian::little, "digests are defined on little-endian bytes");
 
 struct Digest::Context {
-  Context() : handle(EVP_MD_CTX_new()) {
-    if (!handle || EVP_DigestInit_ex(handle, EVP_sha256(), nullptr) != 1)
-      throw std::runtime_error("OpenSSL has no SHA-256");
-  }
-  ~Context() { EVP_MD_CTX_free(handle); }
-  Context(Context const&) = delete;
-  Context& operator=(Context const&) = delete;
-  EVP_MD_CTX* handle;
+  Context() { SHA256_Init(&state); }
+  SHA256_CTX state;
 };
 
 Digest::Digest() : context_(std::make_unique<Context>()) {}
@@ -28,7 +23,7 @@ Digest::Digest(Digest&&) noexcept = default;
 Digest& Digest::operator=(Digest&&) noexcept = default;
 
 Digest& Digest::bytes(void const* data, std::size_t size) {
-  EVP_DigestUpdate(context_->handle, data, size);
+  SHA256_Update(&context_->state, data, size);
   return *this;
 }
 
@@ -39,15 +34,18 @@ Digest& Digest::text(std::string_view text) {
 
 Digest& Digest::numbers(std::span<double const> values) { return bytes(values.data(), values.size_bytes()); }
 
+Sha256 Digest::raw() {
+  Sha256 raw{};
+  SHA256_Final(raw.data(), &context_->state);
+  return raw;
+}
+
 std::string Digest::hex() {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> raw{};
-  unsigned int length = 0;
-  EVP_DigestFinal_ex(context_->handle, raw.data(), &length);
   static char const letters[] = "0123456789abcdef";
   std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += letters[raw[i] >> 4];
-    text += letters[raw[i] & 15];
+  for (unsigned char byte : raw()) {
+    text += letters[byte >> 4];
+    text += letters[byte & 15];
   }
   return text;
 }

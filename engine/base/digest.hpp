@@ -3,6 +3,7 @@
 //
 // Threads    a Digest is a value used by one thread
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -10,6 +11,8 @@
 #include <string_view>
 
 namespace torquescope {
+
+using Sha256 = std::array<unsigned char, 32>;
 
 class Digest {
  public:
@@ -21,7 +24,8 @@ class Digest {
   Digest& bytes(void const* data, std::size_t size);
   Digest& text(std::string_view text);  // its length, then its letters
   Digest& numbers(std::span<double const> values);
-  std::string hex();  // 64 letters; ends the digest
+  Sha256 raw();       // ends the digest
+  std::string hex();  // the same as 64 letters
 
  private:
   struct Context;

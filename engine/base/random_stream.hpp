@@ -8,8 +8,11 @@
 // Source     Salmon, Moraes, Dror, Shaw: Parallel random numbers: as easy as 1, 2, 3 (SC'11)
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+
+#include "engine/base/contract.hpp"
 
 namespace torquescope {
 
@@ -29,29 +32,53 @@ struct RandomKey {
 
 class RandomStream {
  public:
-  RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member);
+  RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member)
+      : key_(philox_key(key)), counter_(first_counter(key, generation, member)) {}
   // the same stream; its first blocks, four words each, were computed before (kernels/philox.hpp) and must outlive it
   RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member,
-               std::span<std::uint32_t const> first_blocks);
+               std::span<std::uint32_t const> first_blocks)
+      : RandomStream(key, generation, member) {
+    TORQUESCOPE_EXPECT(first_blocks.size() % 4 == 0);
+    first_blocks_ = first_blocks;
+  }
 
   // counter of its first block, and the key of all
-  static PhiloxBlock first_counter(RandomKey key, std::uint32_t generation, std::uint32_t member);
-  static std::array<std::uint32_t, 2> philox_key(RandomKey key);
+  static PhiloxBlock first_counter(RandomKey key, std::uint32_t generation, std::uint32_t member) {
+    TORQUESCOPE_EXPECT(key.run < (1u << 24));
+    return {0, member, generation, (static_cast<std::uint32_t>(key.domain) << 24) | key.run};
+  }
+  static std::array<std::uint32_t, 2> philox_key(RandomKey key) {
+    return {static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)};
+  }
 
-  std::uint64_t bits();                     // 64 random bits
-  double uniform();                         // [0, 1), 53 bits
-  double uniform(double low, double high);  // low + uniform() * (high - low)
-  std::uint32_t below(std::uint32_t n);     // 0 .. n-1, unbiased to 2^-32 (multiply-shift); n >= 1
-  double normal();                          // standard normal, inverse cumulative distribution of one uniform
+  // 64 random bits
+  std::uint64_t bits() {
+    if (next_word_ >= first_blocks_.size()) return computed_bits();
+    std::uint64_t const low = first_blocks_[next_word_], high = first_blocks_[next_word_ + 1];
+    next_word_ += 2;
+    return (high << 32) | low;
+  }
+  // [0, 1), 53 bits; signed because x86 converts signed numbers in one instruction
+  double uniform() { return static_cast<double>(static_cast<std::int64_t>(bits() >> 11)) * 0x1.0p-53; }
+  // low + uniform() * (high - low)
+  double uniform(double low, double high) { return low + uniform() * (high - low); }
+  // 0 .. n-1, unbiased to 2^-32 (multiply-shift); n >= 1
+  std::uint32_t below(std::uint32_t n) {
+    TORQUESCOPE_EXPECT(n >= 1);
+    return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
+  }
+  // standard normal, inverse cumulative distribution of one uniform
+  double normal();
 
  private:
-  void next_block();
+  // behind the blocks that were computed before
+  std::uint64_t computed_bits();
 
   std::array<std::uint32_t, 2> key_;
   PhiloxBlock counter_;
   std::span<std::uint32_t const> first_blocks_{};
-  PhiloxBlock block_{};
-  std::uint32_t used_ = 4;  // 32-bit words taken from block_
+  std::size_t next_word_ = 0;  // of the stream
+  PhiloxBlock block_{};        // holds it when it is neither among the first ones nor at the start of a block
 };
 
 }  // namespace torquescope

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-
-#include "engine/base/contract.hpp"
 
 namespace torquescope {
 
@@ -27,29 +24,18 @@ double reflected(double x, double lower, double upper) {
 
 }  // namespace
 
-void repair_bounds(BoundRepair repair, Bounds const& bounds, std::span<double const> target, RandomStream& random,
-                   std::span<double> trial) {
-  TORQUESCOPE_EXPECT(trial.size() == bounds.dimension() && target.size() == trial.size());
-  for (std::size_t j = 0; j < trial.size(); ++j) {
-    double const lower = bounds.lower[j];
-    double const upper = bounds.upper[j];
-    if (trial[j] >= lower && trial[j] <= upper) continue;
-    switch (repair) {
-      case BoundRepair::midpoint:
-        trial[j] = 0.5 * target[j] + 0.5 * (trial[j] > upper ? upper : lower);
-        break;
-      case BoundRepair::clip:
-        trial[j] = clipped(trial[j], lower, upper);
-        break;
-      case BoundRepair::reflect:
-        trial[j] = reflected(trial[j], lower, upper);
-        break;
-      case BoundRepair::random:
-        trial[j] = std::min(random.uniform(lower, upper), upper);
-        break;
-    }
-    TORQUESCOPE_ENSURE(trial[j] >= lower && trial[j] <= upper);
+double repaired(BoundRepair repair, double x, double lower, double upper, double target, RandomStream& random) {
+  switch (repair) {
+    case BoundRepair::midpoint:
+      return 0.5 * target + 0.5 * (x > upper ? upper : lower);
+    case BoundRepair::clip:
+      return clipped(x, lower, upper);
+    case BoundRepair::reflect:
+      return reflected(x, lower, upper);
+    case BoundRepair::random:
+      break;
   }
+  return std::min(random.uniform(lower, upper), upper);
 }
 
 }  // namespace torquescope

@@ -1,6 +1,7 @@
 #include "engine/optim/generational_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -17,19 +18,42 @@ namespace {
 constexpr double state_version = 1.0;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// blocks of two draws that a trial takes as a rule: three members, j_rand, one draw per parameter, a repair or two
-std::size_t likely_blocks(std::size_t dimension) { return (dimension + 6) / 2; }
+// The first blocks of many neighbouring members' streams, computed all at once and kept on the stack: the numbers are
+// those that each stream would compute by itself, one by one.
+class StreamsAhead {
+ public:
+  StreamsAhead(RandomKey key, std::uint32_t generation, std::size_t dimension)
+      : key_(key), generation_(generation), n_blocks_(std::min(blocks_of_trial(dimension), most_blocks)) {}
 
-// the first blocks of every member's stream, all at once: the numbers are those that each would compute by itself
-std::vector<std::uint32_t> first_blocks(RandomKey key, std::uint32_t generation, std::size_t n_members,
-                                        std::size_t n_blocks) {
-  std::vector<std::uint32_t> words(4 * n_members * n_blocks);
-  auto const counter = RandomStream::first_counter(key, generation, 0);
-  auto const philox_key = RandomStream::philox_key(key);
-  kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, n_members, n_blocks,
-                         words.data());
-  return words;
-}
+  std::size_t members_at_once() const { return words_.size() / n_words(); }
+
+  void compute(std::size_t first_member, std::size_t n_members) {
+    first_member_ = first_member;
+    auto const counter = RandomStream::first_counter(key_, generation_, static_cast<std::uint32_t>(first_member));
+    auto const philox_key = RandomStream::philox_key(key_);
+    kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, n_members, n_blocks_,
+                           words_.data());
+  }
+
+  RandomStream stream(std::size_t member) const {
+    return {key_, generation_, static_cast<std::uint32_t>(member),
+            std::span(words_).subspan((member - first_member_) * n_words(), n_words())};
+  }
+
+ private:
+  static constexpr std::size_t members_side_by_side = 8;  // of the kernel
+  static constexpr std::size_t most_blocks = 64;          // longer trials draw the rest one by one
+
+  // of two draws each: three members, j_rand, one draw per parameter; random repairs draw behind them
+  static std::size_t blocks_of_trial(std::size_t dimension) { return (dimension + 5) / 2; }
+  std::size_t n_words() const { return 4 * n_blocks_; }
+
+  RandomKey key_;
+  std::uint32_t generation_;
+  std::size_t n_blocks_;
+  std::size_t first_member_ = 0;
+  std::array<std::uint32_t, 4 * most_blocks * members_side_by_side> words_;
+};
 
 }  // namespace
 
@@ -48,13 +72,14 @@ void GenerationalSearch::ask(MatrixView<double> candidates) const {
     fill_initial_population(key_, bounds_, candidates);
     return;
   }
-  auto const generation = static_cast<std::uint32_t>(progress_.generation + 1);
-  std::size_t const n_words = 4 * likely_blocks(dimension());
-  auto const blocks = first_blocks(key_, generation, candidates.rows(), likely_blocks(dimension()));
-  for (std::size_t i = 0; i < candidates.rows(); ++i) {
-    RandomStream random(key_, generation, static_cast<std::uint32_t>(i),
-                        std::span(blocks).subspan(i * n_words, n_words));
-    make_trial(i, random, candidates.row(i));
+  StreamsAhead streams(key_, static_cast<std::uint32_t>(progress_.generation + 1), dimension());
+  for (std::size_t first = 0; first < candidates.rows(); first += streams.members_at_once()) {
+    std::size_t const last = std::min(first + streams.members_at_once(), candidates.rows());
+    streams.compute(first, last - first);
+    for (std::size_t i = first; i < last; ++i) {
+      RandomStream random = streams.stream(i);
+      make_trial(i, random, candidates.row(i));
+    }
   }
 }
 
@@ -76,13 +101,21 @@ void GenerationalSearch::keep_initial_population(MatrixView<double const> asked,
   fill_initial_population(key_, bounds_, population_.members());
   std::copy_n(asked.data(), asked.rows() * asked.columns(), population_.numbers.begin());
   std::transform(fitness.begin(), fitness.end(), population_.fitness.begin(), ranked_fitness);
+  forget_generation_before();
+}
+
+void GenerationalSearch::forget_generation_before() {
+  before_ = population_;
+  winners_.clear();
+  winners_.reserve(population_.size());
 }
 
 void GenerationalSearch::select_and_learn(MatrixView<double const> asked, std::span<double const> fitness) {
-  before_ = population_;
-  select(asked, fitness, population_);
+  auto const members = std::as_const(population_).members();
+  for (std::size_t const i : winners_) before_.set_member(i, members.row(i), population_.fitness[i]);
+  select(asked, fitness, population_, winners_);
   ++progress_.generation;
-  learn(before_, population_, progress_);
+  learn({before_, population_, winners_}, progress_);
 }
 
 void GenerationalSearch::record_best() {
@@ -121,6 +154,7 @@ void GenerationalSearch::restore(OptimiserState const& state) {
   progress_ = progress_of(progress, best);
   population_.numbers = population;
   population_.fitness = fitness;
+  forget_generation_before();
 }
 
 }  // namespace torquescope

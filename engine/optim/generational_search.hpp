@@ -10,11 +10,19 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/optim/optimiser.hpp"
 #include "engine/optim/population.hpp"
 
 namespace torquescope {
+
+// one selection: the population on both sides of it, and the members whose trials won, ascending
+struct Selected {
+  Population const& before;
+  Population const& after;
+  std::span<std::size_t const> winners;
+};
 
 class GenerationalSearch : public Optimiser {
  public:
@@ -37,7 +45,7 @@ class GenerationalSearch : public Optimiser {
 
   virtual void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const = 0;
   // after selection: writes F, CR, PC, FC of the generation just told where the kind has them, and adapts
-  virtual void learn(Population const& before, Population const& after, Progress& progress) = 0;
+  virtual void learn(Selected const& step, Progress& progress) = 0;
   virtual void save_more(OptimiserState&) const {}
   // checks all its entries before it changes anything
   virtual void restore_more(OptimiserState const&) {}
@@ -46,13 +54,15 @@ class GenerationalSearch : public Optimiser {
   bool begun() const { return progress_.evaluations > 0; }
   void keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness);
   void select_and_learn(MatrixView<double const> asked, std::span<double const> fitness);
+  void forget_generation_before();
   void record_best();
 
   std::string kind_;
   Bounds bounds_;
   RandomKey key_;
   Population population_;
-  Population before_;  // the generation before; kept to save allocations
+  Population before_;                 // the generation before: differs from population_ in the winners
+  std::vector<std::size_t> winners_;  // of the last generation
   Progress progress_;
 };
 

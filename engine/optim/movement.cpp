@@ -14,12 +14,15 @@ std::vector<std::string> const& movement_norm_words() {
 
 namespace {
 
-double parameter_change(Population const& before, Population const& after, Bounds const& bounds, MovementNorm norm) {
+double parameter_change(Population const& before, Population const& after, std::span<std::size_t const> winners,
+                        Bounds const& bounds, MovementNorm norm) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::size_t const i : winners) {
+    auto const from = before.members().row(i);
+    auto const to = after.members().row(i);
     for (std::size_t j = 0; j < before.dimension; ++j) {
-      double const unit = norm == MovementNorm::raw ? 1.0 : bounds.upper[j] - bounds.lower[j];
-      double const step = (after.members()(i, j) - before.members()(i, j)) / unit;
+      double step = to[j] - from[j];
+      if (norm == MovementNorm::relative) step /= bounds.upper[j] - bounds.lower[j];
       sum += step * step;
     }
   }
@@ -30,9 +33,9 @@ bool both_finite(Population const& before, Population const& after, std::size_t 
   return std::isfinite(before.fitness[i]) && std::isfinite(after.fitness[i]);
 }
 
-double raw_function_change(Population const& before, Population const& after) {
+double raw_function_change(Population const& before, Population const& after, std::span<std::size_t const> winners) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::size_t const i : winners) {
     if (!both_finite(before, after, i)) continue;
     double const step = after.fitness[i] - before.fitness[i];
     sum += step * step;
@@ -85,12 +88,13 @@ double relative_function_change(Population const& before, Population const& afte
 
 }  // namespace
 
-Movement movement_between(Population const& before, Population const& after, Bounds const& bounds, MovementNorm norm) {
+Movement movement_between(Population const& before, Population const& after, std::span<std::size_t const> winners,
+                          Bounds const& bounds, MovementNorm norm) {
   TORQUESCOPE_EXPECT(before.size() == after.size() && before.size() >= 1);
   TORQUESCOPE_EXPECT(before.dimension == after.dimension && before.dimension == bounds.dimension());
   double const FC =
-      norm == MovementNorm::raw ? raw_function_change(before, after) : relative_function_change(before, after);
-  return {parameter_change(before, after, bounds, norm), FC};
+      norm == MovementNorm::raw ? raw_function_change(before, after, winners) : relative_function_change(before, after);
+  return {parameter_change(before, after, winners, bounds, norm), FC};
 }
 
 }  // namespace torquescope

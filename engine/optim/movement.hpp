@@ -9,6 +9,7 @@
 //            Members that had no finite fitness before or after have no fitness change: they count 0 in FC.
 // Shapes     members x dimension; fitness: one number per member
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct Movement {
   double FC = 0.0;
 };
 
-Movement movement_between(Population const& before, Population const& after, Bounds const& bounds, MovementNorm norm);
+// winners: the members whose trials won, ascending; the others are the same before and after, and add exactly 0
+Movement movement_between(Population const& before, Population const& after, std::span<std::size_t const> winners,
+                          Bounds const& bounds, MovementNorm norm);
 
 }  // namespace torquescope

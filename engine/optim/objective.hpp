@@ -32,6 +32,8 @@ class Objective {
   virtual ~Objective() = default;
   virtual Bounds const& bounds() const = 0;
   std::size_t dimension() const { return bounds().dimension(); }
+  // what one call of evaluate() reads from beginning to end, however many candidates it has: the recording; 0 for none
+  virtual std::size_t bytes_swept() const { return 0; }
   virtual void evaluate(MatrixView<double const> candidates, std::span<double> fitness, Workspace& workspace) const = 0;
 };
 

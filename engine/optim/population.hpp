@@ -6,6 +6,7 @@
 // Shapes     members x dimension, row-major; fitness: one number per member, +inf where there is no finite one
 // Threads    free functions on the caller's numbers
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,6 +24,11 @@ struct Population {
   std::size_t size() const { return fitness.size(); }
   MatrixView<double> members() { return {numbers.data(), size(), dimension}; }
   MatrixView<double const> members() const { return {numbers.data(), size(), dimension}; }
+
+  void set_member(std::size_t i, std::span<double const> parameters, double its_fitness) {
+    std::copy(parameters.begin(), parameters.end(), members().row(i).begin());
+    fitness[i] = its_fitness;
+  }
 
   std::size_t dimension = 0;
   std::vector<double> numbers;

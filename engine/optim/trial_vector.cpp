@@ -5,7 +5,7 @@
 
 namespace torquescope {
 
-void make_rand_1_bin_trial(MatrixView<double const> members, std::size_t target, TrialSettings const& settings,
+void make_rand_1_bin_trial(MatrixView<double const> const& members, std::size_t target, TrialSettings const& settings,
                            Bounds const& bounds, RandomStream& random, std::span<double> trial) {
   auto const picked = pick_three_others(random, members.rows(), target);
   mutate_rand_1(members, picked, settings.F, trial);

@@ -19,7 +19,7 @@ struct TrialSettings {
   BoundRepair repair = BoundRepair::midpoint;
 };
 
-void make_rand_1_bin_trial(MatrixView<double const> members, std::size_t target, TrialSettings const& settings,
+void make_rand_1_bin_trial(MatrixView<double const> const& members, std::size_t target, TrialSettings const& settings,
                            Bounds const& bounds, RandomStream& random, std::span<double> trial);
 
 }  // namespace torquescope

@@ -24,6 +24,8 @@ class LevelledRecording {
   static std::optional<LevelledRecording> make(Eigen::MatrixXd const& phi, Eigen::VectorXd const& tau);
 
   kernels::LevelledTiles tiles() const;
+  // of all tiles
+  std::size_t bytes() const { return (varying_.size() + rest_.size()) * sizeof(double); }
 
  private:
   LevelledRecording() = default;

@@ -29,6 +29,9 @@ class ResidualObjective final : public Objective {
   ResidualObjective& operator=(ResidualObjective const&) = delete;
 
   Bounds const& bounds() const override { return bounds_; }
+  std::size_t bytes_swept() const override {
+    return levelled_ ? levelled_->bytes() : packed_.size() * sizeof(packed_.front());
+  }
   void evaluate(MatrixView<double const> candidates, std::span<double> fitness, Workspace& workspace) const override;
 
  private:

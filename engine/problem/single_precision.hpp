@@ -26,6 +26,7 @@ class SinglePrecisionObjective final : public Objective {
   SinglePrecisionObjective& operator=(SinglePrecisionObjective const&) = delete;
 
   Bounds const& bounds() const override { return bounds_; }
+  std::size_t bytes_swept() const override { return packed_.size() * sizeof(packed_.front()); }
   void evaluate(MatrixView<double const> candidates, std::span<double> fitness, Workspace& workspace) const override;
 
  private:

@@ -129,11 +129,14 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       study.options.stop_requested,
   };
-  auto const run = [&](std::size_t index, int team) {
-    RandomKey const key{static_cast<std::uint64_t>(parts.experiment.seed), static_cast<std::uint32_t>(index)};
-    auto const optimiser = plan.make_optimiser(parts.box, key);
+  auto const run = [&](std::size_t first, std::size_t count, int team) {
+    std::vector<std::unique_ptr<Optimiser>> searches;
+    for (std::size_t index = first; index < first + count; ++index) {
+      RandomKey const key{static_cast<std::uint64_t>(parts.experiment.seed), static_cast<std::uint32_t>(index)};
+      searches.push_back(plan.make_optimiser(parts.box, key));
+    }
     std::vector<Workspace> workspaces;
-    return optimise(*optimiser, setting, team, workspaces);
+    return optimise(searches, setting, team, workspaces);
   };
   RunResults results;
   std::vector<double> PC, FC;
@@ -146,7 +149,8 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     FC.insert(FC.end(), history.FC.begin(), history.FC.end());
     progress.count_run();
   };
-  schedule_runs(shape.runs, study.options.threads.count, run, commit);
+  schedule_runs(shape.runs, study.options.threads.count, runs_side_by_side(*objective, plan.stop_rules, shape.members),
+                run, commit);
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;

@@ -1,12 +1,15 @@
 #pragma once
-// One run of a population method: ask, evaluate, tell, record, until a rule says stop.
+// Runs of a population method: ask, evaluate, tell, record, until a rule says stop. Several runs of one estimator go side
+// by side, generation by generation, and share one sweep over the recording; each ends when its own rules say so.
 //
-// Bits       the history depends on the optimiser's key alone, not on the size of the team
-// Errors     Error 75 when stop_requested() says so between two generations
-// Threads    one run per call; a team of more than one splits each batch into blocks of candidates
+// Bits       each history depends on its optimiser's key alone: not on its neighbours, nor on the size of the team
+// Errors     Error 75 when stop_requested() says so between two generations; an exception of one run ends them all
+// Threads    all runs of a call in the caller's thread; a team of more than one splits each batch into blocks of candidates
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,10 +26,16 @@ struct SearchSetting {
   StopRules const& rules;
   double fitness_to_mse = 1.0;                                        // 1 for MSE, 1/n for SSE
   std::function<double(std::span<double const>)> gap_to_floor;        // MSE above the OLS floor, without cancellation
-  std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a generation, any thread
+  std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a sweep, any thread
   std::function<bool()> stop_requested{};
 };
 
-RunHistory optimise(Optimiser& optimiser, SearchSetting const& setting, int team, std::vector<Workspace>& workspaces);
+// one history per search, in their order
+std::vector<RunHistory> optimise(std::span<std::unique_ptr<Optimiser> const> searches, SearchSetting const& setting,
+                                 int team, std::vector<Workspace>& workspaces);
+
+// how many runs of this population size should go side by side, at most (run_scheduler.hpp spreads them): more than one
+// where the recording does not stay in the cache. One where a rule counts seconds: they are of one run alone.
+std::size_t runs_side_by_side(Objective const& objective, StopRules const& rules, std::size_t batch_size);
 
 }  // namespace torquescope

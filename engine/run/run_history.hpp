@@ -14,7 +14,7 @@
 namespace torquescope {
 
 struct RunHistory {
-  // one entry per generation told, in their order; memory grows with the generations that really were
+  // one entry per generation told, in their order
   std::vector<double> population;
   std::vector<double> fitness;
   std::vector<double> F, CR, PC, FC;
@@ -25,6 +25,14 @@ struct RunHistory {
   std::vector<double> parameters;  // the best candidate
   std::string stop_reason;
   std::int64_t nonfinite = 0;  // candidates without finite fitness
+
+  // room for what pad() will fill: a run touches the part that its generations really need
+  void reserve(std::size_t entries, std::size_t members, std::size_t dimension) {
+    population.reserve(entries * members * dimension);
+    fitness.reserve(entries * members);
+    for (auto* list : {&F, &CR, &PC, &FC, &best, &gap}) list->reserve(entries);
+    evaluations.reserve(entries);
+  }
 
   // fills up to `entries` generations of `members` x `dimension`: all runs of an estimator are stored at one size
   void pad(std::size_t entries, std::size_t members, std::size_t dimension) {

@@ -1,15 +1,30 @@
 #include "engine/store/content_digest.hpp"
 
 #include <algorithm>
-#include <map>
 
-#include "engine/base/digest.hpp"
+#include "engine/base/contract.hpp"
 
 namespace torquescope {
 namespace {
 
 bool is_about_the_file(std::string const& path, std::string const& attribute) {
   return path == "/" && (attribute == complete_key || attribute == content_digest_key);
+}
+
+// host, times, threads
+bool is_volatile(std::string const& path) { return path == "/provenance" || path.starts_with("/provenance/"); }
+
+std::size_t bytes_of_row(h5::Shape const& shape) {
+  std::size_t bytes = sizeof(double);
+  for (std::size_t i = 1; i < shape.size(); ++i) bytes *= shape[i];
+  return bytes;
+}
+
+std::size_t blocks_of(h5::Element element, h5::Shape const& shape) {
+  if (std::find(shape.begin(), shape.end(), 0U) != shape.end()) return 0;
+  std::size_t const rows = shape.empty() ? 1 : shape[0];
+  std::size_t const step = rows_of_block(element, shape);
+  return (rows + step - 1) / step;
 }
 
 void add_count(Digest& digest, std::uint64_t count) { digest.bytes(&count, sizeof(count)); }
@@ -20,8 +35,8 @@ void add_texts(Digest& digest, std::span<std::string const> texts) {
 
 struct AddAttribute {
   Digest& digest;
-  void operator()(bool) const {}                                       // never read: stored as a whole number
-  void operator()(std::map<std::string, std::string> const&) const {}  // never read: stored as texts
+  void operator()(bool) const { TORQUESCOPE_EXPECT(false); }                                       // as_stored()
+  void operator()(std::map<std::string, std::string> const&) const { TORQUESCOPE_EXPECT(false); }  // as_stored()
   void operator()(std::int64_t value) const { digest.text("whole").bytes(&value, sizeof(value)); }
   void operator()(double value) const { digest.text("number").bytes(&value, sizeof(value)); }
   void operator()(std::string const& value) const { digest.text("text").text(value); }
@@ -35,68 +50,45 @@ struct AddAttribute {
   }
 };
 
-void add_attributes(Digest& digest, h5::Handle const& object, std::string const& path) {
-  for (auto const& name : h5::attribute_names(object)) {
-    if (is_about_the_file(path, name)) continue;
-    digest.text("attribute").text(name);
-    if (auto const value = h5::read_attribute(object, name)) std::visit(AddAttribute{digest}, *value);
-  }
-}
-
-// whole chunks at a time, so that each is read and checked once; few enough to stay in the processor's cache
+// whole blocks, and several chunks so that few are read twice
 std::size_t rows_at_once(h5::DatasetInfo const& info) {
-  constexpr std::size_t block_bytes = std::size_t{256} << 10;
-  std::size_t const value_bytes = std::max(info.text_size, sizeof(double));
-  std::size_t const row_bytes = std::max<std::size_t>(1, info.values_per_row()) * value_bytes;
-  std::size_t const chunk_rows = info.chunk.empty() ? 1 : info.chunk[0];
-  return std::max<std::size_t>(1, block_bytes / row_bytes / chunk_rows) * chunk_rows;
+  constexpr std::size_t most_bytes = std::size_t{4} << 20;
+  std::size_t const block_rows = rows_of_block(info.element, info.shape);
+  return std::max<std::size_t>(1, most_bytes / bytes_of_row(info.shape) / block_rows) * block_rows;
 }
 
-template <class Number>
-void add_rows(Digest& digest, h5::Handle const& dataset, h5::DatasetInfo const& info, std::size_t first,
-              std::size_t count, std::vector<Number>& buffer) {
-  buffer.resize(count * info.values_per_row());
-  h5::read_rows(dataset, info, first, count, buffer.data());
-  digest.bytes(buffer.data(), buffer.size() * sizeof(Number));
-}
-
-void add_dataset(Digest& digest, h5::Handle const& dataset) {
-  static char const* const element_names[] = {"number", "whole", "text"};
+void add_dataset(ContentDigest& digest, h5::Handle const& dataset, std::string const& path) {
   h5::DatasetInfo const info = h5::describe(dataset);
-  digest.text("dataset").text(element_names[static_cast<int>(info.element)]);
-  add_count(digest, info.shape.size());
-  for (std::size_t extent : info.shape) add_count(digest, extent);
+  digest.dataset(path, info.element, info.shape);
+  if (blocks_of(info.element, info.shape) == 0) return;
+  if (info.element == h5::Element::text) return digest.texts(path, h5::read_texts(dataset, info, 0, info.rows()));
 
-  std::vector<double> numbers;
-  std::vector<std::int64_t> whole_numbers;
+  std::size_t const row_bytes = bytes_of_row(info.shape);
+  std::size_t const block_rows = rows_of_block(info.element, info.shape);
   std::size_t const step = rows_at_once(info);
+  std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
   for (std::size_t first = 0; first < info.rows(); first += step) {
-    std::size_t const count = std::min(step, info.rows() - first);
-    switch (info.element) {
-      case h5::Element::number:
-        add_rows(digest, dataset, info, first, count, numbers);
-        break;
-      case h5::Element::whole_number:
-        add_rows(digest, dataset, info, first, count, whole_numbers);
-        break;
-      case h5::Element::text:
-        add_texts(digest, h5::read_texts(dataset, info, first, count));
-        break;
-    }
+    std::size_t const end = std::min(first + step, info.rows());
+    h5::read_rows(dataset, info, first, end - first, buffer.data());
+    for (std::size_t row = first; row < end; row += block_rows)
+      digest.block(path, row / block_rows, buffer.data() + (row - first) * info.values_per_row(),
+                   std::min(block_rows, end - row) * row_bytes);
   }
 }
 
-void add_object(Digest& digest, h5::Handle const& file, std::string const& path) {
-  if (path == "/provenance") return;
+void add_object(ContentDigest& digest, h5::Handle const& file, std::string const& path) {
+  if (is_volatile(path)) return;
   std::vector<std::string> children;
   try {
     h5::Handle const object = h5::open_object(file, path);
-    digest.text("object").text(path);
-    add_attributes(digest, object, path);
-    if (h5::is_group(object))
+    for (auto const& name : h5::attribute_names(object))
+      if (auto const value = h5::read_attribute(object, name)) digest.attribute(path, name, *value);
+    if (h5::is_group(object)) {
+      digest.group(path);
       children = h5::child_names(object);
-    else
-      add_dataset(digest, object);
+    } else {
+      add_dataset(digest, object, path);
+    }
   } catch (h5::Failure const& failure) {
     throw h5::Failure(failure.what(), path);
   }
@@ -105,8 +97,69 @@ void add_object(Digest& digest, h5::Handle const& file, std::string const& path)
 
 }  // namespace
 
-std::string content_digest(h5::Handle const& file) {
+std::size_t rows_of_block(h5::Element element, h5::Shape const& shape) {
+  std::size_t const rows = shape.empty() ? 1 : std::max<std::size_t>(1, shape[0]);
+  if (element == h5::Element::text) return rows;
+  return std::max<std::size_t>(1, digest_block_bytes / std::max(sizeof(double), bytes_of_row(shape)));
+}
+
+ContentDigest::Object& ContentDigest::object(std::string const& path) {
+  auto const known = objects_.find(path);
+  if (known != objects_.end()) return known->second;
+  objects_.try_emplace("/");
+  for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1))
+    objects_.try_emplace(path.substr(0, slash));
+  return objects_[path];
+}
+
+void ContentDigest::group(std::string const& path) { object(path); }
+
+void ContentDigest::attribute(std::string const& path, std::string const& name, OptionValue const& value) {
+  if (is_about_the_file(path, name)) return;
   Digest digest;
+  std::visit(AddAttribute{digest}, value);
+  object(path).attributes[name] = digest.raw();
+}
+
+void ContentDigest::dataset(std::string const& path, h5::Element element, h5::Shape const& shape) {
+  static char const* const names[] = {"number", "whole", "text"};
+  Object& dataset = object(path);
+  dataset.element = names[static_cast<int>(element)];
+  dataset.shape = shape;
+  dataset.blocks.resize(blocks_of(element, shape));
+}
+
+void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
+  Object& dataset = object(path);
+  TORQUESCOPE_EXPECT(index < dataset.blocks.size());
+  dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+}
+
+void ContentDigest::texts(std::string const& path, std::span<std::string const> texts) {
+  Object& dataset = object(path);
+  TORQUESCOPE_EXPECT(dataset.blocks.size() == 1);
+  Digest digest;
+  add_texts(digest, texts);
+  dataset.blocks[0] = digest.raw();
+}
+
+std::string ContentDigest::hex() const {
+  Digest digest;
+  for (auto const& [path, object] : objects_) {
+    if (is_volatile(path)) continue;
+    digest.text("object").text(path);
+    for (auto const& [name, value] : object.attributes)
+      digest.text("attribute").text(name).bytes(value.data(), value.size());
+    if (object.element.empty()) continue;
+    add_count(digest.text("dataset").text(object.element), object.shape.size());
+    for (std::size_t extent : object.shape) add_count(digest, extent);
+    for (auto const& block : object.blocks) digest.bytes(block.data(), block.size());
+  }
+  return digest.hex();
+}
+
+std::string content_digest(h5::Handle const& file) {
+  ContentDigest digest;
   add_object(digest, file, "/");
   return digest.hex();
 }

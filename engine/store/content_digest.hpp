@@ -1,15 +1,23 @@
 #pragma once
 // SHA-256 of what a result file says, whatever its bytes are: the same for gzip and plain storage, any number of
-// threads.
+// threads, any order in which runs were written.
 //
-// Covers     every object in the order of its path: kind, attributes in the order of their names (type, shape, values)
-// and,
-//            of a dataset, element type, shape and values. Texts count without padding.
-// Errors     h5::Failure with the path of the object that cannot be read (a checksum that does not match)
-// Memory     8 MiB of values at a time (or one row of a dataset, if that is more)
+// Definition RESULT_FORMAT.md, "Digest": a digest over the digests of attributes and of blocks of values, in the order
+//            of their addresses in the file. A block is some rows of a dataset, so the writer can digest each while its
+//            bytes are still in the processor's cache and nothing is read back.
+// Covers     every object but /provenance: path, attributes (type, shape, values), of a dataset element type, shape
+//            and values. Texts count without padding.
+// Errors     content_digest(): h5::Failure with the path of the object that cannot be read (a checksum that does not
+//            match)
+// Memory     32 bytes per block and attribute; content_digest(): 4 MiB of values (or one row of a dataset, if more)
+// Threads    one at a time
 
+#include <map>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "engine/base/digest.hpp"
 #include "engine/store/h5.hpp"
 
 namespace torquescope {
@@ -18,7 +26,36 @@ namespace torquescope {
 inline constexpr char complete_key[] = "complete";
 inline constexpr char content_digest_key[] = "content_sha256";
 
-// everything but /provenance (host, times, threads) and the two attributes above
+// rows of a dataset that are digested together: as many as fit into these bytes, at least one; texts: all of them
+inline constexpr std::size_t digest_block_bytes = std::size_t{64} << 10;
+std::size_t rows_of_block(h5::Element element, h5::Shape const& shape);
+
+class ContentDigest {
+ public:
+  void group(std::string const& path);
+  // value: as the file gives it back (h5::as_stored); a second one replaces the first
+  void attribute(std::string const& path, std::string const& name, OptionValue const& value);
+  void dataset(std::string const& path, h5::Element element, h5::Shape const& shape);
+  // row-major values of the rows of one block
+  void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
+  void texts(std::string const& path, std::span<std::string const> texts);
+
+  std::string hex() const;
+
+ private:
+  struct Object {
+    std::map<std::string, Sha256> attributes;
+    std::string element;  // "" for a group
+    h5::Shape shape;
+    std::vector<Sha256> blocks;
+  };
+
+  Object& object(std::string const& path);  // with all the groups that lead to it
+
+  std::map<std::string, Object> objects_;
+};
+
+// of a file, all of which is read
 std::string content_digest(h5::Handle const& file);
 
 }  // namespace torquescope

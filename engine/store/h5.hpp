@@ -87,21 +87,25 @@ struct PaddedTexts {
   std::string bytes;
 };
 
+// h5.cpp
 Handle create_file(TempFile& file);
 Handle open_file(std::filesystem::path const& name);
 bool is_hdf5(std::filesystem::path const& name);
 void flush(Handle const& file);
 
-// "/runs/fade": steps from the root; "/" is the root itself
+// h5_group.cpp. "/runs/fade": steps from the root; "/" is the root itself
 bool exists(Handle const& file, std::string const& path);
 Handle open_object(Handle const& file, std::string const& path);
 Handle make_groups(Handle const& file, std::string const& path);
 bool is_group(Handle const& object);
 std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 
+// h5_dataset.cpp
 Handle create_dataset(Handle const& group, std::string const& name, DatasetPlan const& plan);
 // refuses types, filters, storage and sizes that results never have, before anything is allocated
 DatasetInfo describe(Handle const& dataset);
+// one whole chunk as it shall lie on the disk, its filters already applied (chunk_encoder.hpp); first: where it begins
+void write_chunk(Handle const& dataset, Shape const& first, std::span<std::byte const> bytes);
 // rows [first, first + count) of the first dimension; `values` holds count * values_per_row elements (texts: padded
 // bytes)
 void write_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first, std::size_t count,
@@ -110,13 +114,16 @@ void read_rows(Handle const& dataset, DatasetInfo const& info, std::size_t first
 std::vector<std::string> read_texts(Handle const& dataset, DatasetInfo const& info, std::size_t first,
                                     std::size_t count);
 
-// h5_attribute.cpp: bool becomes 0 or 1, a table of texts becomes a list "key = value"
+// h5_attribute.cpp
+// what reading gives back: bool becomes 0 or 1, a table of texts a list "key = value", NUL at the end of a text is lost
+OptionValue as_stored(OptionValue const& value);
 void write_attribute(Handle const& object, std::string const& name, OptionValue const& value);
 // int64, double, text, numbers or texts; nothing when there is no such attribute
 std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name);
 std::vector<std::string> attribute_names(Handle const& object);  // sorted by bytes
 
 // for h5*.cpp
+Handle property_list(std::int64_t kind);
 Handle text_type(std::size_t size);
 // throws Failure with HDF5's innermost reason
 [[noreturn]] void fail(std::string const& doing);

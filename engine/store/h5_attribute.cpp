@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/contract.hpp"
 #include "engine/store/h5.hpp"
 
 namespace torquescope::h5 {
@@ -28,7 +29,6 @@ struct AttributeWriter {
     if (count > 0) checked(H5Awrite(attribute.id(), memory_type, values), "write an attribute");
   }
 
-  void operator()(bool value) const { (*this)(static_cast<std::int64_t>(value)); }
   void operator()(std::int64_t value) const { write(H5T_STD_I64LE, H5T_NATIVE_INT64, scalar_space(), &value, 1); }
   void operator()(double value) const { write(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, scalar_space(), &value, 1); }
   void operator()(std::string const& value) const {
@@ -44,17 +44,35 @@ struct AttributeWriter {
     Handle const type = text_type(padded.size_of_one);
     write(type.id(), type.id(), list_space(values.size()), padded.bytes.data(), values.size());
   }
-  void operator()(std::map<std::string, std::string> const& values) const {
+  // as_stored() leaves neither
+  void operator()(bool) const { TORQUESCOPE_EXPECT(false); }
+  void operator()(std::map<std::string, std::string> const&) const { TORQUESCOPE_EXPECT(false); }
+};
+
+struct AsStored {
+  OptionValue operator()(bool value) const { return static_cast<std::int64_t>(value); }
+  OptionValue operator()(std::string value) const { return value.substr(0, value.find_last_not_of('\0') + 1); }
+  OptionValue operator()(std::vector<std::string> values) const {
+    for (auto& value : values) value.erase(value.find_last_not_of('\0') + 1);
+    return values;
+  }
+  OptionValue operator()(std::map<std::string, std::string> const& values) const {
     std::vector<std::string> lines;
     for (auto const& [key, value] : values) lines.push_back(key + " = " + value);
-    (*this)(lines);
+    return (*this)(std::move(lines));
+  }
+  template <class Value>
+  OptionValue operator()(Value const& value) const {
+    return value;
   }
 };
 
 }  // namespace
 
+OptionValue as_stored(OptionValue const& value) { return std::visit(AsStored{}, value); }
+
 void write_attribute(Handle const& object, std::string const& name, OptionValue const& value) {
-  std::visit(AttributeWriter{object.id(), name.c_str()}, value);
+  std::visit(AttributeWriter{object.id(), name.c_str()}, as_stored(value));
 }
 
 std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name) {

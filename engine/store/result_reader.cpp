@@ -155,6 +155,10 @@ std::vector<std::string> ResultReader::attribute_names(std::string const& object
 std::string ResultReader::content_sha256() const { return attribute<std::string>("/", content_digest_key); }
 
 std::string ResultReader::verify() const {
+  auto const format = attribute<std::int64_t>("/", "format");
+  if (format != result_format)
+    throw refused(fmt::format("{} has format {}: its digest was taken in another way", name_.string(), format),
+                  "run the job again to get a file whose content can be verified");
   std::string found = guarded("/", [&] { return content_digest(file_); });
   if (found != content_sha256()) throw damaged(name_, "", "its content does not match its sha256");
   return found;

@@ -1,6 +1,7 @@
 #include "engine/store/result_writer.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -9,7 +10,6 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/version.hpp"
 #include "engine/store/chunking.hpp"
-#include "engine/store/content_digest.hpp"
 
 namespace torquescope {
 namespace {
@@ -17,6 +17,11 @@ namespace {
 [[maybe_unused]] std::size_t count_of(h5::Shape const& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
+
+// a block of small runs is one chunk: it is digested and written once
+static_assert(digest_block_bytes == shared_chunk_bytes);
+
+constexpr double absent_number = std::numeric_limits<double>::quiet_NaN();
 
 bool has_values(h5::Shape const& shape) { return std::find(shape.begin(), shape.end(), 0U) == shape.end(); }
 
@@ -59,7 +64,7 @@ void ResultWriter::guarded(std::string const& path, Write&& write) {
 }
 
 ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
-    : options_(options), temp_(final_name) {
+    : options_(options), chunks_(options.gzip), temp_(final_name) {
   try {
     file_ = h5::create_file(temp_);
   } catch (h5::Failure const& failure) {
@@ -72,13 +77,20 @@ ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriter
 
 ResultWriter::~ResultWriter() = default;
 
+void ResultWriter::add_attribute(h5::Handle const& object, std::string const& path, std::string const& name,
+                                 OptionValue const& value) {
+  h5::write_attribute(object, name, value);
+  digest_.attribute(path, name, h5::as_stored(value));
+}
+
 h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& plan, Note const& note) {
   TORQUESCOPE_EXPECT(!note.unit.empty() && !note.long_name.empty());
   auto const [group, name] = split(path);
   h5::Handle dataset = h5::create_dataset(h5::make_groups(file_, group), name, plan);
-  h5::write_attribute(dataset, "unit", note.unit);
-  h5::write_attribute(dataset, "long_name", note.long_name);
-  if (!note.source.empty()) h5::write_attribute(dataset, "source", note.source);
+  digest_.dataset(path, plan.element, plan.shape);
+  add_attribute(dataset, path, "unit", note.unit);
+  add_attribute(dataset, path, "long_name", note.long_name);
+  if (!note.source.empty()) add_attribute(dataset, path, "source", note.source);
   return dataset;
 }
 
@@ -90,20 +102,35 @@ void ResultWriter::write_dataset(std::string const& path, h5::DatasetPlan const&
   guarded(path, [&] {
     h5::Handle const dataset = create(path, complete, note);
     h5::DatasetInfo const info{plan.element, plan.shape, complete.chunk, plan.text_size};
-    h5::write_rows(dataset, info, 0, info.rows(), values);
+    if (info.chunk.empty())
+      h5::write_rows(dataset, info, 0, info.rows(), values);
+    else
+      chunks_.write(dataset, info, 0, info.rows(), values);
   });
+}
+
+// of an array that is there as a whole
+void ResultWriter::digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
+                                std::span<std::byte const> values) {
+  if (values.empty()) return;
+  std::size_t const rows = shape.empty() ? 1 : shape[0];
+  std::size_t const block_bytes = rows_of_block(element, shape) * (values.size() / rows);
+  for (std::size_t begin = 0; begin < values.size(); begin += block_bytes)
+    digest_.block(path, begin / block_bytes, values.data() + begin, std::min(block_bytes, values.size() - begin));
 }
 
 void ResultWriter::numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values,
                            Note const& note) {
   TORQUESCOPE_EXPECT(values.size() == count_of(shape));
   write_dataset(path, {.element = h5::Element::number, .shape = shape, .chunk = {}}, values.data(), note);
+  digest_array(path, h5::Element::number, shape, std::as_bytes(values));
 }
 
 void ResultWriter::whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
                                  Note const& note) {
   TORQUESCOPE_EXPECT(values.size() == count_of(shape));
   write_dataset(path, {.element = h5::Element::whole_number, .shape = shape, .chunk = {}}, values.data(), note);
+  digest_array(path, h5::Element::whole_number, shape, std::as_bytes(values));
 }
 
 void ResultWriter::texts(std::string const& path, std::span<std::string const> values, Note const& note) {
@@ -111,13 +138,14 @@ void ResultWriter::texts(std::string const& path, std::span<std::string const> v
   write_dataset(path,
                 {.element = h5::Element::text, .shape = {values.size()}, .chunk = {}, .text_size = padded.size_of_one},
                 padded.bytes.data(), note);
+  if (!values.empty()) digest_.texts(path, padded.texts());
 }
 
 void ResultWriter::attribute(std::string const& object_path, std::string const& name, OptionValue const& value) {
   guarded(object_path, [&] {
     h5::Handle const object =
         h5::exists(file_, object_path) ? h5::open_object(file_, object_path) : h5::make_groups(file_, object_path);
-    h5::write_attribute(object, name, value);
+    add_attribute(object, object_path, name, value);
   });
 }
 
@@ -131,38 +159,40 @@ void ResultWriter::declare_runs(std::string const& path, std::size_t runs, h5::S
   plan.shape.insert(plan.shape.end(), shape_of_one_run.begin(), shape_of_one_run.end());
   if (has_values(plan.shape)) plan.chunk = chunk_of_runs(plan.shape, bytes_per_value(plan));
   guarded(path, [&] {
-    runs_[path] = {create(path, plan, note), {plan.element, plan.shape, plan.chunk, 0}, std::vector<bool>(runs)};
+    h5::DatasetInfo const info{plan.element, plan.shape, plan.chunk, 0};
+    std::size_t const bytes_of_run = info.values_per_row() * sizeof(double);
+    // blocks of the digest are chunks too, unless a run has several of those
+    RunBlocks blocks(has_values(plan.shape) ? runs : 0, bytes_of_run, rows_of_block(plan.element, plan.shape),
+                     values == RunValues::number ? std::bit_cast<std::uint64_t>(absent_number) : 0);
+    runs_.emplace(path, RunDataset{create(path, plan, note), info, std::move(blocks)});
   });
 }
 
-void ResultWriter::write_row(RunDataset& runs, std::size_t run, void const* values) {
-  TORQUESCOPE_EXPECT(run < runs.written.size() && !runs.written[run]);
-  h5::write_rows(runs.dataset, runs.info, run, 1, values);
-  runs.written[run] = true;
+void ResultWriter::write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
+                               std::span<std::byte const> values) {
+  digest_.block(path, first / rows_of_block(runs.info.element, runs.info.shape), values.data(), values.size());
+  chunks_.write(runs.dataset, runs.info, first, count, values.data());
+}
+
+void ResultWriter::put_run(std::string const& path, h5::Element element, std::size_t run,
+                           std::span<std::byte const> values) {
+  TORQUESCOPE_EXPECT(runs_.contains(path));
+  RunDataset& runs = runs_.at(path);
+  TORQUESCOPE_EXPECT(runs.info.element == element);
+  if (!has_values(runs.info.shape)) return;
+  guarded(path, [&] {
+    runs.blocks.put(run, values, [&](std::size_t first, std::size_t count, std::span<std::byte const> block) {
+      write_block(path, runs, first, count, block);
+    });
+  });
 }
 
 void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values) {
-  TORQUESCOPE_EXPECT(runs_.contains(path));
-  RunDataset& runs = runs_.at(path);
-  TORQUESCOPE_EXPECT(runs.info.element == h5::Element::number && values.size() == runs.info.values_per_row());
-  guarded(path, [&] { write_row(runs, run, values.data()); });
+  put_run(path, h5::Element::number, run, std::as_bytes(values));
 }
 
 void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values) {
-  TORQUESCOPE_EXPECT(runs_.contains(path));
-  RunDataset& runs = runs_.at(path);
-  TORQUESCOPE_EXPECT(runs.info.element == h5::Element::whole_number && values.size() == runs.info.values_per_row());
-  guarded(path, [&] { write_row(runs, run, values.data()); });
-}
-
-// a reader believes no dataset that is much larger than its file, so absent runs take their space too
-void ResultWriter::fill_missing_runs(RunDataset& runs) {
-  std::size_t const n_values = runs.info.values_per_row();
-  std::vector<double> const absent(n_values, std::numeric_limits<double>::quiet_NaN());
-  std::vector<std::int64_t> const zeros(n_values, 0);
-  bool const of_numbers = runs.info.element == h5::Element::number;
-  for (std::size_t run = 0; run < runs.written.size(); ++run)
-    if (!runs.written[run]) write_row(runs, run, of_numbers ? static_cast<void const*>(absent.data()) : zeros.data());
+  put_run(path, h5::Element::whole_number, run, std::as_bytes(values));
 }
 
 void ResultWriter::plottable(std::string const& group, std::string const& signal,
@@ -173,15 +203,16 @@ void ResultWriter::plottable(std::string const& group, std::string const& signal
 }
 
 std::string ResultWriter::finish() {
-  guarded("/", [&] {
-    for (auto& [path, runs] : runs_) fill_missing_runs(runs);
-    runs_.clear();
-    h5::flush(file_);
-  });
-
-  // read back what was written: the digest is that of the file, not of what was meant
-  std::string sha256;
-  guarded("/", [&] { sha256 = content_digest(file_); });
+  // a reader believes no dataset that is much larger than its file, so absent runs take their space too
+  for (auto& [path, runs] : runs_) {
+    auto const write = [&, &path = path, &runs = runs](std::size_t first, std::size_t count,
+                                                       std::span<std::byte const> block) {
+      write_block(path, runs, first, count, block);
+    };
+    guarded(path, [&, &runs = runs] { runs.blocks.put_rest(write); });
+  }
+  runs_.clear();
+  std::string const sha256 = digest_.hex();
   attribute("/", content_digest_key, sha256);
   attribute("/", complete_key, std::int64_t{1});
 

@@ -7,7 +7,8 @@
 //            for each run, in any order: writer.write_run("/runs/fade/population", run, values);
 //            std::string sha256 = writer.finish();
 // Shapes     row-major; {} is one number alone
-// Memory     the values of one call and 1 MiB per dataset declared; 25 MB for a history of 486 MB
+// Memory     the values of one call, a chunk, and 64 KiB per dataset of small runs (for each block of runs that is begun
+//            and not whole: one, when runs come in order)
 // Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
 // Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
 //            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
@@ -22,12 +23,15 @@
 #include <vector>
 
 #include "engine/base/options.hpp"
+#include "engine/store/chunk_writer.hpp"
+#include "engine/store/content_digest.hpp"
 #include "engine/store/h5.hpp"
+#include "engine/store/run_blocks.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope {
 
-inline constexpr std::int64_t result_format = 1;
+inline constexpr std::int64_t result_format = 2;
 
 struct ResultWriterOptions {
   bool gzip = false;  // level 1 without shuffle: a fifth of the size for histories, five times the time
@@ -71,17 +75,24 @@ class ResultWriter {
   struct RunDataset {
     h5::Handle dataset;
     h5::DatasetInfo info;
-    std::vector<bool> written;  // per run
+    RunBlocks blocks;
   };
 
   h5::Handle create(std::string const& path, h5::DatasetPlan const& plan, Note const& note);
+  void add_attribute(h5::Handle const& object, std::string const& path, std::string const& name,
+                     OptionValue const& value);
   void write_dataset(std::string const& path, h5::DatasetPlan const& plan, void const* values, Note const& note);
-  void write_row(RunDataset& runs, std::size_t run, void const* values);
-  void fill_missing_runs(RunDataset& runs);
+  void digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
+                    std::span<std::byte const> values);
+  void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values);
+  void write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
+                   std::span<std::byte const> values);
   template <class Write>
   void guarded(std::string const& path, Write&& write);
 
   ResultWriterOptions options_;
+  ContentDigest digest_;
+  ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them
   h5::Handle file_;
   std::map<std::string, RunDataset> runs_;

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -57,6 +58,12 @@ Error cannot_write(fs::path const& name, int error_number) {
   return Error(problem);
 }
 
+constexpr std::size_t block_bytes = std::size_t{1} << 19;
+constexpr std::size_t most_waiting_blocks = 4;
+constexpr std::size_t page = 4096;
+// below, waiting for the disk costs more than the page cache
+constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
+
 // a rename is safe only when the folder that holds the name is
 int sync_folder(fs::path const& folder) {
   int const descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -69,7 +76,10 @@ int sync_folder(fs::path const& folder) {
 
 }  // namespace
 
-TempFile::TempFile(fs::path final_name) : final_name_(std::move(final_name)) {
+TempFile::TempFile(fs::path final_name)
+    : final_name_(std::move(final_name)),
+      writer_([this](FilePiece const& piece) { return write_piece(piece.offset, piece.bytes.data(), piece.size); },
+              most_waiting_blocks) {
   std::error_code ignored;
   validate(!fs::is_directory(final_name_, ignored), [&] {
     return Problem{.code = ExitCode::exists,
@@ -90,36 +100,113 @@ TempFile::TempFile(fs::path final_name) : final_name_(std::move(final_name)) {
 
 TempFile::~TempFile() {
   if (descriptor_ < 0) return;
-  ::close(descriptor_);
   ::unlink(temporary_name_.c_str());
+  writer_.stop();
+  ::close(descriptor_);
 }
 
-void TempFile::write_at(std::uint64_t offset, void const* data, std::size_t size) noexcept {
-  size_ = std::max(size_, offset + size);
-  auto const* bytes = static_cast<char const*>(data);
-  while (size > 0 && !failed()) {
+// whole pages go to the disk directly: the page cache costs more than everything else that storing does
+bool TempFile::write_past_cache(bool wanted) {
+  wanted = wanted && may_bypass_;
+  if (wanted == past_cache_) return past_cache_;
+  int const flags = ::fcntl(descriptor_, F_GETFL);
+  if (::fcntl(descriptor_, F_SETFL, wanted ? flags | O_DIRECT : flags & ~O_DIRECT) == 0)
+    past_cache_ = wanted;
+  else
+    may_bypass_ = false;
+  return past_cache_;
+}
+
+// returns errno of a failure
+int TempFile::write_piece(std::uint64_t offset, std::byte const* bytes, std::size_t size) {
+  while (size > 0) {
+    bool const direct = write_past_cache(size >= least_direct_bytes && offset % page == 0 && size % page == 0);
     ssize_t const written = ::pwrite(descriptor_, bytes, size, static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      error_number_ = written < 0 ? errno : EIO;
-      return;
-    }
+    if (written < 0 && errno == EINVAL && direct && std::exchange(may_bypass_, false)) continue;
+    if (written <= 0) return written < 0 ? errno : EIO;
     bytes += written;
     offset += static_cast<std::uint64_t>(written);
     size -= static_cast<std::size_t>(written);
   }
+  return 0;
 }
 
-bool TempFile::read_at(std::uint64_t offset, void* data, std::size_t size) const noexcept {
+std::size_t TempFile::tail_room() const { return block_bytes - tail_.offset % block_bytes; }
+
+void TempFile::start_tail() {
+  if (!tail_.bytes.data()) tail_.bytes = writer_.memory(block_bytes);
+}
+
+void TempFile::hand_over_tail() {
+  std::uint64_t const end = tail_end();
+  if (tail_.size > 0) writer_.put(std::exchange(tail_, {}));
+  tail_.offset = end;
+  tail_.size = 0;
+}
+
+void TempFile::write_behind(std::uint64_t offset, std::byte const* bytes, std::size_t size) {
+  writer_.wait();
+  if (!failed()) error_number_ = write_piece(offset, bytes, size);
+}
+
+// bytes: nullptr for zeros
+void TempFile::write_tail(std::uint64_t offset, std::byte const* bytes, std::size_t size) {
+  while (size > 0 && !failed()) {
+    start_tail();
+    if (offset - tail_.offset >= tail_room()) {
+      hand_over_tail();
+      continue;
+    }
+    std::size_t const place = static_cast<std::size_t>(offset - tail_.offset);
+    std::size_t const part = std::min(size, tail_room() - place);
+    if (bytes)
+      std::memcpy(tail_.bytes.data() + place, bytes, part);
+    else
+      std::memset(tail_.bytes.data() + place, 0, part);
+    tail_.size = std::max(tail_.size, place + part);
+    if (bytes) bytes += part;
+    offset += part;
+    size -= part;
+  }
+}
+
+void TempFile::write_at(std::uint64_t offset, void const* data, std::size_t size) noexcept {
+  size_ = std::max(size_, offset + size);
+  auto const* bytes = static_cast<std::byte const*>(data);
+  try {
+    if (failed()) return;
+    if (offset < tail_.offset) {
+      auto const part = static_cast<std::size_t>(std::min<std::uint64_t>(size, tail_.offset - offset));
+      write_behind(offset, bytes, part);
+      bytes += part;
+      offset += part;
+      size -= part;
+    }
+    // nothing was ever written beyond the tail: what is skipped is zero until it comes
+    if (size > 0 && offset > tail_end()) write_tail(tail_end(), nullptr, static_cast<std::size_t>(offset - tail_end()));
+    write_tail(offset, bytes, size);
+  } catch (std::bad_alloc const&) {
+    error_number_ = ENOMEM;
+  }
+}
+
+bool TempFile::read_at(std::uint64_t offset, void* data, std::size_t size) noexcept {
   auto* bytes = static_cast<char*>(data);
+  std::memset(bytes, 0, size);
+  if (offset + size > tail_.offset) {
+    std::uint64_t const begin = std::max(offset, tail_.offset), end = std::min(offset + size, tail_end());
+    if (begin < end) std::memcpy(bytes + (begin - offset), tail_.bytes.data() + (begin - tail_.offset), end - begin);
+    size = offset < tail_.offset ? static_cast<std::size_t>(tail_.offset - offset) : 0;
+  }
+  if (size == 0) return true;
+  writer_.wait();
+  write_past_cache(false);
   while (size > 0) {
     ssize_t const got = ::pread(descriptor_, bytes, size, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return false;
-    if (got == 0) {
-      std::memset(bytes, 0, size);
-      return true;
-    }
+    if (got == 0) return true;
     bytes += got;
     offset += static_cast<std::uint64_t>(got);
     size -= static_cast<std::size_t>(got);
@@ -128,16 +215,30 @@ bool TempFile::read_at(std::uint64_t offset, void* data, std::size_t size) const
 }
 
 void TempFile::resize(std::uint64_t size) noexcept {
+  if (size > size_) return write_at(size - 1, "", 1);
   size_ = size;
+  if (size >= tail_.offset) {
+    tail_.size = static_cast<std::size_t>(size - tail_.offset);
+    return;
+  }
+  writer_.wait();
   if (!failed() && ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) error_number_ = errno;
+  tail_.offset = size;
+  tail_.size = 0;
 }
 
 void TempFile::check() const {
-  if (failed()) throw cannot_write(final_name_, error_number_);
+  if (failed()) throw cannot_write(final_name_, error_number());
 }
 
 void TempFile::publish() {
   TORQUESCOPE_EXPECT(descriptor_ >= 0);
+  if (!failed()) {
+    writer_.wait();
+    std::size_t const whole_pages = tail_.size / page * page;
+    write_behind(tail_.offset, tail_.bytes.data(), whole_pages);
+    write_behind(tail_.offset + whole_pages, tail_.bytes.data() + whole_pages, tail_.size - whole_pages);
+  }
   // an fsync that failed is never tried again: the second one would not tell what the first one lost
   if (!failed() && ::fsync(descriptor_) != 0) error_number_ = errno;
   check();

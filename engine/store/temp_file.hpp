@@ -5,14 +5,19 @@
 // Of all the ways to write a file that were killed, cut off from power or left without space, only this one (and an
 // append-only journal) lost nothing.
 //
+// Speed      what is written at the end collects in blocks of 512 KiB, which another thread (disk_writer.hpp) writes past
+//            the page cache where the file system lets it: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6
+// Memory     six blocks
 // Errors     write_at() and resize() never fail loudly: the first failure is remembered, what follows is dropped, and
 //            check() or publish() tell (exit code 74). HDF5 writes through them and must not see a failing disk:
 //            closing a file after a failed write ends the process inside HDF5's exit handler.
-// Threads    one at a time
+// Threads    one at a time; its own thread sees nothing but whole blocks
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+
+#include "engine/store/disk_writer.hpp"
 
 namespace torquescope {
 
@@ -30,19 +35,33 @@ class TempFile {
 
   void write_at(std::uint64_t offset, void const* data, std::size_t size) noexcept;
   // zeros behind the end; false when the disk failed
-  bool read_at(std::uint64_t offset, void* data, std::size_t size) const noexcept;
+  bool read_at(std::uint64_t offset, void* data, std::size_t size) noexcept;
   void resize(std::uint64_t size) noexcept;
 
-  bool failed() const { return error_number_ != 0; }
+  bool failed() const { return error_number() != 0; }
   void check() const;  // throws Error (exit code 74) when anything was lost
   void publish();      // under its final name, safe against power loss; replaces what was there
 
  private:
+  int error_number() const { return error_number_ != 0 ? error_number_ : writer_.error(); }
+  std::uint64_t tail_end() const { return tail_.offset + tail_.size; }
+  std::size_t tail_room() const;
+  void start_tail();
+  void hand_over_tail();
+  void write_behind(std::uint64_t offset, std::byte const* bytes, std::size_t size);
+  void write_tail(std::uint64_t offset, std::byte const* bytes, std::size_t size);
+  int write_piece(std::uint64_t offset, std::byte const* bytes, std::size_t size);
+  bool write_past_cache(bool wanted);
+
   std::filesystem::path final_name_;
   std::filesystem::path temporary_name_;
   std::uint64_t size_ = 0;
   int descriptor_ = -1;
-  int error_number_ = 0;  // errno of the first failure
+  int error_number_ = 0;     // errno of the first failure in the caller's thread
+  bool past_cache_ = false;  // how the descriptor writes now
+  bool may_bypass_ = true;   // until the file system refuses
+  FilePiece tail_;           // the end of the file, from a multiple of the block size on: still to be written
+  DiskWriter writer_;        // last: its thread uses what stands above
 };
 
 }  // namespace torquescope

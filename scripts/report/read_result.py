@@ -13,7 +13,7 @@
     fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
     result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found, diagnosis_records.py
 
-On the command line, `read_result.py R.h5` prints a summary.
+On the command line, `read_result.py R.h5` prints a summary; with --verify it first reads all of the file and compares its digest.
 """
 
 import argparse
@@ -22,9 +22,10 @@ import sys
 import h5py
 import numpy as np
 
+from content_digest import content_sha256
 from read_diagnosis import read_diagnosis
 
-NEWEST_FORMAT = 1
+NEWEST_FORMAT = 2
 
 
 class ResultError(Exception):
@@ -159,6 +160,17 @@ class Result(Group):
         """What `torquescope diagnose` found; None when the file holds none. Read anew each time it is asked for."""
         return read_diagnosis(Group(self._file["diagnosis"])) if "diagnosis" in self._file else None
 
+    def verify(self):
+        """Read everything; ResultError unless the content is what its sha256 says."""
+        if self.format != NEWEST_FORMAT:
+            raise ResultError(f"{self._file.filename} has format {self.format}; only the digest of format {NEWEST_FORMAT} is known")
+        try:
+            found = content_sha256(self._file)
+        except OSError as error:
+            raise ResultError(f"{self._file.filename} is damaged: {error}") from error
+        if found != self.content_sha256:
+            raise ResultError(f"{self._file.filename} is damaged: its content does not match its sha256")
+
     def close(self):
         self._file.close()
 
@@ -231,8 +243,12 @@ def summary(result):
 def main():
     parser = argparse.ArgumentParser(description="print a summary of a Torquescope result file")
     parser.add_argument("result", help="R.h5, as torquescope run wrote it")
+    parser.add_argument("--verify", action="store_true", help="read all of it and compare its digest")
+    wanted = parser.parse_args()
     try:
-        with Result(parser.parse_args().result) as result:
+        with Result(wanted.result) as result:
+            if wanted.verify:
+                result.verify()
             print("\n".join(summary(result)))
     except ResultError as error:
         sys.exit(f"error: {error}")

@@ -16,6 +16,7 @@ import numpy as np
 WRITER, SCRIPTS = sys.argv[1:3]
 sys.path.insert(0, SCRIPTS)
 import read_result  # noqa: E402
+from content_digest import content_sha256  # noqa: E402
 from read_result import Result, ResultError  # noqa: E402
 
 
@@ -34,7 +35,7 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def test_root(self):
-        self.assertEqual(self.result.format, 1)
+        self.assertEqual(self.result.format, 2)
         self.assertEqual(self.result.content_sha256, self.sha256)
         self.assertTrue(self.result.creator.startswith("torquescope "))
 
@@ -121,10 +122,51 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
             data[data.find(np.sin(1.0).tobytes())] ^= 4
             name.write_bytes(data)
 
-        self.assertIn("has format 2", self.refusal(set_attribute("format", 2)))
+        self.assertIn("has format 3", self.refusal(set_attribute("format", 3)))
         self.assertIn("never finished", self.refusal(set_attribute("complete", 0)))
         self.assertIn("not an HDF5 file", self.refusal(lambda name: name.write_text("t_s,q_rad\n")))
         self.assertIn("damaged in /runs/fade/population", self.refusal(damage))
+
+    def test_computes_the_digest_of_the_store(self):
+        for case in ("example", "large", "large gzip"):
+            name = self.folder / "digest.h5"
+            run = subprocess.run([WRITER, name, case], check=True, capture_output=True, text=True)
+            with Result(name) as result:
+                self.assertEqual(content_sha256(result._file), run.stdout.strip(), case)
+                result.verify()
+
+    def test_gzip_is_level_1_without_shuffle_for_every_dataset(self):
+        name = self.folder / "gzip.h5"
+        subprocess.run([WRITER, name, "large gzip"], check=True, capture_output=True)
+        with h5py.File(name, locking=False) as file:
+            found = []
+            file.visititems(lambda path, node: found.append(node) if isinstance(node, h5py.Dataset) and node.chunks else None)
+            self.assertEqual({(d.compression, d.compression_opts, d.shuffle, d.fletcher32) for d in found}, {("gzip", 1, False, True)})
+            self.assertGreater(len(found), 5)
+
+    def test_the_digest_notices_what_was_changed_on_purpose(self):
+        def changes():
+            yield lambda file: file["runs/fade/population"].__setitem__((2, 4, 3, 1), 0.5)
+            yield lambda file: file["runs/fade/evaluations"].__setitem__((0, 0), 5)
+            yield lambda file: file["job"].attrs.__setitem__("seed", np.int64(43))
+            yield lambda file: file.create_group("more")
+            yield lambda file: file["runs/ols"].move("parameters", "estimates")
+
+        for number, change in enumerate(changes()):
+            name = self.folder / "changed.h5"
+            shutil.copy(self.name, name)
+            with h5py.File(name, "r+") as file:
+                change(file)
+            with Result(name) as result, self.assertRaisesRegex(ResultError, "does not match its sha256", msg=str(number)):
+                result.verify()
+
+    def test_what_is_volatile_does_not_count(self):
+        name = self.folder / "moved.h5"
+        shutil.copy(self.name, name)
+        with h5py.File(name, "r+") as file:
+            file["provenance"].attrs["host"] = np.bytes_("another")
+        with Result(name) as result:
+            result.verify()
 
 
 if __name__ == "__main__":

@@ -42,8 +42,8 @@ class DifferentialEvolution final : public GenerationalSearch {
   }
 
   // nothing is adapted; the movement is recorded to be compared with FADE's
-  void learn(Population const& before, Population const& after, Progress& progress) override {
-    auto const movement = movement_between(before, after, bounds(), MovementNorm::raw);
+  void learn(Selected const& step, Progress& progress) override {
+    auto const movement = movement_between(step.before, step.after, step.winners, bounds(), MovementNorm::raw);
     progress.F = settings_.F;
     progress.CR = settings_.CR;
     progress.PC = movement.PC;

@@ -67,8 +67,8 @@ class FuzzyAdaptiveDe final : public GenerationalSearch {
     make_rand_1_bin_trial(population(), member, next_, bounds(), random, trial);
   }
 
-  void learn(Population const& before, Population const& after, Progress& progress) override {
-    auto const movement = movement_between(before, after, bounds(), norm_);
+  void learn(Selected const& step, Progress& progress) override {
+    auto const movement = movement_between(step.before, step.after, step.winners, bounds(), norm_);
     progress.F = next_.F;
     progress.CR = next_.CR;
     progress.PC = movement.PC;

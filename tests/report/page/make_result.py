@@ -255,7 +255,7 @@ def write(path, *, name, job_text, units, joint, truth, train, validate, rate_hz
           study=None):
     """estimators: [(name, kind, title)]; returns nothing, writes the file."""
     with h5py.File(path, "w") as file:
-        file.attrs.update({"format": 1, "complete": 1, "creator": "torquescope 0.1.0",
+        file.attrs.update({"format": 2, "complete": 1, "creator": "torquescope 0.1.0",
                            "content_sha256": hashlib.sha256(name.encode()).hexdigest()})
         job = file.create_group("job")
         job.attrs.update({"name": name, "seed": 42, "runs": RUNS, "sha256": hashlib.sha256(job_text.encode()).hexdigest()})

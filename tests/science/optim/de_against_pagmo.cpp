@@ -65,7 +65,7 @@ class DeWithPagmosPicks final : public GenerationalSearch {
     cross_binomial(random, 0.9, population().row(member), trial);
     repair_bounds(BoundRepair::random, bounds(), population().row(member), random, trial);
   }
-  void learn(Population const&, Population const&, Progress&) override {}
+  void learn(Selected const&, Progress&) override {}
 };
 
 void print(char const* name, Medians const& medians) {

@@ -6,20 +6,23 @@
 
 #include "engine/run/workflows.hpp"
 #include "kernels/dispatch.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/simulated_job.hpp"
 
 namespace torquescope {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string digest_of(std::string const& job, int threads) {
+std::string digest_of(Experiment const& experiment, int threads) {
   test::TemporaryFolder const folder;
   IdentifyOptions options;
   options.threads = {threads, "test"};
   options.output = folder / "R.h5";
-  auto const experiment = Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job);
   return identify(experiment, options, ProgressSink{}).content_sha256;
+}
+
+std::string digest_of(std::string const& job, int threads) {
+  return digest_of(Experiment::load(fs::path(TORQUESCOPE_SOURCE_DIR) / "jobs" / job), threads);
 }
 
 TEST(SameBits, ForOneTwoAndThreeThreads) {
@@ -34,6 +37,39 @@ TEST(SameBits, ForOneTwoAndThreeThreads) {
 TEST(SameBits, ForMoreThreadsThanRuns) {
   // smoke has 4 runs: nine threads make teams of two that split each population
   EXPECT_EQ(digest_of("smoke.toml", 1), digest_of("smoke.toml", 9));
+}
+
+// 4.8 MB and more: runs go side by side, in groups of 2 and 3, 1 and 2, or alone, depending on the threads. Some stop early
+TEST(SameBits, ForRunsThatShareASweep) {
+  std::string const job = R"(
+[experiment]
+name = "long"
+runs = 5
+[simulate]
+mode = "inverse_dynamics"
+rate_hz = 1000
+duration_s = 200
+[simulate.plant]
+inertia = 0.5
+viscous = 0.2
+coulomb = 0.1
+[model.bounds]
+every = [-1.0, 1.0]
+[[estimator]]
+name = "de"
+generations = 12
+fitness_range = 0.5
+fitness = "direct"
+[[estimator]]
+name = "fade"
+population = 17
+generations = 4
+precision = "float32"
+)" + test::joint_model + "[simulate.noise]\ntorque_std = 0.05\n";
+  auto const experiment = test::load_job(job);
+  std::set<std::string> digests;
+  for (int threads : {1, 2, 3, 5}) digests.insert(digest_of(experiment, threads));
+  EXPECT_EQ(digests.size(), 1u);
 }
 
 TEST(SameBits, ForEveryInstructionSetWithFma) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace torquescope {
 namespace {
@@ -28,6 +29,16 @@ std::array<int, dimension> counts_from_mutant(double CR, std::uint32_t draws,
     if (totals) ++(*totals)[total];
   }
   return counts;
+}
+
+TEST(BinomialCrossover, ChoosesNumbersOfAnyKindAsTheyAre) {
+  double const inf = std::numeric_limits<double>::infinity();
+  for (double const x : {0.0, -0.0, 1.5, inf}) {
+    EXPECT_EQ(std::signbit(chosen(true, x, -1.0)), std::signbit(x));
+    EXPECT_EQ(chosen(true, x, -1.0), x);
+    EXPECT_EQ(chosen(false, -1.0, x), x);
+  }
+  EXPECT_TRUE(std::isnan(chosen(true, std::nan(""), 1.0)));
 }
 
 TEST(BinomialCrossover, AlwaysTakesOneParameterOfTheMutant) {

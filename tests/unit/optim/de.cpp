@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/optim/trial_vector.hpp"
 #include "support/optimise.hpp"
 
 namespace torquescope {
@@ -49,6 +51,22 @@ TEST(De, TrajectoryScalesWithTheBox) {
         30);
     for (std::size_t i = 0; i < plain->population().rows(); ++i) {
       for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(scaled->population()(i, j), 0x1p20 * plain->population()(i, j));
+    }
+  }
+}
+
+// streams are computed ahead, for many members at once and up to some length: neither may be seen in a trial
+TEST(De, MakesEveryTrialFromItsMembersOwnStream) {
+  for (std::size_t const dimension : {std::size_t{1}, std::size_t{4}, std::size_t{201}}) {
+    Bounds const bounds = testing::cube(dimension, -2.0, 2.0);
+    auto const search = make_optimiser("de", bounds, key, {{"population", std::int64_t{301}}, {"repair", "random"}});
+    run_to_generation(*search, bumpy, 2);
+    auto trials = testing::ask(*search);
+    std::vector<double> trial(dimension);
+    for (std::size_t i = 0; i < 301; ++i) {
+      RandomStream random(key, 3, static_cast<std::uint32_t>(i));
+      make_rand_1_bin_trial(search->population(), i, {0.5, 0.9, BoundRepair::random}, bounds, random, trial);
+      EXPECT_TRUE(std::equal(trial.begin(), trial.end(), trials.rows().row(i).begin()));
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -18,6 +19,15 @@ TEST(MutationRand1, PicksThreeDifferentMembersOtherThanTheTarget) {
       auto const [r1, r2, r3] = pick_three_others(random, n, target);
       EXPECT_EQ((std::set<std::size_t>{target, r1, r2, r3}.size()), 4u);
       EXPECT_LT(std::max({r1, r2, r3}), n);
+    }
+  }
+}
+
+TEST(MutationRand1, SmallerAndLargerAreMinimumAndMaximum) {
+  for (std::size_t const a : {0u, 1u, 7u, 99999u}) {
+    for (std::size_t const b : {0u, 1u, 7u, 99999u}) {
+      EXPECT_EQ(smaller(a, b), std::min(a, b));
+      EXPECT_EQ(larger(a, b), std::max(a, b));
     }
   }
 }

@@ -33,7 +33,9 @@ TEST(Selection, IsSlotBySlotAndLeavesTheRestOfATruncatedBatch) {
   population.numbers = {10.0, 20.0, 30.0};
   population.fitness = {1.0, 2.0, 3.0};
   std::vector<double> trials{11.0, 21.0};
-  EXPECT_EQ(select({trials.data(), 2, 1}, std::vector{0.5, 2.5}, population), 1u);
+  std::vector<std::size_t> winners{2, 1};
+  select({trials.data(), 2, 1}, std::vector{0.5, 2.5}, population, winners);
+  EXPECT_EQ(winners, std::vector<std::size_t>{0});
   EXPECT_EQ(population.numbers, (std::vector{11.0, 20.0, 30.0}));
   EXPECT_EQ(population.fitness, (std::vector{0.5, 2.0, 3.0}));
   EXPECT_EQ(best_index(population.fitness), 0u);

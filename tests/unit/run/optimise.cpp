@@ -4,9 +4,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <set>
+#include <stdexcept>
 
 #include "engine/base/error.hpp"
+#include "engine/optim/generational_search.hpp"
 
 namespace torquescope {
 namespace {
@@ -16,6 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // (x - 0.3)^2 summed over three parameters; infinite where the first one is above 0.9
 class Bowl final : public Objective {
  public:
+  explicit Bowl(std::size_t bytes = 0) : bytes_(bytes) {}
+  std::size_t bytes_swept() const override { return bytes_; }
   Bounds const& bounds() const override { return bounds_; }
   void evaluate(MatrixView<double const> candidates, std::span<double> fitness, Workspace&) const override {
     for (std::size_t i = 0; i < candidates.rows(); ++i) {
@@ -27,6 +33,7 @@ class Bowl final : public Objective {
 
  private:
   Bounds bounds_{{-1, -1, -1}, {1, 1, 1}};
+  std::size_t bytes_;
 };
 
 std::unique_ptr<Optimiser> make_fade(std::uint32_t run) {
@@ -35,12 +42,32 @@ std::unique_ptr<Optimiser> make_fade(std::uint32_t run) {
   return make(Bowl().bounds(), RandomKey{5, run});
 }
 
-RunHistory run_bowl(StopRules const& rules, int team, std::function<bool()> stop = {}) {
+// runs first, first + 1, ... of one study, side by side
+std::vector<RunHistory> run_bowls(StopRules const& rules, std::uint32_t first, std::uint32_t count, int team = 1,
+                                  std::function<bool()> stop = {}) {
   Bowl const bowl;
   SearchSetting const setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}, std::move(stop)};
-  auto const optimiser = make_fade(0);
+  std::vector<std::unique_ptr<Optimiser>> searches;
+  for (std::uint32_t run = first; run < first + count; ++run) searches.push_back(make_fade(run));
   std::vector<Workspace> workspaces;
-  return optimise(*optimiser, setting, team, workspaces);
+  return optimise(searches, setting, team, workspaces);
+}
+
+RunHistory run_bowl(StopRules const& rules, int team, std::function<bool()> stop = {}) {
+  return run_bowls(rules, 0, 1, team, std::move(stop)).front();
+}
+
+void expect_same_bits(RunHistory const& a, RunHistory const& b) {
+  auto const same = [](std::vector<double> const& x, std::vector<double> const& y) {
+    return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+  };
+  for (auto const list :
+       {&RunHistory::population, &RunHistory::fitness, &RunHistory::F, &RunHistory::CR, &RunHistory::PC,
+        &RunHistory::FC, &RunHistory::best, &RunHistory::gap, &RunHistory::parameters})
+    EXPECT_TRUE(same(a.*list, b.*list));
+  EXPECT_EQ(a.evaluations, b.evaluations);
+  EXPECT_EQ(a.stop_reason, b.stop_reason);
+  EXPECT_EQ(a.nonfinite, b.nonfinite);
 }
 
 TEST(Optimise, RecordsEveryGenerationAndStopsWhereAsked) {
@@ -69,6 +96,65 @@ TEST(Optimise, GivesTheSameBitsForEveryTeam) {
     EXPECT_EQ(alone.population, together.population);
     EXPECT_EQ(alone.best, together.best);
   }
+}
+
+TEST(Optimise, ARunHasTheSameBitsAloneAndBesideOthers) {
+  StopRules rules;
+  rules.generations = 60;
+  rules.target = 2e-4;  // reached by every run in a generation of its own
+  rules.evaluations = 1234;
+  std::set<std::int64_t> ends;
+  for (std::uint32_t const count : {2u, 3u, 5u}) {
+    auto const together = run_bowls(rules, 0, count);
+    ASSERT_EQ(together.size(), count);
+    for (std::uint32_t run = 0; run < count; ++run) {
+      expect_same_bits(together[run], run_bowls(rules, run, 1).front());
+      ends.insert(together[run].evaluations.back());
+    }
+  }
+  EXPECT_GT(ends.size(), 2u);
+}
+
+TEST(Optimise, RunsSideBySideSpendTheirOwnBudgets) {
+  StopRules rules;
+  rules.generations = 100;
+  rules.evaluations = 137;
+  for (auto const& history : run_bowls(rules, 0, 3)) {
+    EXPECT_EQ(history.evaluations.back(), 137);
+    EXPECT_EQ(history.stop_reason, "evaluations");
+  }
+}
+
+// makes an initial population and no trial
+class Broken final : public GenerationalSearch {
+ public:
+  Broken() : GenerationalSearch("broken", Bowl().bounds(), {5, 9}, 30) {}
+
+ private:
+  void make_trial(std::size_t, RandomStream&, std::span<double>) const override { throw std::runtime_error("broken"); }
+  void learn(Selected const&, Progress&) override {}
+};
+
+TEST(Optimise, AnExceptionOfOneRunIsToldNotSwallowed) {
+  Bowl const bowl;
+  StopRules const rules;
+  SearchSetting const setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }};
+  std::vector<std::unique_ptr<Optimiser>> searches;
+  searches.push_back(make_fade(0));
+  searches.push_back(std::make_unique<Broken>());
+  std::vector<Workspace> workspaces;
+  EXPECT_THROW(optimise(searches, setting, 1, workspaces), std::runtime_error);
+}
+
+TEST(Optimise, GoesSideBySideOnlyWhereTheRecordingIsReadAnewAndNoRuleCountsSeconds) {
+  Bowl const small(100'000), large(50'000'000);
+  StopRules rules;
+  EXPECT_EQ(runs_side_by_side(small, rules, 30), 1u);
+  EXPECT_EQ(runs_side_by_side(large, rules, 30), 4u);
+  EXPECT_EQ(runs_side_by_side(large, rules, 100), 1u);
+  EXPECT_EQ(runs_side_by_side(large, rules, 1000), 1u);
+  rules.wall_clock_s = 5.0;
+  EXPECT_EQ(runs_side_by_side(large, rules, 30), 1u);
 }
 
 TEST(Optimise, SpendsAnEvaluationBudgetExactly) {

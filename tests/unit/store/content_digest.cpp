@@ -5,6 +5,7 @@
 #include <bit>
 #include <functional>
 
+#include "engine/store/result_reader.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
 
@@ -20,6 +21,14 @@ TEST(ContentDigest, IsTheSameForTheSameContent) {
   EXPECT_EQ(example::write_result(folder / "c.h5", {.gzip = true}), first);
   EXPECT_EQ(example::write_result(folder / "d.h5", {}, {0, 1, 2}, "another host"), first);
   EXPECT_NE(test::bytes_of(folder / "a.h5"), test::bytes_of(folder / "d.h5"));
+}
+
+TEST(ContentDigest, OfTheWriterIsThatOfTheFile) {
+  test::TemporaryFolder const folder;
+  for (bool gzip : {false, true}) {
+    std::string const written = example::write_large_result(folder / "R.h5", {.gzip = gzip});
+    EXPECT_EQ(verify_result(folder / "R.h5"), written);
+  }
 }
 
 // the digest of a small file that `change` had a hand in

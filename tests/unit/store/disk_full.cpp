@@ -27,10 +27,10 @@ constexpr int could_not_prepare = 99;
   try {
     ResultWriter writer(name, {.gzip = gzip});
     example::write_job(writer);
-    // enough for several chunks and an index
-    writer.declare_runs("/history", 40, {100, 30}, {"1", "history"});
+    // enough for several chunks, an index and, without gzip, blocks that another thread writes
+    writer.declare_runs("/history", 40, {100, 80}, {"1", "history"});
     for (std::size_t run = 0; run < 40; ++run)
-      writer.write_run("/history", run, std::vector<double>(3000, static_cast<double>(run)));
+      writer.write_run("/history", run, std::vector<double>(8000, static_cast<double>(run)));
     example::declare_fade(writer);
     for (std::size_t run = 0; run < example::runs; ++run) example::write_fade_run(writer, run);
     writer.finish();

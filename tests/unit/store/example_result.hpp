@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,40 @@ inline std::string write_result(std::filesystem::path const& name, ResultWriterO
   for (std::size_t run : order_of_runs) write_fade_run(writer, run);
   writer.plottable("/data/train", "torque", {"."});
   writer.attribute("/provenance", "host", host);
+  return writer.finish();
+}
+
+// every way in which values are cut into chunks and blocks, and values that are easily lost; returns content_sha256
+inline std::string write_large_result(std::filesystem::path const& name, ResultWriterOptions options = {}) {
+  auto const values = [](std::size_t count, std::size_t seed) {
+    std::vector<double> all(count);
+    for (std::size_t i = 0; i < count; ++i) all[i] = std::sin(static_cast<double>(seed + i));
+    return all;
+  };
+  ResultWriter writer(name, options);
+  writer.attribute("/a-b", "yes", true);
+  writer.attribute("/a-b", "no_text", std::string());
+  writer.attribute("/a-b", "no_texts", std::vector<std::string>{});
+  writer.attribute("/a-b", "no_numbers", std::vector<double>{});
+  writer.attribute("/a-b", "columns", std::map<std::string, std::string>{{"time", "t_s"}});
+  writer.attribute("/a-b", "again", 1.0);
+  writer.attribute("/a-b", "again", std::vector<double>{std::nan(""), -0.0});
+  writer.numbers("/a/one", {}, values(1, 7), {"1", "one number alone"});
+  writer.numbers("/a/none", {0, 4}, {}, {"1", "no rows"});
+  writer.numbers("/a/long", {200001, 3}, values(600003, 1), {"1", "several chunks, the last one not full"});
+  writer.numbers("/a/wide", {2, 3, 70001}, values(420006, 2), {"1", "rows larger than a chunk"});
+  writer.texts("/a/words", std::vector<std::string>{"", "Tr\u00e4gheit", std::string(5000, 'x')}, {"1", "words"});
+  constexpr std::size_t small_runs = 203, small = 101, many_runs = 3, many = 101 * 60 * 30;
+  writer.declare_runs("/h/small", small_runs, {small}, {"1", "several runs in a block"});
+  writer.declare_runs("/h/counts", small_runs, {}, {"1", "one number per run"}, RunValues::whole_number);
+  writer.declare_runs("/h/large", many_runs, {101, 60, 30}, {"1", "several chunks per run"});
+  for (std::size_t i = 0; i + 1 < small_runs; ++i) {
+    std::size_t const run = i * 64 % small_runs;  // the last one of this order never comes
+    writer.write_run("/h/small", run, values(small, run));
+    auto const count = static_cast<std::int64_t>(run);
+    writer.write_run("/h/counts", run, std::span<std::int64_t const>(&count, 1));
+  }
+  for (std::size_t run : {2U, 0U}) writer.write_run("/h/large", run, values(many, run));
   return writer.finish();
 }
 

@@ -72,9 +72,24 @@ TEST(ResultReader, RefusesANewerFormatAndAnUnfinishedFile) {
   example::write_result(folder / "R.h5");
   tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "complete", 0); });
   EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("was never finished"));
-  tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "format", 2); });
+  tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "format", result_format + 1); });
   EXPECT_EQ(opening(folder / "R.h5").first, ExitCode::bad_data);
-  EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("has format 2; this version reads up to 1"));
+  EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("has format 3; this version reads up to 2"));
+}
+
+TEST(ResultReader, DoesNotCallAnOlderFormatDamaged) {
+  test::TemporaryFolder const folder;
+  example::write_result(folder / "R.h5");
+  tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "format", 1); });
+  ResultReader const reader(folder / "R.h5");
+  EXPECT_EQ(reader.numbers("/data/train/torque").values, example::torque());
+  try {
+    reader.verify();
+    ADD_FAILURE() << "the digest of format 1 is another one";
+  } catch (Error const& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_THAT(error.what(), HasSubstr("has format 1: its digest was taken in another way"));
+  }
 }
 
 TEST(ResultReader, FollowsNoLinkToElsewhere) {
