@@ -51,6 +51,14 @@ std::vector<Row> const& rows() {
   return table;
 }
 
+HiddenEffects laws_of(std::vector<ConcealedEffect> const& effects) {
+  HiddenEffects laws;
+  for (auto const& effect : effects) {
+    if (effect.law) laws.push_back(effect.law);
+  }
+  return laws;
+}
+
 Case made(Row const& row) {
   Case made_case;
   made_case.name = row.name;
@@ -65,13 +73,10 @@ Case made(Row const& row) {
 
 }  // namespace
 
-HiddenEffects Case::laws() const {
-  HiddenEffects laws;
-  for (auto const& effect : effects) laws.push_back(effect.law);
-  return laws;
-}
+HiddenEffects Case::laws() const { return laws_of(effects); }
 
 std::string Case::expected_verdict() const {
+  if (!expected.empty()) return expected;
   if (effects.empty()) return "none";
   for (auto const& effect : effects) {
     if (effect.name.empty()) return "unexplained";
@@ -86,6 +91,20 @@ Excitation Case::excitation(bool for_training) const {
 
 RunPlan Case::plan(Excitation const& excitation, bool for_training) const {
   return {excitation, for_training ? train_s : validate_s, 2 * seed + (for_training ? 0 : 1)};
+}
+
+Rig with_faults(Rig rig, std::vector<ConcealedEffect> const& effects) {
+  for (auto const& effect : effects) {
+    if (effect.fault) rig.instruments.push_back(effect.fault);
+  }
+  return rig;
+}
+
+LoopRun training_run(Case const& one_case, Rig const& rig, std::vector<ConcealedEffect> const& effects, double step_s) {
+  Excitation const excitation = one_case.excitation(true);
+  RunPlan plan = one_case.plan(excitation, true);
+  plan.step_s = step_s;
+  return run_closed_loop(with_faults(rig, effects), laws_of(effects), plan);
 }
 
 std::vector<Case> const& sealed_cases() {

@@ -24,12 +24,21 @@ struct Case {
   double train_s = 60.0, validate_s = 30.0;
   std::vector<ConcealedEffect> effects;
   std::uint64_t seed = 0;
+  // of drawn cases only
+  std::string tier, drawn;  // "T1", its name
+  std::string expected;
+  double wanted_snr = 0.0;  // of each effect alone
 
   HiddenEffects laws() const;
-  std::string expected_verdict() const;  // "none", "named", "unexplained"
+  // "none", "named", "unexplained"; drawn cases also "insufficient" (or a class), "measurement" (nothing mechanical)
+  std::string expected_verdict() const;
   Excitation excitation(bool for_training) const;
   RunPlan plan(Excitation const& excitation, bool for_training) const;
 };
+
+Rig with_faults(Rig rig, std::vector<ConcealedEffect> const& effects);
+// the training motion on this rig, with these effects and no others
+LoopRun training_run(Case const& one_case, Rig const& rig, std::vector<ConcealedEffect> const& effects, double step_s);
 
 std::vector<Case> const& sealed_cases();
 Case const& sealed_case(std::string const& name);

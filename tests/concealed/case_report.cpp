@@ -2,18 +2,10 @@
 
 #include <cmath>
 
-#include "concealed/low_pass.hpp"
 #include "concealed/sensors.hpp"
 
 namespace concealed {
 namespace {
-
-LoopRun run_training(Case const& one_case, Rig const& rig, HiddenEffects const& effects, double step_s) {
-  Excitation const excitation = one_case.excitation(true);
-  RunPlan plan = one_case.plan(excitation, true);
-  plan.step_s = step_s;
-  return run_closed_loop(rig, effects, plan);
-}
 
 std::vector<double> difference(std::vector<double> a, std::vector<double> const& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
@@ -26,13 +18,20 @@ Relerr relerr(Rig const& rig, LoopRun const& noisy, Baseline const& fitted) {
   std::vector<double> torque(noise.size(), 0.0);
   for (std::size_t k = 0; k < noise.size(); ++k) {
     if (!noisy.truth.moves[k]) continue;
-    from_baseline[k] += noisy.recording.torque[k] - noisy.truth.motor[k];
+    from_baseline[k] += noisy.recording.torque[k] - noisy.truth.seen_motor[k];
     from_truth[k] = noise[k];
     torque[k] = noisy.recording.torque[k];
   }
-  auto in_band_rms = [](std::vector<double> const& x) { return rms(low_passed(x, parallel_cutoff_hz, 1.0 / tick_s)); };
   double const whole = in_band_rms(torque);
   return {in_band_rms(from_baseline) / whole, in_band_rms(from_truth) / whole};
+}
+
+// where each effect's torque stands in Truth::added: laws first, then the rig's own instruments, then concealed faults
+std::vector<std::size_t> places_in_truth(Case const& one_case) {
+  std::size_t law = 0, fault = one_case.laws().size() + one_case.rig.instruments.size();
+  std::vector<std::size_t> places;
+  for (auto const& effect : one_case.effects) places.push_back(effect.law ? law++ : fault++);
+  return places;
 }
 
 }  // namespace
@@ -40,8 +39,8 @@ Relerr relerr(Rig const& rig, LoopRun const& noisy, Baseline const& fitted) {
 StepError step_error(Case const& one_case, LoopRun const& noisy_training) {
   Rig smooth = one_case.rig;
   smooth.encoder_bits = 0;
-  LoopRun const coarse = run_training(one_case, smooth, one_case.laws(), default_step_s);
-  LoopRun const fine = run_training(one_case, smooth, one_case.laws(), 0.5 * default_step_s);
+  LoopRun const coarse = training_run(one_case, smooth, one_case.effects, default_step_s);
+  LoopRun const fine = training_run(one_case, smooth, one_case.effects, 0.5 * default_step_s);
   double const rounding =
       Encoder::per_turn(one_case.rig.encoder_bits, one_case.rig.joint.travel_per_turn).step() / std::sqrt(12.0);
   return {rms(difference(coarse.truth.motor, fine.truth.motor)) / rms(torque_noise(one_case.rig, noisy_training)),
@@ -53,21 +52,23 @@ CaseReport report_case(Case const& one_case) {
   Rig const quiet_rig = without_noise(rig);
   bool const with_gravity = rig.joint.baseline.has_gravity();
 
-  LoopRun const noisy = run_training(one_case, rig, one_case.laws(), default_step_s);
-  LoopRun const quiet = run_training(one_case, quiet_rig, one_case.laws(), default_step_s);
+  LoopRun const noisy = training_run(one_case, rig, one_case.effects, default_step_s);
+  LoopRun const quiet = training_run(one_case, quiet_rig, one_case.effects, default_step_s);
   Excitation const unseen = one_case.excitation(false);
-  LoopRun const validate = run_closed_loop(rig, one_case.laws(), one_case.plan(unseen, false));
+  LoopRun const validate =
+      run_closed_loop(with_faults(rig, one_case.effects), one_case.laws(), one_case.plan(unseen, false));
 
+  auto const place = places_in_truth(one_case);
   CaseReport report;
   report.fit = fit_baseline(quiet.truth, with_gravity);
   report.together = effect_size(quiet, noisy, report.fit.parameters, rig);
   for (std::size_t i = 0; i < one_case.effects.size(); ++i) {
-    report.regions.push_back(truth_regions(quiet.truth, quiet.truth.added[i], rig.joint.baseline));
+    report.regions.push_back(truth_regions(quiet.truth, quiet.truth.added[place[i]], rig.joint.baseline));
     if (one_case.effects.size() == 1) {
       report.alone.push_back(report.together);
       continue;
     }
-    LoopRun const single = run_training(one_case, quiet_rig, {one_case.effects[i].law}, default_step_s);
+    LoopRun const single = training_run(one_case, quiet_rig, {one_case.effects[i]}, default_step_s);
     report.alone.push_back(effect_size(single, noisy, fit_baseline(single.truth, with_gravity).parameters, rig));
   }
   report.train_relerr = relerr(rig, noisy, report.fit.parameters);

@@ -1,11 +1,11 @@
 #include "concealed/case_writer.hpp"
 
-#include <openssl/evp.h>
-
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
+
+#include "concealed/sha256.hpp"
 
 namespace concealed {
 namespace {
@@ -15,19 +15,6 @@ void write(std::filesystem::path const& path, std::string const& text) {
   file << text;
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
-std::string sha256(std::string const& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr);
-  std::string hex;
-  for (unsigned int i = 0; i < length; ++i) {
-    char two[3];
-    std::snprintf(two, sizeof two, "%02x", digest[i]);
-    hex += two;
-  }
-  return hex;
 }
 
 std::string csv_text(Rig const& rig, Recording const& recording) {

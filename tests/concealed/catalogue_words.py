@@ -51,6 +51,7 @@ def mistakes(words, catalogue):
                 found.append(f"{name}: no parameter {parameter['name']} among {sorted(here.units)}")
             elif parameter["unit"] != units[effect["prismatic"]]:
                 found.append(f"{name}: {parameter['name']} in {parameter['unit']}, the catalogue has {units}")
+    found += [f"no effect is called {name}, which a truth may allow" for name in words["may_name"] if name not in catalogue]
     axes = {axis for described in catalogue.values() for axis in described.axes}
     return found + [f"no effect shows on the axis {axis}" for axis in words["axes"] if axis not in axes]
 
@@ -65,11 +66,12 @@ def teeth():
                              {"stribeck": ("N m", "N"), "stribeck_exponent": ("1", "1"), "gravity_sin": ("N m", None)}), here
     effect = {"name": "stribeck", "families": ["reversal", "velocity_law"], "prismatic": True,
               "parameters": [{"name": "stribeck", "unit": "N"}]}
-    judged = lambda **changed: len(mistakes({"effects": [{**effect, **changed}], "axes": ["velocity"]}, {"stribeck": here}))
+    judged = lambda **changed: len(mistakes({"effects": [{**effect, **changed}], "may_name": [], "axes": ["velocity"]}, {"stribeck": here}))
     assert judged() == 0
     assert judged(name="striebeck") == judged(families=["reversal"]) == judged(prismatic=False) == 1
     assert judged(parameters=[{"name": "rise", "unit": "N"}]) == 1
-    assert len(mistakes({"effects": [], "axes": ["speed"]}, {"stribeck": here})) == 1
+    assert len(mistakes({"effects": [], "may_name": [], "axes": ["speed"]}, {"stribeck": here})) == 1
+    assert len(mistakes({"effects": [], "may_name": ["late"], "axes": []}, {"stribeck": here})) == 1
 
 
 def main(torquescope, make_case):

@@ -24,9 +24,11 @@ struct Recording {
 // the middle of each tick, where the held torque belongs
 struct Truth {
   std::vector<double> t, q, v, a;
-  std::vector<double> motor, disturbance;  // held during the tick
-  std::vector<char> moves;                 // in one direction, not slower than slowest_share, all the tick long
-  std::vector<std::vector<double>> added;  // per effect: torque it adds to the baseline's
+  std::vector<double> seen_q, seen_v, seen_a;  // as the encoder would show them without steps
+  std::vector<double> seen_motor;              // as the torque channel would show it without noise
+  std::vector<double> motor, disturbance;      // held during the tick
+  std::vector<char> moves;                     // in one direction, not slower than slowest_share, all the tick long
+  std::vector<std::vector<double>> added;      // per effect, then per instrument: torque it adds to the baseline's
   std::vector<double> coulomb_factor;
 };
 

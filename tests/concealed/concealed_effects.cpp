@@ -3,13 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "concealed/joint_units.hpp"
+
 namespace concealed {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-std::string torque_unit(JointDesign const& joint) { return joint.revolute ? "N m" : "N"; }
-std::string position_unit(JointDesign const& joint) { return joint.revolute ? "rad" : "m"; }
 
 }  // namespace
 
@@ -50,7 +49,7 @@ EffectMaker presliding_of(double distance_of_range) {
   };
 }
 
-EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz) {
+EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double contact_hz, double film_per_s) {
   return [=](JointDesign const& joint) -> ConcealedEffect {
     double const load = load_of_inertia * joint.baseline.inertia;
     double const motor = joint.baseline.inertia - load;
@@ -63,7 +62,7 @@ EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double
             {"reversal"},
             "two masses, gap, Hunt-Crossley flanks",
             false,
-            backlash(load, half_gap, stiffness, damping),
+            backlash(load, half_gap, stiffness, damping, film_per_s * load),
             {{"backlash_half_gap", half_gap, position_unit(joint)}}};
   };
 }

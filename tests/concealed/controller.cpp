@@ -59,14 +59,23 @@ double Controller::slope(std::deque<double> const& values) const {
 
 double Controller::limited(double u) const { return std::clamp(u, -torque_limit_, torque_limit_); }
 
+double Controller::ahead(double reference_slope) {
+  Feedforward const& known = design_.feedforward;
+  double const bend = (reference_slope - last_slope_) / tick_s_;
+  last_slope_ = reference_slope;
+  return known.inertia * bend + known.viscous * reference_slope +
+         known.coulomb * std::tanh(reference_slope / known.knee);
+}
+
 double Controller::command(double reference, double reading) {
   remember(references_, reference);
   remember(readings_, reading);
   double const e = reference - reading;
-  double const e_slope = slope(references_) - slope(readings_);
+  double const reference_slope = slope(references_);
+  double const e_slope = reference_slope - slope(readings_);
   double const input = design_.law == Law::cascade ? kp_ * e + e_slope : e;
   double const direct = design_.law == Law::cascade ? kv_ * input : kp_ * e + kd_ * e_slope;
-  double const u = direct + ki_ * (sum_ + input * tick_s_);
+  double const u = direct + ki_ * (sum_ + input * tick_s_) + ahead(reference_slope);
   if (std::abs(u) < torque_limit_) sum_ += input * tick_s_;
   return limited(u);
 }

@@ -28,5 +28,7 @@ EffectSize effect_size(LoopRun const& quiet, LoopRun const& noisy, Baseline cons
 std::vector<double> torque_noise(Rig const& rig, LoopRun const& noisy);
 
 double rms(std::vector<double> const& values);
+// low-passed like the job's torque
+double in_band_rms(std::vector<double> const& values);
 
 }  // namespace concealed

@@ -10,8 +10,7 @@ namespace concealed {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double fade_s = 1.0;       // multisine in and out
-constexpr double speed_up_s = 0.15;  // from rest to peak speed
+constexpr double fade_s = 1.0;  // multisine in and out
 
 double fade(double t, double length) {
   double const edge = std::min({1.0, t / fade_s, (length - t) / fade_s});
@@ -31,84 +30,115 @@ std::string to_text(Recipe recipe) {
       return "creep";
     case Recipe::mixed:
       return "mixed";
+    case Recipe::chirp:
+      return "chirp";
+    case Recipe::pick_and_place:
+      return "pick_and_place";
+    case Recipe::everyday:
+      return "everyday";
     case Recipe::one_speed:
+      return "one_speed";
+    case Recipe::narrow:
+      return "narrow";
+    case Recipe::one_direction:
       break;
   }
-  return "one_speed";
+  return "one_direction";
 }
 
 Excitation::Excitation(Recipe recipe, MotionLimits const& limits, double duration_s, std::uint64_t seed)
     : limits_(limits) {
-  std::vector<double> const steps = {1.0, 0.7, 0.45, 0.28, 0.16, 0.09, 0.05};
-  std::vector<double> const slow = {0.07, 0.045, 0.028, 0.018, 0.012, 0.008};
+  if (recipe == Recipe::narrow) limits_.range *= 0.05;
   dwell(0.3);
   // until the time is up or no kind of piece fits any more
   int without_piece = 0;
   for (std::uint64_t turn = 0; without_piece < 3 && end_time() < duration_s - 2.0 * fade_s; ++turn) {
-    double const before = end_time(), left = duration_s - before;
-    std::uint64_t const piece_seed = seed + 1000003 * turn;
-    switch (recipe) {
-      case Recipe::multisine:
-        add_multisine(left, piece_seed);
-        break;
-      case Recipe::staircase:
-        add_strokes(left, limits.range, steps, piece_seed);
-        break;
-      case Recipe::creep:
-        add_strokes(left, 0.08 * limits.range, slow, piece_seed);
-        break;
-      case Recipe::one_speed:
-        add_strokes(left, 0.5 * limits.range, {0.4}, piece_seed);
-        break;
-      case Recipe::mixed:
-        switch (turn % 3) {
-          case 0:
-            add_multisine(std::min(left, 9.0), piece_seed);
-            break;
-          case 1:
-            add_strokes(std::min(left, 14.0), limits.range, steps, piece_seed);
-            break;
-          default:
-            add_strokes(std::min(left, 8.0), 0.04 * limits.range, slow, piece_seed);
-            break;
-        }
-    }
+    double const before = end_time();
+    add_piece(recipe, duration_s - before, turn, seed + 1000003 * turn);
     without_piece = end_time() > before ? 0 : without_piece + 1;
   }
+}
+
+void Excitation::add_piece(Recipe recipe, double left, std::uint64_t turn, std::uint64_t seed) {
+  std::vector<double> const steps = {1.0, 0.7, 0.45, 0.28, 0.16, 0.09, 0.05};
+  std::vector<double> const slow = {0.07, 0.045, 0.028, 0.018, 0.012, 0.008};
+  switch (recipe) {
+    case Recipe::multisine:
+    case Recipe::narrow:
+      return add_multisine(left, seed);
+    case Recipe::staircase:
+      return add_strokes(left, limits_.range, steps, seed);
+    case Recipe::creep:
+      return add_strokes(left, 0.08 * limits_.range, slow, seed);
+    case Recipe::one_speed:
+      return add_strokes(left, 0.5 * limits_.range, {0.4}, seed);
+    case Recipe::chirp:
+      return add_chirp(std::min(left, 20.0));
+    case Recipe::pick_and_place:
+      return add_cycles(left, seed);
+    case Recipe::everyday:
+      return add_errands(left, seed);
+    case Recipe::one_direction:
+      return add_turning(left, seed);
+    case Recipe::mixed:
+      break;
+  }
+  if (turn % 3 == 0) return add_multisine(std::min(left, 9.0), seed);
+  if (turn % 3 == 1) return add_strokes(std::min(left, 14.0), limits_.range, steps, seed);
+  add_strokes(std::min(left, 8.0), 0.04 * limits_.range, slow, seed);
 }
 
 double Excitation::end_time() const {
   return stretches_.empty() ? 0.0 : stretches_.back().start + stretches_.back().length;
 }
 
+double Excitation::scale_to_limits(double length, Shape const& shape) const {
+  double peak_q = 0.0, peak_v = 0.0, last = 0.0;
+  double const look_s = 0.005;
+  for (double t = look_s; t < length; t += look_s) {
+    double const q = fade(t, length) * shape(t);
+    peak_q = std::max(peak_q, std::abs(q));
+    peak_v = std::max(peak_v, std::abs(q - last) / look_s);
+    last = q;
+  }
+  return std::min(limits_.range / peak_q, limits_.speed / peak_v);
+}
+
+void Excitation::add_faded(double length, Shape const& shape) {
+  add(length, [=](double t) { return fade(t, length) * shape(t); });
+  here_ = 0.0;
+}
+
 void Excitation::add_multisine(double length, std::uint64_t seed) {
   Random random(seed, "multisine");
-  Stretch piece{end_time(), length, 0.0, 0.0, 0.0, {}};
+  struct Sine {
+    double amplitude, omega, phase;
+  };
+  std::vector<Sine> sines;
   // log-spaced frequencies; equal speed amplitude each, phases at random
   int const n_sines = 9;
   double const lowest_hz = 0.13, highest_hz = 2.1;
   for (int i = 0; i < n_sines; ++i) {
     double const hz = lowest_hz * std::pow(highest_hz / lowest_hz, (i + 0.5 * random.uniform()) / (n_sines - 0.5));
-    piece.sines.push_back({1.0 / (two_pi * hz), two_pi * hz, two_pi * random.uniform()});
+    sines.push_back({1.0 / (two_pi * hz), two_pi * hz, two_pi * random.uniform()});
   }
-  // scaled to the first limit it meets
-  double peak_q = 0.0, peak_v = 0.0, last = 0.0;
-  double const look_s = 0.005;
-  for (double t = look_s; t < length; t += look_s) {
-    double q = 0.0;
-    for (auto const& sine : piece.sines) q += sine.amplitude * std::sin(sine.omega * t + sine.phase);
-    q *= fade(t, length);
-    peak_q = std::max(peak_q, std::abs(q));
-    peak_v = std::max(peak_v, std::abs(q - last) / look_s);
-    last = q;
-  }
-  double const scale = std::min(limits_.range / peak_q, limits_.speed / peak_v);
-  for (auto& sine : piece.sines) sine.amplitude *= scale;
-  stretches_.push_back(std::move(piece));
-  here_ = 0.0;
+  auto sum_of = [](std::vector<Sine> const& all) -> Shape {
+    return [all](double t) {
+      double q = 0.0;
+      for (auto const& sine : all) q += sine.amplitude * std::sin(sine.omega * t + sine.phase);
+      return q;
+    };
+  };
+  double const scale = scale_to_limits(length, sum_of(sines));
+  for (auto& sine : sines) sine.amplitude *= scale;
+  add_faded(length, sum_of(sines));
 }
 
-void Excitation::dwell(double length) { stretches_.push_back({end_time(), length, here_, 0.0, 0.0, {}}); }
+void Excitation::add_parabola(double length, double q, double v, double a) {
+  add(length, [=](double x) { return q + x * (v + 0.5 * a * x); });
+}
+
+void Excitation::dwell(double length) { add_parabola(length, here_, 0.0, 0.0); }
 
 void Excitation::stroke_to(double target, double speed) {
   double const way = std::abs(target - here_);
@@ -117,9 +147,9 @@ void Excitation::stroke_to(double target, double speed) {
   double const v = std::min(speed, std::sqrt(a * way));
   double const up_s = v / a, cruise_s = std::max(0.0, way / v - up_s);
   double const up_way = 0.5 * v * up_s;
-  stretches_.push_back({end_time(), up_s, here_, 0.0, side * a, {}});
-  stretches_.push_back({end_time(), cruise_s, here_ + side * up_way, side * v, 0.0, {}});
-  stretches_.push_back({end_time(), up_s, target - side * up_way, side * v, -side * a, {}});
+  add_parabola(up_s, here_, 0.0, side * a);
+  add_parabola(cruise_s, here_ + side * up_way, side * v, 0.0);
+  add_parabola(up_s, target - side * up_way, side * v, -side * a);
   here_ = target;
 }
 
@@ -157,10 +187,7 @@ double Excitation::position(double t) const {
   Stretch const& stretch = *std::prev(after);
   double const x = t - stretch.start;
   if (x > stretch.length) return here_;
-  if (stretch.sines.empty()) return stretch.q + x * (stretch.v + 0.5 * stretch.a * x);
-  double q = 0.0;
-  for (auto const& sine : stretch.sines) q += sine.amplitude * std::sin(sine.omega * x + sine.phase);
-  return fade(x, stretch.length) * q;
+  return stretch.shape(x);
 }
 
 }  // namespace concealed

@@ -4,6 +4,8 @@ A reported effect answers a true one exactly (its name), by class (the true name
 family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
 Each reported effect answers at most one true effect, better levels first; one that answers none is a false name.
 A law whose form is not the catalogue's is found when its family is found (PHYSICS.md section 4).
+Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no physics)
+accepts every verdict that claims nothing beyond the names the truth allows.
 """
 import dataclasses
 
@@ -37,6 +39,9 @@ class Judgement:
     false_names: tuple = ()
     found: tuple = ()
     gap_closed: float | None = None
+    tier: str = ""
+    drawn: str = ""                    # the name a drawn case was made from
+    wanted_snr: float = 0.0            # size each of its effects was made with
 
     def reached(self, level):
         """All true effects found at this level or better."""
@@ -44,7 +49,8 @@ class Judgement:
 
 
 def check_truth(truth):
-    for key in ("case", "expected", "size", "effects", "relerr", "step_error"):
+    keys = ("case", "expected", "size", "effects", "relerr", "step_error")
+    for key in (*keys, "may_name") if truth.get("expected") == "measurement" else keys:
         if key not in truth:
             raise ValueError(f"truth without {key}")
     for effect in truth["effects"]:
@@ -112,9 +118,19 @@ def match(reported, true_effects):
     return found, tuple(reported[i]["name"] for i in free)
 
 
+def _claims(reported, allowed):
+    """Names beyond `allowed`; a class that holds an allowed one does not claim the others."""
+    return tuple(r["name"] for r in reported if not {r["name"], *r.get("equivalent", [])} & set(allowed))
+
+
 def _is_right(judgement, truth):
     if judgement.false_names:
         return False
+    if truth["expected"] == "measurement":
+        return True
+    if truth["expected"] == "insufficient":
+        silent = judgement.snr < MUST_FIND_SNR and judgement.verdict == "none"
+        return judgement.verdict in ("class", "insufficient") or silent
     if truth["expected"] == "none":
         return judgement.verdict == "none"
     if truth["expected"] == "unexplained":
@@ -140,6 +156,8 @@ def judge(truth, verdict):
     check_truth(truth)
     out = Judgement(truth["case"], truth["expected"], truth["size"]["snr_eff"], "missing")
     out.found = tuple(match([], truth["effects"])[0])
+    out.tier, out.drawn, out.wanted_snr = (truth.get(key, default) for key, default in
+                                           (("tier", ""), ("drawn", ""), ("wanted_snr", 0.0)))
     if verdict is None:
         return out
     try:
@@ -148,6 +166,8 @@ def judge(truth, verdict):
         joint = verdict["joints"][0] if verdict["joints"] else {"effects": [], "baseline": {}}
         reported = joint["effects"]
         found, false_names = match(reported, truth["effects"])
+        if truth["expected"] == "measurement":
+            false_names = _claims(reported, truth["may_name"])
         gap = _gap_closed(joint, truth["relerr"]["validate"]["oracle"]) if truth["effects"] and joint["baseline"] else None
     except (KeyError, TypeError, IndexError):
         out.verdict = "invalid"

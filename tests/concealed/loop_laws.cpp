@@ -11,8 +11,10 @@
 namespace concealed {
 namespace {
 
-Recipe const all_recipes[] = {Recipe::multisine, Recipe::staircase, Recipe::creep, Recipe::mixed, Recipe::one_speed};
-char const* const all_joints[] = {"elbow", "wrist", "shoulder", "stage"};
+Recipe const all_recipes[] = {Recipe::multisine, Recipe::staircase, Recipe::creep,
+                              Recipe::mixed,     Recipe::chirp,     Recipe::pick_and_place,
+                              Recipe::everyday,  Recipe::one_speed, Recipe::narrow};
+char const* const all_joints[] = {"elbow", "wrist", "shoulder", "stage", "base", "belt"};
 char const* const all_controllers[] = {"pd", "soft_pd", "pid", "cascade", "stiff_cascade"};
 
 TEST(ConcealedEncoder, ReadsTheNearestOfItsPositions) {
@@ -76,9 +78,23 @@ TEST(ConcealedExcitation, StaysWithinRangeAndSpeedWithoutJumps) {
   }
 }
 
+TEST(ConcealedExcitation, TurnsOnInOneDirectionOnly) {
+  MotionLimits const limits{1.2, 2.2};
+  Excitation const motion(Recipe::one_direction, limits, 40.0, 9);
+  double fastest = 0.0;
+  for (int k = 1; k < 40000; ++k) {
+    double const v = (motion.position(k * tick_s) - motion.position((k - 1) * tick_s)) / tick_s;
+    ASSERT_GE(v, -1e-9);
+    ASSERT_LE(v, 1.01 * limits.speed);
+    fastest = std::max(fastest, v);
+  }
+  EXPECT_GT(fastest, 0.5 * limits.speed);
+}
+
 TEST(ConcealedExcitation, IsAnotherMotionWithAnotherSeed) {
   MotionLimits const limits{1.2, 2.2};
-  for (Recipe recipe : {Recipe::multisine, Recipe::staircase, Recipe::creep, Recipe::mixed}) {
+  for (Recipe recipe : {Recipe::multisine, Recipe::staircase, Recipe::creep, Recipe::mixed, Recipe::pick_and_place,
+                        Recipe::everyday, Recipe::one_direction}) {
     Excitation const one(recipe, limits, 30.0, 1), other(recipe, limits, 30.0, 2);
     double difference = 0.0;
     for (int k = 0; k < 30000; ++k)

@@ -2,6 +2,9 @@
 // make_case --clean SEED OUT_DIR  writes a clean record to OUT_DIR/clean_SEED
 // make_case --list                names of the sealed cases, one per line
 // make_case --words               effects, families, parameters, units and axes the truths are written with, as JSON
+// make_case --drawn NAME OUT_DIR  writes a drawn case (drawn_name.hpp) to OUT_DIR/FOLDER
+// make_case --list-drawn TIER FROM..TO   names of drawn cases, for example T1 1..775, one per line
+// make_case --folders NAME...     folder of each drawn case, one per line
 // Prints one line: seal, folder, realised effect size. Exit code 0; 64 usage; 1 with a message when it fails.
 #include <cstdio>
 #include <cstdlib>
@@ -10,13 +13,34 @@
 #include <vector>
 
 #include "concealed/case_writer.hpp"
+#include "concealed/drawn_case.hpp"
 
 namespace {
 
 int usage() {
-  std::fputs("usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --list | make_case --words\n",
-             stderr);
+  std::fputs(
+      "usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --drawn NAME OUT_DIR\n"
+      "       make_case --list | make_case --list-drawn TIER FROM..TO | make_case --folders NAME... | make_case "
+      "--words\n",
+      stderr);
   return 64;
+}
+
+bool is_number(std::string const& word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+}
+
+int list_drawn(std::string const& tier, std::string const& stretch) {
+  auto const dots = stretch.find("..");
+  bool const good = tier.size() == 2 && tier[0] == 'T' && tier[1] >= '0' && tier[1] <= '7' &&
+                    dots != std::string::npos && is_number(stretch.substr(0, dots)) &&
+                    is_number(stretch.substr(dots + 2));
+  if (!good) return usage();
+  std::uint64_t const from = std::stoull(stretch.substr(0, dots)), to = std::stoull(stretch.substr(dots + 2));
+  if (from == 0) return usage();
+  for (std::uint64_t i = from; i <= to; ++i)
+    std::printf("%s\n", concealed::listed_name(tier[1] - '0', i).text().c_str());
+  return 0;
 }
 
 void make(concealed::Case const& one_case, std::filesystem::path const& out) {
@@ -38,8 +62,19 @@ int run(std::vector<std::string> const& words) {
     return 0;
   }
   if (words.size() == 3 && words[0] == "--clean") {
-    if (words[1].empty() || words[1].find_first_not_of("0123456789") != std::string::npos) return usage();
-    make(concealed::clean_case(std::strtoull(words[1].c_str(), nullptr, 10)), words[2]);
+    if (!is_number(words[1])) return usage();
+    make(concealed::clean_case(std::stoull(words[1])), words[2]);
+    return 0;
+  }
+  if (words.size() == 3 && words[0] == "--list-drawn") return list_drawn(words[1], words[2]);
+  if (words.size() == 3 && words[0] == "--drawn") {
+    make(concealed::drawn_case(concealed::parse_drawn_name(words[1])), words[2]);
+    return 0;
+  }
+  if (words.size() > 1 && words[0] == "--folders") {
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      std::printf("%s\n", concealed::parse_drawn_name(words[i]).folder().c_str());
+    }
     return 0;
   }
   if (words.size() != 2 || words[0].starts_with('-')) return usage();

@@ -10,7 +10,9 @@ namespace {
 
 constexpr int max_iterations = 60;
 
-Instant at(double t, Vector const& y, int direction) { return {t, y[0], y[1], 0.0, direction}; }
+Instant at(double t, Vector const& y, int direction, Drive const& drive) {
+  return {t, y[0], y[1], 0.0, direction, drive.motor};
+}
 
 }  // namespace
 
@@ -54,18 +56,20 @@ double Plant::dry_level(Instant const& now, Vector const& y, Drive const& drive)
 
 int Plant::direction(State const& state, Drive const& drive) const {
   if (state.v() != 0.0) return state.v() > 0.0 ? 1 : -1;
-  double const push = drive.total() - smooth_torque(at(state.t, state.y, 0), state.y);
+  double const push = drive.total() - smooth_torque(at(state.t, state.y, 0, drive), state.y);
   int const wanted = push > 0.0 ? 1 : -1;
-  double const hold = dry_level(at(state.t, state.y, wanted), state.y, drive);
+  double const hold = dry_level(at(state.t, state.y, wanted, drive), state.y, drive);
   return std::abs(push) > hold ? wanted : 0;
 }
 
 double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive const& drive) const {
   double const push = drive.total() - smooth_torque(now, y);
+  double inertia = motor_inertia_;
+  for (auto const& effect : effects_) inertia += effect->added_inertia(now);
   auto answer = [&](double a) {
     Instant loaded = now;
     loaded.a = a;
-    return (push - now.direction * dry_level(loaded, y, drive)) / motor_inertia_;
+    return (push - now.direction * dry_level(loaded, y, drive)) / inertia;
   };
   double a = answer(0.0);
   if (!feels_load_) return a;
@@ -87,19 +91,20 @@ double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive co
 double Plant::acceleration(State const& state, Drive const& drive) const {
   int const branch = direction(state, drive);
   if (branch == 0) return 0.0;
-  return sliding_acceleration(at(state.t, state.y, branch), state.y, drive);
+  return sliding_acceleration(at(state.t, state.y, branch, drive), state.y, drive);
 }
 
 double Plant::added_torque(std::size_t index, State const& state, Drive const& drive) const {
   HiddenEffect const& effect = *effects_[index];
   double const* z = state.y.data() + first_state_[index];
-  Instant now = at(state.t, state.y, direction(state, drive));
+  Instant now = at(state.t, state.y, direction(state, drive), drive);
   now.a = acceleration(state, drive);
-  return effect.torque(now, z) + now.direction * effect.dry(now, z) - effect.moved_inertia() * now.a;
+  return effect.torque(now, z) + now.direction * effect.dry(now, z) +
+         (effect.added_inertia(now) - effect.moved_inertia()) * now.a;
 }
 
 void Plant::derivative(double t, Vector const& y, int direction, Drive const& drive, Vector& dy) const {
-  Instant const now = at(t, y, direction);
+  Instant const now = at(t, y, direction, drive);
   dy[0] = y[1];
   dy[1] = direction == 0 ? 0.0 : sliding_acceleration(now, y, drive);
   for (std::size_t i = 0; i < effects_.size(); ++i)

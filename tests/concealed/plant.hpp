@@ -33,7 +33,7 @@ struct Drive {
 };
 
 // position, velocity, then the states of the effects one after the other
-inline constexpr std::size_t max_states = 10;
+inline constexpr std::size_t max_states = 18;
 using Vector = std::array<double, max_states>;
 
 struct State {

@@ -107,7 +107,7 @@ TEST(ConcealedPlant, KeepsItsAccuracyThroughAReversal) {
 
 TEST(ConcealedPlant, RefusesMoreStatesThanItHasRoomFor) {
   auto const tank = sloshing_load(0.01, 1.0, 0.0, 1.0);
-  EXPECT_THROW(Plant(frictionless(1.0), {tank, tank, tank, tank, tank}), std::invalid_argument);
+  EXPECT_THROW(Plant(frictionless(1.0), HiddenEffects(max_states / 2, tank)), std::invalid_argument);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "concealed/controller.hpp"
 #include "concealed/excitation.hpp"
+#include "concealed/instrument.hpp"
 #include "concealed/plant.hpp"
 
 namespace concealed {
@@ -33,10 +34,13 @@ struct Rig {
   JointDesign joint;
   ControllerDesign controller;
   NoiseLevel noise;
-  int encoder_bits = 0;  // per turn; 0: exact
+  int encoder_bits = 0;         // per turn; 0: exact
+  int noisy_bits = 0;           // the last of them say nothing
+  bool nominal_stamps = false;  // rows are written at the nominal times of their ticks
+  Instruments instruments = {};
 };
 
-JointDesign joint_named(std::string const& name);            // elbow, wrist, shoulder, stage
+JointDesign joint_named(std::string const& name);            // elbow, wrist, shoulder, stage, base, belt
 ControllerDesign controller_named(std::string const& name);  // pd, pid, cascade, soft_pd, stiff_cascade
 NoiseLevel noise_named(std::string const& name);             // none, quiet, bench, workshop
 

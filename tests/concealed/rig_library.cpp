@@ -45,6 +45,18 @@ JointDesign joint_named(std::string const& name) {
        {.range = 0.13, .speed = 0.3},
        420.0,
        0.02},
+      {"base",
+       true,
+       {.inertia = 2.3, .viscous = 6.5, .coulomb = 6.8, .offset = -0.2},
+       {.range = 2.4, .speed = 1.5},
+       150.0,
+       turn},
+      {"belt",
+       false,
+       {.inertia = 6.2, .viscous = 21.0, .coulomb = 8.5, .offset = 0.3},
+       {.range = 0.32, .speed = 0.85},
+       180.0,
+       0.08},
   };
   return find(joints, name, "joint");
 }

@@ -1,9 +1,11 @@
 """Makes concealed cases, lets the engine diagnose them, and has the scorer judge the verdicts.
 
-    run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO] [--jobs N] [--threads N] [--all-right]
+    run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO | --drawn FILE_OR_NAMES]
+                 [--jobs N] [--threads N] [--all-right]
 
-PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases or --clean: every
-sealed case. Ended before its time, the same command goes on: a verdict stays as long as the case's seal and the program
+PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or --drawn:
+every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated by commas;
+their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the case's seal and the program
 are those it was made with; a diagnosis that failed is tried again.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
@@ -116,6 +118,16 @@ def wanted_cases(options, make_case):
         if not ends or int(ends[1]) > int(ends[2]):
             return f"--clean {options.clean}: write FROM..TO, for example 1..100"
         return {f"clean_{seed}": ["--clean", str(seed)] for seed in range(int(ends[1]), int(ends[2]) + 1)}
+    if options.drawn:
+        path = pathlib.Path(options.drawn)
+        names = (path.read_text() if path.is_file() else options.drawn.replace(",", "\n")).split()
+        folders, at_once = [], 200
+        for i in range(0, len(names), at_once):
+            answer = subprocess.run([make_case, "--folders", *names[i : i + at_once]], capture_output=True, text=True)
+            if answer.returncode != 0:
+                return f"--drawn: {answer.stderr.strip()}"
+            folders += answer.stdout.split()
+        return {folder: ["--drawn", name] for folder, name in zip(folders, names)} or "--drawn: no names in it"
     known = subprocess.run([make_case, "--list"], capture_output=True, text=True, check=True).stdout.split()
     names = options.cases.split(",") if options.cases else known
     unknown = sorted(set(names) - set(known))
@@ -141,6 +153,7 @@ def main(arguments):
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--cases", help="sealed cases, separated by commas")
     which.add_argument("--clean", help="seeds of clean records, FROM..TO")
+    which.add_argument("--drawn", help="names of drawn cases: a file, one per line, or separated by commas")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
     parser.add_argument("--threads", type=int, default=0, help="threads of each diagnosis; 0: as it likes")
     parser.add_argument("--all-right", action="store_true", help="exit code 1 unless every case is right")

@@ -76,6 +76,27 @@ class RunSuite(unittest.TestCase):
         self.run_suite("none ", "--clean", "1..1")
         self.assertTrue((self.out / "open" / "clean_1" / "train.csv").exists())
 
+    def test_drawn_cases_come_from_a_list_and_stay_neutral(self):
+        names = self.folder / "names.txt"
+        names.write_text("T0:3\nT6:late:1\n")
+        code, text, error = self.run_suite("none", "--drawn", str(names), "--all-right")
+        self.assertEqual(code, 0, text + error)
+        self.assertIn("T6, 1 cases", text)
+        folders = [folder for folder, _ in self.called()]
+        self.assertEqual([len(set(folders)), [len(folder) for folder in folders]], [2, [12, 12]])
+        truths = [json.loads((self.out / "sealed" / folder / "truth.json").read_text()) for folder in folders]
+        self.assertEqual([truth["drawn"] for truth in truths], ["T0:3", "T6:late:1"])
+        for folder in folders:
+            # what the program sees says nothing about tier, fault or effect
+            job = (self.out / "open" / folder / "job.toml").read_text()
+            for word in ("late", "T0", "T6", "clean", "drawn"):
+                self.assertNotIn(word, job)
+        self.run_suite("none", "--drawn", "T0:3,T6:late:1")
+        self.assertEqual(len(self.called()), 2)
+        code, _, error = self.run_suite("none", "--drawn", "T1:nothing:1:1")
+        self.assertEqual(code, 64)
+        self.assertIn("no effect named nothing", error)
+
     def test_silence_about_a_concealed_effect_is_not_right(self):
         code, text, _ = self.run_suite("none", "--cases", "oak", "--all-right")
         self.assertEqual(code, 1)

@@ -179,6 +179,49 @@ class Judge(unittest.TestCase):
             judge.judge(coarse, verdict("none"))
 
 
+class Tiers(unittest.TestCase):
+    def decoy(self):
+        return {**clean(), "expected": "measurement", "tier": "T6", "drawn": "T6:late:1", "may_name": ["delay"]}
+
+    def test_a_decoy_must_not_be_called_physics(self):
+        for kind in ("none", "unexplained", "insufficient", "data_fault"):
+            self.assertTrue(judge.judge(self.decoy(), verdict(kind)).right)
+        self.assertTrue(judge.judge(self.decoy(), verdict("named", [effect("delay", "acceleration")])).right)
+        self.assertTrue(judge.judge(self.decoy(), verdict("class", [effect("backlash", equivalent=["delay"])])).right)
+        j = judge.judge(self.decoy(), verdict("named", [effect("delay", "acceleration"), effect()]))
+        self.assertEqual((j.right, j.false_names), (False, ("stribeck",)))
+        self.assertFalse(judge.judge(self.decoy(), None).right)
+        with self.assertRaises(ValueError):
+            judge.judge({key: value for key, value in self.decoy().items() if key != "may_name"}, verdict("none"))
+
+    def test_weak_motion_wants_a_class_or_no_answer(self):
+        weak = lambda snr=3.0: truth("insufficient", snr=snr)
+        self.assertTrue(judge.judge(weak(), verdict("insufficient")).right)
+        self.assertTrue(judge.judge(weak(), verdict("class", [effect("presliding", equivalent=["stribeck"])])).right)
+        self.assertFalse(judge.judge(weak(), verdict("class", [effect("cogging", "order_locked")])).right)
+        self.assertFalse(judge.judge(weak(), verdict("named", [effect()])).right)
+        self.assertFalse(judge.judge(weak(), verdict("none")).right)
+        self.assertTrue(judge.judge(weak(0.1), verdict("none")).right)
+
+    def judged(self, tier, size, answer, expected="named"):
+        made = truth(expected, None if expected == "named" else [], size)
+        return judge.judge({**made, "tier": tier, "drawn": f"{tier}:x:{size}", "wanted_snr": size}, answer)
+
+    def test_tiers_and_sizes_are_counted_apart(self):
+        right, silent = verdict("named", [effect()]), verdict("none")
+        all_of = [self.judged("T1", 0.5, silent), self.judged("T1", 0.5, right), self.judged("T1", 2.0, right),
+                  self.judged("T0", 0.0, silent, "none"), judge.judge(clean(), silent)]
+        tiers, curve = score.by_tier(all_of), score.power_curve(all_of)
+        self.assertEqual({tier: board["cases"] for tier, board in tiers.items()}, {"T0": 1, "T1": 3})
+        self.assertEqual(tiers["T0"]["clean: verdict none"]["hits"], 1)
+        self.assertEqual(list(curve), ["T1"])
+        self.assertEqual([(size, row["family"]["hits"], row["family"]["of"]) for size, row in curve["T1"].items()],
+                         [("0.5", 1, 2), ("2", 1, 1)])
+        # the protocol's naming rate begins at SNR_eff 1
+        self.assertEqual(tiers["T1"]["single: family"]["of"], 1)
+        self.assertEqual(len(score.power_lines(curve)), 3)
+
+
 class Board(unittest.TestCase):
     def run_score(self, truths, verdicts, *options):
         with tempfile.TemporaryDirectory() as name:

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "concealed/case_writer.hpp"
+#include "concealed/decoys.hpp"
+#include "concealed/drawable_effects.hpp"
 
 namespace concealed {
 namespace {
@@ -53,20 +55,28 @@ Json baseline_json(Baseline const& baseline) {
 
 std::string words_text() {
   Json effects = Json::array();
+  auto add = [&](ConcealedEffect const& effect, JointDesign const& joint) {
+    if (effect.name.empty()) return;
+    Json one = {{"name", effect.name}, {"families", effect.families}, {"parameters", Json::array()}};
+    one["prismatic"] = !joint.revolute;
+    for (auto const& parameter : effect.parameters) {
+      one["parameters"].push_back({{"name", parameter.name}, {"unit", parameter.unit}});
+    }
+    if (std::find(effects.begin(), effects.end(), one) == effects.end()) effects.push_back(one);
+  };
   for (auto const& one_case : sealed_cases()) {
-    for (auto const& effect : one_case.effects) {
-      if (effect.name.empty()) continue;
-      Json one = {{"name", effect.name}, {"families", effect.families}, {"parameters", Json::array()}};
-      one["prismatic"] = !one_case.rig.joint.revolute;
-      for (auto const& parameter : effect.parameters) {
-        one["parameters"].push_back({{"name", parameter.name}, {"unit", parameter.unit}});
-      }
-      if (std::find(effects.begin(), effects.end(), one) == effects.end()) effects.push_back(one);
+    for (auto const& effect : one_case.effects) add(effect, one_case.rig.joint);
+  }
+  for (auto const& effect : catalogue_effects()) {
+    for (auto const& name : effect.joints) {
+      Random random(1, "words");
+      JointDesign const joint = joint_named(name);
+      add(effect.draw(random, joint)(effect.usual)(joint), joint);
     }
   }
   // in an order that tells nothing about the cases
   std::sort(effects.begin(), effects.end(), [](Json const& a, Json const& b) { return a.dump() < b.dump(); });
-  return Json{{"effects", effects}, {"axes", truth_axes()}}.dump(1) + "\n";
+  return Json{{"effects", effects}, {"may_name", measurement_names()}, {"axes", truth_axes()}}.dump(1) + "\n";
 }
 
 std::string truth_text(Case const& one_case, CaseReport const& report) {
@@ -92,6 +102,12 @@ std::string truth_text(Case const& one_case, CaseReport const& report) {
         {"validate", {{"baseline", report.validate_relerr.baseline}, {"oracle", report.validate_relerr.oracle}}}}},
       {"step_error", {{"torque", report.step_error.torque}, {"position", report.step_error.position}}},
       {"effects", Json::array()}};
+  if (!one_case.drawn.empty()) {
+    truth["tier"] = one_case.tier;
+    truth["drawn"] = one_case.drawn;
+    truth["wanted_snr"] = one_case.wanted_snr;
+  }
+  if (one_case.expected_verdict() == "measurement") truth["may_name"] = measurement_names();
   for (std::size_t i = 0; i < one_case.effects.size(); ++i) {
     truth["effects"].push_back(effect_json(one_case.effects[i], report.alone[i], report.regions[i]));
   }

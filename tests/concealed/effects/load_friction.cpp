@@ -10,8 +10,7 @@ class LoadFriction final : public HiddenEffect {
  public:
   LoadFriction(double share, double round, Link const& link) : share_(share), round_(round), link_(link) {}
   double dry(Instant const& now, double const*) const override {
-    double const load =
-        link_.inertia * now.a + link_.gravity_sin * std::sin(now.q) + link_.gravity_cos * std::cos(now.q);
+    double const load = link_.load(now);
     return share_ * (std::sqrt(load * load + round_ * round_) - round_);
   }
   bool feels_load() const override { return true; }
