@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "engine/run/workflows.hpp"
 #include "kernels/dispatch.hpp"
@@ -66,9 +67,8 @@ population = 17
 generations = 4
 precision = "float32"
 )" + test::joint_model + "[simulate.noise]\ntorque_std = 0.05\n";
-  auto const experiment = test::load_job(job);
   std::set<std::string> digests;
-  for (int threads : {1, 2, 3, 5}) digests.insert(digest_of(experiment, threads));
+  for (int threads : {1, 2, 3, 5}) digests.insert(digest_of(test::load_job(job), threads));
   EXPECT_EQ(digests.size(), 1u);
 }
 
