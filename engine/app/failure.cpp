@@ -47,8 +47,8 @@ std::vector<Problem> problems_of(std::exception_ptr failure) {
     Problem problem = our_fault("out of memory");
     problem.help = "fewer --threads, a smaller population or fewer generations need less";
     return {problem};
-  } catch (std::exception const& unknown) {
-    return {our_fault(fmt::format("unexpected: {} (our fault)", unknown.what()))};
+  } catch (std::exception const& other) {
+    return {our_fault(fmt::format("unexpected: {} (our fault)", other.what()))};
   } catch (...) {
     return {our_fault("unexpected failure (our fault)")};
   }

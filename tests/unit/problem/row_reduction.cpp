@@ -6,6 +6,8 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "unit/problem/joint_data.hpp"
 
@@ -19,11 +21,33 @@ Eigen::VectorXd solve_in_blocks(RegressionData const& data, Eigen::Index block_r
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(reduced.phi).solve(reduced.tau);
 }
 
-// Householder QR of all rows in long double: 11 bits more
+// modified Gram-Schmidt of [phi | tau] in long double: 11 bits more, and loops that take a compiler no time
 Eigen::VectorXd solve_in_long_double(RegressionData const& data) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  Eigen::HouseholderQR<Matrix> const qr(Matrix(data.phi.cast<long double>()));
-  return qr.solve(data.tau.cast<long double>()).cast<double>();
+  using Column = std::vector<long double>;
+  auto const dot = [](Column const& a, Column const& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0L);
+  };
+  auto const R = static_cast<std::size_t>(data.phi.cols());
+  std::vector<Column> columns;
+  for (Eigen::Index k = 0; k < data.phi.cols(); ++k)
+    columns.emplace_back(data.phi.col(k).begin(), data.phi.col(k).end());
+  columns.emplace_back(data.tau.begin(), data.tau.end());
+  std::vector<Column> r(R, Column(R + 1));
+  for (std::size_t k = 0; k < R; ++k) {
+    long double const square = dot(columns[k], columns[k]);
+    for (std::size_t j = k + 1; j <= R; ++j) {
+      r[k][j] = dot(columns[k], columns[j]) / square;
+      for (std::size_t i = 0; i < columns[k].size(); ++i) columns[j][i] -= r[k][j] * columns[k][i];
+    }
+  }
+  Eigen::VectorXd parameters(data.phi.cols());
+  Column solved(R);
+  for (std::size_t k = R; k-- > 0;) {
+    solved[k] = r[k][R];
+    for (std::size_t j = k + 1; j < R; ++j) solved[k] -= r[k][j] * solved[j];
+    parameters[static_cast<Eigen::Index>(k)] = static_cast<double>(solved[k]);
+  }
+  return parameters;
 }
 
 double error(Eigen::VectorXd const& parameters, RegressionData const& data, Eigen::VectorXd const& oracle) {
