@@ -12,6 +12,12 @@ struct Attempt {
   BaselineCorrection baseline{};
   NoiseLevel disturbance{}, friction_wander{};
   bool ran_away() const { return baseline.ran_away || disturbance.ran_away || friction_wander.ran_away; }
+  // What a law does not explain is noise of its twins. Twins that are louder than the recording, without any disturbance
+  // and where effects have little to say, are so because the law lacks something: a feedforward of friction, say
+  bool law_is_too_poor() const {
+    constexpr double clearly = 4.0;
+    return loop.source == LoopSource::approximated && disturbance.z < -clearly;
+  }
 };
 
 Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
@@ -73,6 +79,10 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   if (made.ran_away() && made.loop.source != LoopSource::tracking) {
     made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
+  } else if (made.law_is_too_poor()) {
+    Attempt tracking = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
+    tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
+    if (!tracking.ran_away()) made = std::move(tracking);
   }
   validate(!made.ran_away(), [&] {
     Problem problem{ExitCode::bad_data, recording.name + ": the fitted joint runs away from the measured motion"};
