@@ -26,6 +26,7 @@ struct StageSetting {
   std::uint64_t seed = 0;
   int threads = 1;
   WanderReading wander = WanderReading::beside_motion;
+  std::shared_ptr<RecordedLoop const> loop{};  // as the first stage decided; none: decide
 };
 
 struct ModelStage {

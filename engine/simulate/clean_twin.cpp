@@ -137,21 +137,16 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * step_s) * (1.0 - 1e-9)));
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
-  // beyond its ends the reference goes on as its odd reflection: a ramp stays a ramp, or the law would see it stop dead
-  auto const reference_at = [&](Eigen::Index k) {
-    auto const& r = track_.reference;
-    if (k < 0) return 2.0 * r[0] - r[std::min(-k, n - 1)];
-    if (k >= n) return 2.0 * r[n - 1] - r[std::max(2 * (n - 1) - k, Eigen::Index{0})];
-    return r[k];
-  };
+  ReferenceSignal const reference(track_.reference);
   LoopLaw const& law = loop_.law;
   open_.resize(n);
   wanted_.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    wanted_[k] = reference_at(k + law.shift);
+    wanted_[k] = reference(k + law.shift);
     open_[k] = law.constant;
     for (std::size_t j = 0; j < law.reference.size(); ++j)
-      open_[k] += law.reference[j] * reference_at(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
+      open_[k] += law.reference[j] * reference(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
+    for (auto const& term : law.terms) open_[k] += term.gain * term(reference, k);
   }
 }
 
