@@ -34,6 +34,12 @@ def number(row, value):
     return {"seconds": q.seconds, "count": q.tick, "number": lambda v: q.fixed(v, 3)}[row["form"]](value)
 
 
+def _of(row):
+    if row["value"] is None:
+        return ""
+    return f"{row['hits']} of {row['n']}" if row["hits"] is not None else f"n = {row['n']}"
+
+
 class Board:
     def __init__(self, path):
         document = json.loads(Path(path).read_text())
@@ -72,11 +78,13 @@ def head(board):
 def big_numbers(board):
     """Four of: [(number, unit, caption)]."""
     found = []
-    for key, caption in (("clean_false_name", "clean records with a false name"), ("single_family", "single effects of SNR 1 or more: right family first"),
-                         ("false_share", "false share of the names"), ("gap_closed", "of the gap to the oracle closed on unseen data, median")):
+    for key, caption in (("clean_false_name", "clean records with a false name"),
+                         ("single_family", "single effects of SNR 1 or more: right family first"),
+                         ("false_share", "false share of the names"),
+                         ("gap_closed", "of the gap to the oracle closed on unseen data, median")):
         row = board.row(key)
         if row["value"] is not None:
-            found.append((number(row, row["value"]), "", caption + (f"; {row['hits']} of {row['n']}" if row["hits"] is not None else f"; n = {row['n']}")))
+            found.append((number(row, row["value"]), "", f"{caption}; {_of(row)}"))
     return found
 
 
@@ -86,9 +94,8 @@ def scoreboard(board):
     """[{words, measured, of, bounds, pass, pass_holds, stretch, stretch_holds}] for the template."""
     rows = []
     for row in board.ours["table"]:
-        of = "" if row["value"] is None else f"{row['hits']} of {row['n']}" if row["hits"] is not None else f"n = {row['n']}"
         known = row["low"] is not None or row["high"] is not None
-        rows.append({"words": row["words"], "measured": number(row, row["value"]), "of": of,
+        rows.append({"words": row["words"], "measured": number(row, row["value"]), "of": _of(row),
                      "bounds": f"{number(row, row['low'])} … {number(row, row['high'])}" if known else "",
                      **{key: row[key] for key in ("pass", "pass_holds", "stretch", "stretch_holds")}})
     return rows
@@ -104,7 +111,8 @@ def methods_table(board):
 
 
 def tiers_table(board):
-    rows = [[tier["words"], tier["right"]["n"], tier["right"]["hits"], tier["false_name"]["hits"], tier["no_answer"]["hits"]] for tier in board.ours["tiers"]]
+    rows = [[tier["words"], tier["right"]["n"], *(tier[key]["hits"] for key in ("right", "false_name", "no_answer"))]
+            for tier in board.ours["tiers"]]
     return {"head": ["kind of case", "cases", "right", "with a false name", "no answer"], "rows": rows}
 
 
@@ -115,7 +123,8 @@ def effects_table(board):
     for row in board.ours["effects"]:
         found = [f"{row['sizes'][size][0]} of {row['sizes'][size][1]}" if size in row["sizes"] else "" for size in sizes]
         instead = ", ".join(plain(word) + (f" ({times})" if times > 1 else "") for word, times in row["instead"].items())
-        rows.append([plain(row["effect"]), plain(row["family"]), *found, f"{row['exact']} of {row['cases']}", f"{row['class']} of {row['cases']}", instead])
+        rows.append([plain(row["effect"]), plain(row["family"]), *found,
+                     *(f"{row[level]} of {row['cases']}" for level in ("exact", "class")), instead])
     return {"head": ["concealed", "family", *(f"SNR {size}" for size in sizes), "exact name", "name or class", "said instead"], "rows": rows}
 
 
@@ -128,13 +137,15 @@ def clean_answer(board):
 def clean_table(board):
     parts = {"joint": "joint", "controller": "controller", "noise": "noise", "train": "motion"}
     return {"head": ["made with", "", "records", "with a false name", "other than “nothing missing”"],
-            "rows": [[parts[row["part"]], plain(row["value"]), row["records"], row["false_names"], row["not_none"]] for row in board.ours["clean"]]}
+            "rows": [[parts[row["part"]], plain(row["value"]), row["records"], row["false_names"], row["not_none"]]
+                     for row in board.ours["clean"]]}
 
 
 def circumstances_table(board):
     kinds = {"T4": "outside the catalogue", "T5": "weak motion", "T6": "measurement decoy", "T7": "rig out of the ordinary"}
     return {"head": ["kind", "which", "cases", "right", "with a false name"],
-            "rows": [[kinds[row["tier"]], concealed_words(row["words"]), row["cases"], row["right"], row["false_names"]] for row in board.ours["circumstances"]]}
+            "rows": [[kinds[row["tier"]], concealed_words(row["words"]), row["cases"], row["right"], row["false_names"]]
+                     for row in board.ours["circumstances"]]}
 
 
 def misses(board):
@@ -146,7 +157,8 @@ def misses(board):
         said = q.listed(map(plain, one["names"])) or plain(one["verdict"])
         near = [f"{plain(name)} was guess {rank}" if len(one["levels"]) > 1 else f"its family was guess {rank}"
                 for name, level, rank in one["levels"] if level == "missed" and rank is not None and rank <= 3]
-        found.append({"case": one["case"], "concealed": hidden + size, "forms": q.listed(one["forms"]), "said": said, "near": "; ".join(near),
+        found.append({"case": one["case"], "concealed": hidden + size, "forms": q.listed(one["forms"]), "said": said,
+                      "near": "; ".join(near),
                       "phantom": q.listed(map(plain, one["false_names"])), "reason": one["reason"]})
     return found
 

@@ -52,13 +52,14 @@ def render(cases, **said):
 
 
 def _of_study(study):
-    return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study), "numbers": words.big_numbers(study),
-            "verdict_json": ""}
+    return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study),
+            "numbers": words.big_numbers(study), "verdict_json": ""}
 
 
 def _of_diagnosis(study):
     joints = study.diagnosis.joints
-    return {"parts": ["diagnosis.html", "recording.html"], "verdict": words_of_diagnosis.verdict(study), "head": words_of_diagnosis.head(study),
+    return {"parts": ["diagnosis.html", "recording.html"], "verdict": words_of_diagnosis.verdict(study),
+            "head": words_of_diagnosis.head(study),
             "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
             "lists": tables_of_diagnosis, "diagnosed": diagnosed,
             # a script element ends at the first "</", wherever it stands

@@ -10,7 +10,8 @@
     /methods/M/power        tier, size, then hits, n, low, high of exact, class, family, guess (three of them), false_name
     /methods/M/confidence   bins: from, to, n, stated, right, low, high; attributes n, brier, ece
 
-Every dataset has the attributes unit and long_name. What is unknown is NaN, a count that is unknown -1. Texts have a fixed length (UTF-8).
+Every dataset has the attributes unit and long_name. What is unknown is NaN, a count that is unknown -1. Texts have a fixed
+length (UTF-8).
 """
 import math
 
@@ -18,11 +19,14 @@ import h5py
 import numpy as np
 
 UNITS = {"seconds": "s"}
-LONG = {"snr_eff": "smallest effect: rms of the residual after baseline refit over the noise", "wanted_snr": "size each effect was made with",
-        "low": "one-sided 95 % lower bound", "high": "one-sided 95 % upper bound", "iou": "shared over joint occupancy of reported and true region",
+LONG = {"snr_eff": "smallest effect: rms of the residual after baseline refit over the noise",
+        "wanted_snr": "size each effect was made with",
+        "low": "one-sided 95 % lower bound", "high": "one-sided 95 % upper bound",
+        "iou": "shared over joint occupancy of reported and true region",
         "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data",
         "loop_ratio": "closed-loop position error of the unseen recording, after over before",
-        "seal": "SHA-256 of the sealed truth", "level": "how the first true effect was found", "parameter_error": "relative error of the main parameter"}
+        "seal": "SHA-256 of the sealed truth", "level": "how the first true effect was found",
+        "parameter_error": "relative error of the main parameter", "train": "motion of the training recording"}
 
 
 def put(group, name, values, long_name=None):
@@ -59,7 +63,7 @@ def write_cases(group, cases):
     put(group, "concealed", [_joined(c["concealed"]) for c in cases])
     put(group, "snr_eff", [min((f["snr"] for f in c["found"]), default=c["snr"]) for c in cases])
     for part in ("joint", "controller", "law", "noise", "train"):
-        put(group, part, [str(c["rig"].get(part, "")) for c in cases], f"{part} of the rig" if part != "train" else "motion of the training recording")
+        put(group, part, [str(c["rig"].get(part, "")) for c in cases])
 
 
 def write_method(group, method):
@@ -85,7 +89,9 @@ def write_method(group, method):
         for level in ("exact", "class", "family", "guess", "false_name"):
             put_rows(power.create_group(level), [row[level] for row in method["power"]], ("hits", "n", "low", "high"))
     sure = group.create_group("confidence")
-    sure.attrs.update({key: math.nan if method["confidence"][key] is None else method["confidence"][key] for key in ("n", "brier", "ece")})
+    for key in ("n", "brier", "ece"):
+        known = method["confidence"][key]
+        sure.attrs[key] = math.nan if known is None else known
     if method["confidence"]["bins"]:
         put_rows(sure, method["confidence"]["bins"], ("from", "to", "n", "stated", "right", "low", "high"))
 

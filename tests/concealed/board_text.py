@@ -3,7 +3,8 @@ import protocol
 
 SHORT = {protocol.OPEN: "?", protocol.NONE: "-"}
 
-FORMS = {"percent": lambda value: f"{100 * value:.1f} %", "number": lambda value: f"{value:.3f}", "count": lambda value: f"{value:g}", "seconds": lambda value: f"{value:.1f} s"}
+FORMS = {"percent": lambda value: f"{100 * value:.1f} %", "number": lambda value: f"{value:.3f}",
+         "count": lambda value: f"{value:g}", "seconds": lambda value: f"{value:.1f} s"}
 
 
 def number(row, value):
@@ -50,8 +51,10 @@ def table_lines(rows):
 
 def tier_lines(tiers):
     lines = [f"{'tier':36} {'cases':>6} {'right':>6} {'with a false name':>18} {'no answer':>10}"]
-    return lines + [f"{t['tier']} {t['words']:33} {t['right']['n']:6} {t['right']['hits']:6} {t['false_name']['hits']:18} {t['no_answer']['hits']:10}"
-                    for t in tiers]
+    for t in tiers:
+        right, false, silent = (t[key]["hits"] for key in ("right", "false_name", "no_answer"))
+        lines.append(f"{t['tier']} {t['words']:33} {t['right']['n']:6} {right:6} {false:18} {silent:10}")
+    return lines
 
 
 def power_lines(power):
@@ -91,7 +94,8 @@ def markdown(board):
     ours, *rivals = methods
     lines = [f"{board['suite']['cases']} cases, suite seed {', '.join(map(str, board['suite']['suite_seeds'])) or '-'}, "
              f"sealed truths `{board['suite']['truths_sha256'][:16]}`.", "",
-             "| | measured | 95 % sure above, below | pass level | holds | stretch level | holds |" + "".join(f" {r} |" for r in rivals),
+             "| | measured | 95 % sure above, below | pass level | holds | stretch level | holds |"
+             + "".join(f" {rival} |" for rival in rivals),
              "|---|---|---|---|---|---|---|" + "---|" * len(rivals)]
     for index, row in enumerate(methods[ours]["table"]):
         others = [methods[rival]["table"][index] for rival in rivals]

@@ -106,9 +106,11 @@ def by_circumstance(judgements):
 
 def misses(judgements):
     """Cases that are not right, phantoms first, then the largest effects."""
-    wrong = sorted((j for j in judgements if not j.right), key=lambda j: (not protocol.invented(j), -protocol.size(j), j.drawn or j.case))
-    return [{"case": j.drawn or j.case, "folder": j.case, "tier": protocol.kind(j), "concealed": list(j.concealed), "snr": protocol.size(j),
-             "levels": [[f.name, f.level, f.rank] for f in j.found], "forms": [f.form for f in j.found if f.form], "verdict": j.verdict, "names": [name for name, *_ in j.names],
+    wrong = sorted((j for j in judgements if not j.right),
+                   key=lambda j: (not protocol.invented(j), -protocol.size(j), j.drawn or j.case))
+    return [{"case": j.drawn or j.case, "folder": j.case, "tier": protocol.kind(j), "snr": protocol.size(j),
+             "concealed": list(j.concealed), "levels": [[f.name, f.level, f.rank] for f in j.found],
+             "forms": [f.form for f in j.found if f.form], "verdict": j.verdict, "names": [name for name, *_ in j.names],
              "false_names": list(j.false_names), "reason": j.reason} for j in wrong]
 
 

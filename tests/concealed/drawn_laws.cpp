@@ -61,7 +61,9 @@ TEST(DrawnNames, OfAnotherSuiteHaveOtherSeedsAndTheSameEffectsAndSizes) {
         EXPECT_EQ(parse_drawn_name(name.text()).stream(), name.stream());
         seen.insert(name.text());
       }
-      if (tier == 1) EXPECT_EQ(listed_name(tier, i, 1).words, listed_name(tier, i).words);
+      if (tier == 1) {
+        EXPECT_EQ(listed_name(tier, i, 1).words, listed_name(tier, i).words);
+      }
     }
   }
   EXPECT_EQ(seen.size(), 8u * 200u * 3u);

@@ -33,6 +33,7 @@ class Found:
     family: str = ""                   # its own, of those it may answer to
     form: str = ""                     # the law it was made with
     rank: int | None = None            # guess that has its family, from 1; None: no guess has
+    blind: float | None = None         # chance that three guesses drawn from the list have its family; None: no list
 
 
 @dataclasses.dataclass
@@ -130,6 +131,11 @@ def guesses(record):
     return [ranked[name] for name in order]
 
 
+def blind_chance(n, n_right, guesses=3):
+    """Chance that `guesses` drawn without looking from a list of n hit one of the n_right; None without a list to draw from."""
+    return 1.0 - math.comb(n - n_right, guesses) / math.comb(n, guesses) if n >= guesses else None
+
+
 def match(reported, true_effects):
     """-> (list of Found, in the order of true_effects; names that answer nothing)."""
     known = [t for t in true_effects if t["name"]]
@@ -218,6 +224,7 @@ def judge(truth, verdict):
         return out
     for f, t in zip(found, (t for t in truth["effects"] if t["name"])):
         f.rank = next((i for i, family in enumerate(families, 1) if family in t["families"]), None)
+        f.blind = blind_chance(len(families), sum(family in t["families"] for family in families))
     out.verdict, out.n_named, out.names = record["verdict"], len(reported), names
     out.found, out.false_names, out.gap_closed, out.loop_ratio = tuple(found), false_names, gap, loop
     out.reason, out.seconds = record["reason"], record["seconds"]

@@ -5,8 +5,8 @@
 
 PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or --drawn:
 every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated by commas;
-their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the case's seal and the program
-are those it was made with; a diagnosis that failed is tried again. --shard runs a share of the cases (shard.py), without I/N the
+their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the
+case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs a share of the cases (shard.py), without I/N the
 one Slurm says; each shard wants an OUT of its own, and score.py OUT... gathers them.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it

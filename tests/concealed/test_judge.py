@@ -155,8 +155,9 @@ class OtherTiers(unittest.TestCase):
 class OtherAnswers(unittest.TestCase):
     def test_a_region_on_both_sides_of_zero_is_two_intervals(self):
         places = [[-1.0, -0.5], [0.5, 1.0]]
-        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": 0.5, "to": 1.0}, true_effect()["regions"]), 0.25)
-        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": 0.5, "to": 1.0, "places": places}, true_effect()["regions"]), 0.5)
+        one, regions = {"axis": "velocity", "from": 0.5, "to": 1.0}, true_effect()["regions"]
+        self.assertAlmostEqual(judge.region_iou(one, regions), 0.25)
+        self.assertAlmostEqual(judge.region_iou({**one, "places": places}, regions), 0.5)
         beside = {**verdict("named", [effect(low=0.5)]), "places": {"stribeck": places}}
         self.assertAlmostEqual(judge.judge(truth(), beside).found[0].iou, 0.5)
 
@@ -187,10 +188,18 @@ class OtherAnswers(unittest.TestCase):
         self.assertIsNone(judge.judge(truth(), {**answer, "ranking": []}).found[0].rank)
         self.assertEqual(judge.judge(truth(), {**verdict("none"), "ranking": answer["ranking"]}).found[0].rank, 3)
 
+    def test_three_blind_guesses_from_four_miss_one_of_two_right_ones_never(self):
+        self.assertEqual(judge.blind_chance(4, 2), 1.0)
+        self.assertAlmostEqual(judge.blind_chance(4, 1), 0.75)  # 3 of 4
+        self.assertAlmostEqual(judge.blind_chance(30, 5), 1 - 25 * 24 * 23 / (30 * 29 * 28))
+        self.assertEqual(judge.blind_chance(5, 0), 0.0)
+        self.assertIsNone(judge.blind_chance(2, 1))
+
     def test_a_rival_needs_no_more_than_names_and_families(self):
         rival = {"case": "x", "verdict": "named", "effects": [{"name": "stribeck", "family": "reversal"}]}
         j = judge.judge(truth(), rival)
-        self.assertEqual((j.right, j.found[0].level, j.found[0].iou, j.gap_closed, j.names), (True, "exact", None, None, (("stribeck", "reversal", None, True),)))
+        self.assertEqual((j.right, j.found[0].level, j.found[0].iou, j.gap_closed), (True, "exact", None, None))
+        self.assertEqual(j.names, (("stribeck", "reversal", None, True),))
         self.assertAlmostEqual(judge.judge(truth(), {**rival, "unseen": {"before": 0.11, "after": 0.02}}).gap_closed, 0.9)
         for broken in ({"verdict": "named"}, {"verdict": "perhaps", "effects": []}, {"verdict": "named", "effects": [{"name": "stribeck"}]}):
             self.assertEqual(judge.judge(truth(), broken).verdict, "invalid")

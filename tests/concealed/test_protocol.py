@@ -119,8 +119,9 @@ class Table(unittest.TestCase):
         self.assertEqual(rows["triple_set"]["pass_holds"], "not measured")
 
     def test_sealed_cases_count_in_the_tier_they_would_belong_to(self):
-        kinds = [protocol.kind(judge.judge(made, None)) for made in
-                 (clean(), truth(), truth(effects=[true_effect(), true_effect()]), truth("unexplained", [true_effect("", ())]), truth("insufficient"))]
+        made = (clean(), truth(), truth(effects=[true_effect(), true_effect()]), truth("unexplained", [true_effect("", ())]),
+                truth("insufficient"))
+        kinds = [protocol.kind(judge.judge(one, None)) for one in made]
         self.assertEqual(kinds, ["T0", "T1", "T2", "T4", "T5"])
 
 
@@ -151,7 +152,8 @@ class Apart(unittest.TestCase):
     def test_misses_name_what_was_concealed_and_phantoms_come_first(self):
         wrong = breakdown.misses(suite())
         self.assertEqual([one["case"] for one in wrong],
-                         ["T2:stribeck+spring:2:1", "T4:outside_sloshing:1:1", "T1:stribeck:1:4", "T0:2", "T1:stribeck:4:3", "T1:stribeck:0.5:1"])
+                         ["T2:stribeck+spring:2:1", "T4:outside_sloshing:1:1", "T1:stribeck:1:4", "T0:2",
+                          "T1:stribeck:4:3", "T1:stribeck:0.5:1"])
         phantom = next(one for one in wrong if one["case"] == "T1:stribeck:1:4")
         self.assertEqual((phantom["concealed"], phantom["false_names"], phantom["verdict"]), (["stribeck"], ["cogging"], "named"))
 

@@ -29,5 +29,5 @@ def cases(board):
     if not seconds:
         return {}
     return {"diagnosis_seconds": Case(draw, {"seconds": seconds}, "How long does it take?",
-                                      f"{quantities.count(len(seconds), 'diagnosis', 'diagnoses')}, {quantities.seconds(sum(seconds))} together; line: median. "
-                                      "Wall time, on whatever else the machine was doing.")}
+                                      f"{quantities.count(len(seconds), 'diagnosis', 'diagnoses')}, {quantities.seconds(sum(seconds))} together; "
+                                      "line: median. Wall time, beside whatever else the machine was doing.")}

@@ -51,5 +51,5 @@ def cases(board):
         return {}
     total = int(np.sum(matrix["counts"]))
     return {"family_confusion": Case(draw, {"rows": matrix["rows"], "columns": matrix["columns"], "counts": matrix["counts"]}, TITLE,
-                                     f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the family of the first name, "
-                                     "or what was said without a name (columns). Framed: right.", wide=True)}
+                                     f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the family of "
+                                     "the first name, or what was said without a name (columns). Framed: right.", wide=True)}

@@ -25,15 +25,15 @@ def draw(values, pass_level, label, low, width=style.SMALL):
 
 
 def cases(board):
-    found = {}
-    ours = board.ours
+    found, ours = {}, board.ours
     if ours["iou"]:
-        found["region_iou"] = Case(
-            draw, {"values": ours["iou"], "pass_level": 0.60, "label": "overlap of the regions (%)", "low": 0.0}, "Was the place right?",
-            f"{quantities.count(len(ours['iou']), 'effect')} found: rows both regions hold over rows either holds. Line: median; dashed: pass level, 60 %.")
+        said = (f"{quantities.count(len(ours['iou']), 'effect')} found: rows both regions hold over rows either holds. "
+                "Line: median; dashed: pass level, 60 %.")
+        found["region_iou"] = Case(draw, {"values": ours["iou"], "pass_level": 0.60, "label": "overlap of the regions (%)", "low": 0.0},
+                                   "Was the place right?", said)
     if ours["gap_closed"]:
-        found["gap_closed"] = Case(
-            draw, {"values": ours["gap_closed"], "pass_level": 0.80, "label": "gap to the oracle closed (%)", "low": -0.2}, "Is the model better where it counts?",
-            f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good as the true model. What is not found "
-            "closes nothing. Line: median; dashed: pass level, 80 %.")
+        said = (f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good as the true "
+                "model. What is not found closes nothing. Line: median; dashed: pass level, 80 %.")
+        found["gap_closed"] = Case(draw, {"values": ours["gap_closed"], "pass_level": 0.80, "label": "gap to the oracle closed (%)",
+                                          "low": -0.2}, "Is the model better where it counts?", said)
     return found

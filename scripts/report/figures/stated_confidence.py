@@ -11,8 +11,9 @@ def draw(bins, width=style.SMALL):
     axes = canvas.axes(44, 30, width - 14, 200)
     at = range(len(bins))
     axes.bar(at, [100 * b["high"] - 100 * b["low"] for b in bins], 0.5, [100 * b["low"] for b in bins], color=style.LIGHT["floor"])
-    axes.plot(at, [100 * b["stated"] for b in bins], linestyle="none", marker="_", markersize=34, markeredgewidth=2.4, color=style.LIGHT["fade"], clip_on=False)
-    axes.plot(at, [100 * b["right"] for b in bins], linestyle="none", marker="o", markersize=8, color=style.LIGHT["ink"], clip_on=False)
+    dots = {"linestyle": "none", "clip_on": False}
+    axes.plot(at, [100 * b["stated"] for b in bins], marker="_", markersize=34, markeredgewidth=2.4, color=style.LIGHT["fade"], **dots)
+    axes.plot(at, [100 * b["right"] for b in bins], marker="o", markersize=8, color=style.LIGHT["ink"], **dots)
     axes.set(xlim=(-0.6, len(bins) - 0.4), ylim=(0, 100), xlabel="confidence the name states (%)")
     axes.set_xticks(list(at), [f"{100 * b['from']:g}–{100 * b['to']:g}" for b in bins])
     axes.set_yticks([0, 25, 50, 75, 100])
@@ -26,5 +27,5 @@ def cases(board):
     if not confidence["bins"]:
         return {}
     return {"stated_confidence": Case(draw, {"bins": confidence["bins"]}, "Is a stated confidence kept?",
-                                      f"{quantities.count(confidence['n'], 'name')}; confidence = 1 − q, the false discovery rate it was named at. Bar: stated; dot: right; "
-                                      f"grey: exact 95 % band. Brier score {quantities.number(confidence['brier'], 2)}.")}
+                                      f"{quantities.count(confidence['n'], 'name')}; confidence = 1 − q, the false discovery rate it was named at. "
+                                      f"Bar: stated; dot: right; grey: exact 95 % band. Brier score {quantities.number(confidence['brier'], 2)}.")}

@@ -12,9 +12,9 @@ import score  # noqa: E402
 from example_cases import clean, drawn, effect, true_effect, truth, verdict  # noqa: E402
 
 SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
-FAMILIES = {"stribeck": "reversal", "presliding": "reversal", "speed_drag": "velocity_law", "spring": "static_position", "gravity": "static_position",
-            "position_dependent_friction": "static_position", "cogging": "order_locked", "delay": "acceleration", "friction_drift": "time",
-            "load_dependent_friction": "load", "periodic_disturbance": "outside"}
+FAMILIES = {"stribeck": "reversal", "presliding": "reversal", "speed_drag": "velocity_law", "spring": "static_position",
+            "gravity": "static_position", "position_dependent_friction": "static_position", "cogging": "order_locked",
+            "delay": "acceleration", "friction_drift": "time", "load_dependent_friction": "load", "periodic_disturbance": "outside"}
 REASON = "Joint 1 loses 0.13 N m extra below 0.047 rad/s in both directions: Stribeck friction (p < 0.005)."
 
 
@@ -42,8 +42,9 @@ def all_cases():
         yield drawn(clean(), f"T0:{seed}"), verdict("none") if seed != 9 else named("cogging")
     yield from single_cases()
     for seed, size in enumerate((1.0, 2.0, 4.0) * 2, 1):
-        yield drawn(concealing("stribeck", "spring", snr=size), f"T2:stribeck+spring:{size:g}:{seed}", size), named("spring", "stribeck")
-        yield drawn(concealing("stribeck", "spring", "cogging", snr=size), f"T3:stribeck+spring+cogging:{size:g}:{seed}", size), named("cogging", "spring")
+        for effects, said in ((("stribeck", "spring"), ("spring", "stribeck")), (("stribeck", "spring", "cogging"), ("cogging", "spring"))):
+            name = f"T{len(effects)}:{'+'.join(effects)}:{size:g}:{seed}"
+            yield drawn(concealing(*effects, snr=size), name, size), named(*said)
     for name in ("outside_sloshing", "outside_hidden_shaft"):
         yield drawn(truth("unexplained", [true_effect("", ())]), f"T4:{name}:2:1", 2.0), verdict("unexplained")
     yield drawn(truth("insufficient"), "T5:one_direction+stribeck:2:1", 2.0), verdict("insufficient")

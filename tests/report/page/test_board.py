@@ -7,6 +7,7 @@ import unittest
 import support
 
 import board
+import figure
 from figures import BOARD_MODULES, board_cases
 
 
@@ -53,6 +54,11 @@ class BoardPage(unittest.TestCase):
         few = json.loads(support.result("board_few").read_text())["methods"]["torquescope"]["table"]
         self.assertEqual({row["pass_holds"] for row in few if row["pass"]}, {"too few cases to say", "not measured"})
         self.assertIn("0 of 15 pass levels hold, 0 do not", text_of(support.page("board_few").read_text(encoding="utf-8")))
+
+    def test_a_figure_can_be_taken_for_a_paper(self):
+        out = support.FOLDER / "power.pdf"
+        self.assertEqual(figure.main(["power_T1", str(support.result("board")), str(out)]), 0)
+        self.assertEqual(out.read_bytes()[:4], b"%PDF")
 
     def test_it_says_what_it_does_not_prove(self):
         self.assertIn("What this does not prove", self.text)
