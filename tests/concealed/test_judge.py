@@ -195,6 +195,12 @@ class OtherAnswers(unittest.TestCase):
         self.assertEqual(judge.blind_chance(5, 0), 0.0)
         self.assertIsNone(judge.blind_chance(2, 1))
 
+    def test_a_fault_of_the_instruments_that_is_named_so_is_found(self):
+        drift = truth(effects=[true_effect("sensor_drift", ["time"])])
+        self.assertTrue(judge.judge(drift, verdict("data_fault", [effect("sensor_drift", "time")])).right)
+        self.assertFalse(judge.judge(drift, verdict("data_fault")).right)
+        self.assertFalse(judge.judge(drift, verdict("data_fault", [effect("thermal_friction", "time")])).right)
+
     def test_a_rival_needs_no_more_than_names_and_families(self):
         rival = {"case": "x", "verdict": "named", "effects": [{"name": "stribeck", "family": "reversal"}]}
         j = judge.judge(truth(), rival)

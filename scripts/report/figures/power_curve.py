@@ -32,7 +32,7 @@ def draw(sizes, curves, width=style.SMALL):
     axes.xaxis.labelpad = 3
     for (label, _, colour), y in zip(ends, style.spread([end for _, end, _ in ends], 10, 2, 98)):
         canvas.text(width - LABEL_PX + 8, 208 - (208 - 30) * y / 100 + 4, label, color=style.LIGHT[colour], fontweight="bold")
-    canvas.text(0, 16, "found, and nothing invented (% of cases)")
+    canvas.text(0, 16, "found (% of cases)")
     return canvas.figure
 
 
@@ -51,6 +51,7 @@ def cases(board):
         every = "every effect at this size when alone; " if tier != "T1" else ""
         found[f"power_{tier}"] = Case(draw, {"sizes": [row["size"] for row in rows],
                                              "curves": {level: _points(rows, level) for level in LOOKS}}, title,
-                                      f"{each} cases per size; {every}grey: exact 95 % band of the family. Three guesses: the family is among "
-                                      "the three strongest candidates, named or not.")
+                                      f"{each} cases per size; {every}grey: exact 95 % band of the family. Family and exact name: "
+                                      "everything named, nothing invented. 3 guesses: the family is among the three "
+                                      "strongest candidates, named or not.")
     return found

@@ -33,7 +33,7 @@ def cases(board):
                                    "Was the place right?", said)
     if ours["gap_closed"]:
         said = (f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good as the true "
-                "model. What is not found closes nothing. Line: median; dashed: pass level, 80 %.")
+                "model. What is not found closes nothing; what is worse than −20 % stands there. Line: median; dashed: pass level, 80 %.")
         found["gap_closed"] = Case(draw, {"values": ours["gap_closed"], "pass_level": 0.80, "label": "gap to the oracle closed (%)",
                                           "low": -0.2}, "Is the model better where it counts?", said)
     return found
