@@ -36,6 +36,15 @@ void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const
   }
 }
 
+// The recording's first position is what the encoder read: a joint whose readings are off begins where it would read that.
+// Otherwise the law sees the whole error arrive in one tick
+void read_as_recorded(TwinJoint const& joint, LaneInstant const& start, double* position) {
+  alignas(64) double read[twin_lanes];
+  std::copy_n(position, twin_lanes, read);
+  for (auto const& make : joint.effects) make()->shift_position(start, read);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] -= read[lane] - position[lane];
+}
+
 // the law in all lanes: what it remembers, and its answer
 class LaneController {
  public:
@@ -176,6 +185,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
   alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
   double const tick_s = 1.0 / track_.rate_hz;
+  read_as_recorded(joint_, instant_of(state, 0.0, tick_s, command), state.q);
   for (Eigen::Index k = 0; k < samples(); ++k) {
     double const time_s = static_cast<double>(k) * tick_s;
 
