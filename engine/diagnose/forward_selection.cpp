@@ -91,16 +91,16 @@ class Search {
     remaining_ = std::max(stage_.energy.excess, found);
     bool const is_clear = is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share;
     // later on, what an imperfect first name leaves is just as certain, and no physics
-    bool const is_faint = is_first && *std::min_element(q.begin(), q.end()) <= faint_q &&
-                          energy_share(stage_, found) > smallest_faint_share;
-    bool const is_open = found > 0.0 && (is_clear || is_faint);
+    is_faint_ = is_first && !is_clear && *std::min_element(q.begin(), q.end()) <= faint_q &&
+                energy_share(stage_, found) > smallest_faint_share;
+    bool const is_open = found > 0.0 && (is_clear || is_faint_);
     if (is_first) {
       selection_.first_energy = stage_.energy;
       selection_.first_scan = scans;
       selection_.first_q = q;
       selection_.first_cv_gain.assign(scans.size(), std::numeric_limits<double>::quiet_NaN());
       selection_.first_excess = remaining_;
-      selection_.is_gate_open = (found > 0.0 && is_clear) || is_significant(stage_);
+      selection_.is_gate_open = is_open || is_significant(stage_);
     }
     if (!is_open) {
       tell("search", scans.size(), scans.size());
@@ -190,7 +190,7 @@ class Search {
       return false;
     }
     // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
-    if (effect->is_event() && !selection_.is_gate_open) {
+    if (effect->is_event() && is_faint_) {
       reject(effect, "happens once, and is too faint to be told from what twins cannot repeat");
       return false;
     }
@@ -224,7 +224,6 @@ class Search {
       return false;
     }
     selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.gain, region.share});
-    selection_.is_gate_open = true;
     keep_baseline();
     stage_ = std::move(*next);
     return true;
@@ -277,6 +276,7 @@ class Search {
   ModelStage stage_;
   Selection selection_;
   double remaining_ = 0.0;  // energy that this round looks for
+  bool is_faint_ = false;   // this round's gate is open for a candidate's certainty, not for its size
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 //            mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is there
 //            because a disturbance was fitted to the energy of the residual: where physics is missing it takes part of it
 //            for noise, so that the whole looks like noise while one direction of it does not
-//            Fainter than that, down to 0.05 %, only when a candidate's q is below 1e-4; then the verdict is a name
-//            (of nothing that happens once) or `none`, never `unexplained`
+//            Fainter than that, down to 0.05 %, only when a candidate's q is below 1e-4, and nothing that happens once
+//            gets a name there. Clean twins of well copied loops stay above 0.1 (tests/concealed, tier T0)
 // Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds; the
 //            largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, have a
