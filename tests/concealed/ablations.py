@@ -19,10 +19,8 @@ import pathlib
 import re
 import sys
 
-import judge
+import ablation_score
 import run_suite
-
-SIZABLE_SNR = 0.9  # as score.py
 
 
 def with_key(key, value):
@@ -89,45 +87,6 @@ class Ablated(run_suite.Suite):
             published.write_text(json.dumps({**document, "seconds": self.made[name]["diagnosed"]["seconds"]}))
 
 
-def row(judgements):
-    """What a table shows of one method."""
-    clean = [j for j in judgements if j.expected == "none"]
-    named = [j for j in judgements if j.expected == "named"]
-    single = [j for j in named if len(j.found) == 1 and j.snr >= SIZABLE_SNR]
-    others = [j for j in judgements if j.expected != "none"]
-    # silence must not look like caution, as in score.py
-    invented = lambda j: bool(j.false_names) or j.verdict in ("missing", "invalid")
-    count = lambda items, test: (sum(1 for item in items if test(item)), len(items))
-    shares = [len(j.false_names) / j.n_named for j in judgements if j.n_named]
-    return {
-        "clean: any false name": count(clean, invented),
-        "other: any false name": count(others, invented),
-        "single: family": count(single, lambda j: j.reached("family") and j.found[0].first),
-        "single: exact": count(single, lambda j: j.reached("exact") and j.found[0].first),
-        "right": count(judgements, lambda j: j.right),
-        "false share of names": sum(shares) / len(shares) if shares else None,
-    }
-
-
-def table_lines(rows):
-    """rows: {method: row()}"""
-    heads = list(next(iter(rows.values())))
-    shown = lambda value: "-" if value is None else f"{value[0]}/{value[1]}" if isinstance(value, tuple) else f"{value:.2f}"
-    lines = [f"{'':24}" + "".join(f"{head:>24}" for head in heads)]
-    return lines + [f"{method:24}" + "".join(f"{shown(entry[head]):>24}" for head in heads) for method, entry in rows.items()]
-
-
-def judged(suite, names):
-    """Judgements of a suite's verdicts; the truths are the whole suite's."""
-    sealed = getattr(suite, "whole", suite).out / "sealed"
-    judgements = []
-    for name in names:
-        verdict = suite.out / "verdicts" / f"{name}.json"
-        judgements.append(judge.judge(json.loads((sealed / name / "truth.json").read_text()),
-                                      json.loads(verdict.read_text()) if verdict.exists() else None))
-    return judgements
-
-
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("program", "make_case", "out"):
@@ -154,11 +113,11 @@ def main(arguments):
             with concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
                 for done in [pool.submit(suite.run, *case) for case in cases.items()]:
                     done.result()
-            rows[name] = row(judged(suite, cases))
+            rows[name] = ablation_score.row(suite.out / "verdicts", whole.out / "sealed", cases)
     except (RuntimeError, ValueError) as problem:
         print(f"ablations.py: {problem}", file=sys.stderr)
         return 70
-    print("\n" + "\n".join(table_lines(rows)))
+    print("\n" + "\n".join(ablation_score.table_lines(rows)))
     (whole.out / "ablations" / "board.json").write_text(json.dumps(rows, indent=1))
     return 0
 

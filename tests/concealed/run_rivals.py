@@ -109,6 +109,7 @@ class Case:
             return f"{self.name:12} kept"
         file = self.out / "columns" / f"{self.name}.h5"
         file.parent.mkdir(parents=True, exist_ok=True)
+        file.unlink(missing_ok=True)
         began = time.monotonic()
         result = subprocess.run([self.program, "diagnose", "job.toml", "--columns", file, "--quiet", "--threads", "1"],
                                 cwd=self.folder, capture_output=True, text=True, timeout=SLOWEST_S, check=False)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -89,6 +90,13 @@ void print_diagnosis(Session const& session, Diagnosis const& diagnosis, std::st
 }
 
 ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& experiment, Session const& session) {
+  // made in seconds: nothing is kept, and nothing that may be dear is written over
+  std::error_code ignored;
+  validate(!std::filesystem::exists(std::filesystem::symlink_status(arguments.columns, ignored)), [&] {
+    Problem problem{ExitCode::exists, arguments.columns + " exists"};
+    problem.help = "--columns another name, or delete it";
+    return problem;
+  });
   DiagnoseRequest request;
   request.threads = choose_threads(arguments.threads);
   request.output = arguments.columns;

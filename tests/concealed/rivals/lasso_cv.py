@@ -65,6 +65,8 @@ def answer(columns):
         search = LassoCV(eps=1e-3, n_alphas=60, cv=folds, precompute=True, **options).fit(matrix, target)
         alpha = one_standard_error(search.alphas_, search.mse_path_)
         chosen = Lasso(alpha=alpha, precompute=True, **options).fit(matrix, target)
-    names = by_energy(columns, matrix, owners, chosen.coef_)
+    # at the largest penalty all are zero, but for rounding
+    coefficients = chosen.coef_ if alpha < search.alphas_[0] else np.zeros(len(owners))
+    names = by_energy(columns, matrix, owners, coefficients)
     return Answer(names[: columns.max_effects], {}, names,
                   f"penalty {alpha / search.alphas_[0]:.3g} of the smallest that names nothing; {len(names)} effects not zero")
