@@ -170,7 +170,7 @@ class JointWork {
   }
 
   void check_on_unseen(StageSetting const& setting) {
-    joint_.forward.push_back(simulate_forward(setting.recording, baseline(), final_stage()));
+    joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     double torque = 0.0, before = 0.0, after = 0.0, floor = 0.0;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : input_.validate) {

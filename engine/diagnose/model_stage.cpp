@@ -13,6 +13,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   TwinOptions options;
   options.seed = setting.seed;
   options.wander = setting.wander;
+  options.loop = setting.loop;
   options.twins = 2 * twin_lanes;  // two threads have something to do
   BaselineTwin made = make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.threads);
   ablate_twin(made, *pipeline, setting.ablation);

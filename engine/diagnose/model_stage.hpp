@@ -28,6 +28,7 @@ struct StageSetting {
   int threads = 1;
   WanderReading wander = WanderReading::beside_motion;
   Ablation ablation{};
+  std::shared_ptr<RecordedLoop const> loop{};  // as the first stage decided; none: decide
 };
 
 struct ModelStage {

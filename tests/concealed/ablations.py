@@ -1,7 +1,7 @@
 """What the parts of the method bring: the suite once more for each part that is taken away, the same recordings, one key of the job
 changed.
 
-    ablations.py PROGRAM MAKE_CASE OUT --drawn FILE_OR_NAMES [--only NAME,NAME] [--jobs N] [--threads N]
+    ablations.py PROGRAM MAKE_CASE OUT --drawn FILE_OR_NAMES [--only NAME,NAME] [--shard I/N] [--jobs N] [--threads N]
 
 OUT is a folder of run_suite.py; cases that are missing there are made, and diagnosed as they are. Resumable as run_suite.py is.
 
@@ -21,6 +21,7 @@ import sys
 
 import ablation_score
 import run_suite
+import shard
 
 
 def with_key(key, value):
@@ -93,6 +94,7 @@ def main(arguments):
         parser.add_argument(name, type=pathlib.Path)
     parser.add_argument("--drawn", required=True, help="names of drawn cases: a file, one per line, or separated by commas")
     parser.add_argument("--only", help="ablations, separated by commas")
+    parser.add_argument("--shard", help="I/N: as run_suite.py")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
     parser.add_argument("--threads", type=int, default=0, help="threads of each diagnosis; 0: as it likes")
     options = parser.parse_args(arguments)
@@ -104,6 +106,8 @@ def main(arguments):
         why = f"no ablation {', '.join(unknown)}; there are {', '.join(ABLATIONS)}" if unknown else cases
         print(f"ablations.py: {why}", file=sys.stderr)
         return 64
+    if options.shard:
+        cases = {name: cases[name] for name in shard.share(list(cases), shard.of(options.shard, {}))}
     whole = run_suite.Suite(options.program.resolve(), options.make_case.resolve(), options.out.resolve(), options.threads)
     suites = {"torquescope": whole, **{name: Ablated(whole, name) for name in wanted}}
     rows = {}

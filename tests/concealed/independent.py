@@ -8,8 +8,8 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
-READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "judge.py", "score.py", "test_score.py",
-           "test_run_suite.py", "independent.py"}
+READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
+           "independent.py"}
 
 
 def foreign_includes(sources):
