@@ -184,7 +184,7 @@ class Search {
       return false;
     }
     RegionConsistency const region = region_of(columns, trial.refined);
-    if (!region.holds()) {
+    if (!region.holds() && setting_.ablation.region_consistency) {
       reject(effect, fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)",
                                  100.0 * region.share, 100.0 * region.asked_for));
       return false;

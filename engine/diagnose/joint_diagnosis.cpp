@@ -79,8 +79,9 @@ class JointWork {
 
   void diagnose() {
     Recording recording = from_zero(input_.train);
-    StageSetting const setting{recording,    input_.regressor, input_.filter, input_.filter_section,
-                               input_.twins, input_.seed,      input_.threads};
+    StageSetting setting{recording,    input_.regressor, input_.filter, input_.filter_section,
+                         input_.twins, input_.seed,      input_.threads};
+    setting.ablation = input_.ablation;
     // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
     auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
     if (!why)

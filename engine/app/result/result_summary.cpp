@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/store/result_reader.hpp"
+#include "engine/base/error.hpp"
 
 namespace torquescope {
 
@@ -126,8 +126,17 @@ double quantile(std::vector<double> values, double share) {
   return values[below] == values[above] ? values[below] : values[below] + fraction * (values[above] - values[below]);
 }
 
+void refuse_columns(ResultReader const& reader) {
+  validate(!reader.exists("/columns"), [&] {
+    Problem problem{ExitCode::bad_data, reader.name().string() + " holds columns for other methods, no result"};
+    problem.help = "torquescope diagnose JOB.toml without --columns makes one";
+    return problem;
+  });
+}
+
 ResultSummary read_summary(std::filesystem::path const& file) {
   ResultReader const reader(file);
+  refuse_columns(reader);
   ResultSummary summary;
   summary.file = file;
   summary.bytes = std::filesystem::file_size(file);
