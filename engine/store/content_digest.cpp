@@ -1,11 +1,14 @@
 #include "engine/store/content_digest.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/contract.hpp"
 
 namespace torquescope {
 namespace {
+
+constexpr char provenance_path[] = "/provenance";
 
 bool is_about_the_file(std::string const& path, std::string const& attribute) {
   return path == "/" && (attribute == complete_key || attribute == content_digest_key);
@@ -57,43 +60,83 @@ std::size_t rows_at_once(h5::DatasetInfo const& info) {
   return std::max<std::size_t>(1, most_bytes / bytes_of_row(info.shape) / block_rows) * block_rows;
 }
 
-void add_dataset(ContentDigest& digest, h5::Handle const& dataset, std::string const& path) {
-  h5::DatasetInfo const info = h5::describe(dataset);
-  digest.dataset(path, info.element, info.shape);
-  if (blocks_of(info.element, info.shape) == 0) return;
-  if (info.element == h5::Element::text) return digest.texts(path, h5::read_texts(dataset, info, 0, info.rows()));
+// reads a part of a file, object by object
+class FileWalk {
+ public:
+  FileWalk(h5::Handle const& file, FilePart part) : file_(file), part_(part) {}
 
-  std::size_t const row_bytes = bytes_of_row(info.shape);
-  std::size_t const block_rows = rows_of_block(info.element, info.shape);
-  std::size_t const step = rows_at_once(info);
-  std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
-  for (std::size_t first = 0; first < info.rows(); first += step) {
-    std::size_t const end = std::min(first + step, info.rows());
-    h5::read_rows(dataset, info, first, end - first, buffer.data());
-    for (std::size_t row = first; row < end; row += block_rows)
-      digest.block(path, row / block_rows, buffer.data() + (row - first) * info.values_per_row(),
-                   std::min(block_rows, end - row) * row_bytes);
+  ReadFacts read() {
+    if (part_ == FilePart::content) add_object("/");
+    if (part_ == FilePart::provenance && h5::exists(file_, provenance_path)) add_object(provenance_path);
+    facts_.sha256 = digest_.hex(part_);
+    return std::move(facts_);
   }
-}
 
-void add_object(ContentDigest& digest, h5::Handle const& file, std::string const& path) {
-  if (is_volatile(path)) return;
-  std::vector<std::string> children;
-  try {
-    h5::Handle const object = h5::open_object(file, path);
-    for (auto const& name : h5::attribute_names(object))
-      if (auto const value = h5::read_attribute(object, name)) digest.attribute(path, name, *value);
-    if (h5::is_group(object)) {
-      digest.group(path);
-      children = h5::child_names(object);
-    } else {
-      add_dataset(digest, object, path);
+ private:
+  void add_object(std::string const& path) {
+    if (is_volatile(path) != (part_ == FilePart::provenance)) return;
+    std::vector<std::string> children;
+    try {
+      h5::Handle const object = h5::open_object(file_, path);
+      // groups within themselves have no end, and pairs of names double with each level
+      if (!seen_.insert(h5::address(object)).second) throw h5::Failure("it has two names; results never have that");
+      add_attributes(object, path);
+      if (h5::is_group(object)) {
+        ++facts_.groups;
+        digest_.group(path);
+        children = h5::child_names(object);
+      } else {
+        ++facts_.datasets;
+        add_dataset(object, path);
+      }
+    } catch (h5::Failure const& failure) {
+      throw h5::Failure(failure.what(), path);
     }
-  } catch (h5::Failure const& failure) {
-    throw h5::Failure(failure.what(), path);
+    for (auto const& child : children) add_object((path == "/" ? path : path + "/") + child);
   }
-  for (auto const& child : children) add_object(digest, file, (path == "/" ? path : path + "/") + child);
-}
+
+  void add_attributes(h5::Handle const& object, std::string const& path) {
+    for (auto const& name : h5::attribute_names(object)) {
+      if (auto const value = h5::read_attribute(object, name)) digest_.attribute(path, name, *value);
+      ++facts_.attributes;
+    }
+  }
+
+  void add_dataset(h5::Handle const& dataset, std::string const& path) {
+    h5::DatasetInfo const info = h5::describe(dataset);
+    digest_.dataset(path, info.element, info.shape);
+    if (blocks_of(info.element, info.shape) == 0) return;
+    bool const is_text = info.element == h5::Element::text;
+    facts_.value_bytes += static_cast<double>(info.rows()) * static_cast<double>(info.values_per_row()) *
+                          static_cast<double>(is_text ? info.text_size : sizeof(double));
+    // each dataset alone may be bearable, and thousands of them take hours
+    h5::check_claimed_size(dataset, facts_.value_bytes);
+    if (is_text)
+      digest_.texts(path, h5::read_texts(dataset, info, 0, info.rows()));
+    else
+      add_numbers(dataset, info, path);
+  }
+
+  void add_numbers(h5::Handle const& dataset, h5::DatasetInfo const& info, std::string const& path) {
+    std::size_t const row_bytes = bytes_of_row(info.shape);
+    std::size_t const block_rows = rows_of_block(info.element, info.shape);
+    std::size_t const step = rows_at_once(info);
+    std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
+    for (std::size_t first = 0; first < info.rows(); first += step) {
+      std::size_t const end = std::min(first + step, info.rows());
+      h5::read_rows(dataset, info, first, end - first, buffer.data());
+      for (std::size_t row = first; row < end; row += block_rows)
+        digest_.block(path, row / block_rows, buffer.data() + (row - first) * info.values_per_row(),
+                      std::min(block_rows, end - row) * row_bytes);
+    }
+  }
+
+  h5::Handle const& file_;
+  FilePart part_;
+  ContentDigest digest_{};
+  ReadFacts facts_{};
+  std::set<std::uint64_t> seen_{};  // addresses
+};
 
 }  // namespace
 
@@ -143,10 +186,10 @@ void ContentDigest::texts(std::string const& path, std::span<std::string const> 
   dataset.blocks[0] = digest.raw();
 }
 
-std::string ContentDigest::hex() const {
+std::string ContentDigest::hex(FilePart part) const {
   Digest digest;
   for (auto const& [path, object] : objects_) {
-    if (is_volatile(path)) continue;
+    if (is_volatile(path) != (part == FilePart::provenance)) continue;
     digest.text("object").text(path);
     for (auto const& [name, value] : object.attributes)
       digest.text("attribute").text(name).bytes(value.data(), value.size());
@@ -181,10 +224,6 @@ void ArrayDigest::end() {
   begun_.clear();
 }
 
-std::string content_digest(h5::Handle const& file) {
-  ContentDigest digest;
-  add_object(digest, file, "/");
-  return digest.hex();
-}
+ReadFacts read_everything(h5::Handle const& file, FilePart part) { return FileWalk(file, part).read(); }
 
 }  // namespace torquescope

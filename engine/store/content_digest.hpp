@@ -9,6 +9,8 @@
 //            and values. Texts count without padding.
 // Errors     content_digest(): h5::Failure with the path of the object that cannot be read (a checksum that does not
 //            match)
+// Hostile    a file in which two names lead to one object (so paths could be endless), or that claims more values in
+//            all than its bytes can hold, is refused
 // Memory     32 bytes per block and attribute; content_digest(): 4 MiB of values (or one row of a dataset, if more)
 // Threads    one at a time
 
@@ -30,6 +32,9 @@ inline constexpr char content_digest_key[] = "content_sha256";
 inline constexpr std::size_t digest_block_bytes = std::size_t{64} << 10;
 std::size_t rows_of_block(h5::Element element, h5::Shape const& shape);
 
+// what the digest covers, and what it leaves out because it differs from one run of a job to the next
+enum class FilePart { content, provenance };
+
 class ContentDigest {
  public:
   void group(std::string const& path);
@@ -40,7 +45,7 @@ class ContentDigest {
   void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
   void texts(std::string const& path, std::span<std::string const> texts);
 
-  std::string hex() const;
+  std::string hex(FilePart part = FilePart::content) const;
 
  private:
   struct Object {
@@ -69,7 +74,14 @@ class ArrayDigest {
   std::vector<std::byte> begun_{};  // of a block that is not whole yet
 };
 
-// of a file, all of which is read
-std::string content_digest(h5::Handle const& file);
+// what was read for a digest
+struct ReadFacts {
+  std::string sha256{};
+  std::size_t groups = 0, datasets = 0, attributes = 0;
+  double value_bytes = 0.0;  // of the datasets, unpacked
+};
+
+// every attribute and every value of a part of the file is read
+ReadFacts read_everything(h5::Handle const& file, FilePart part);
 
 }  // namespace torquescope

@@ -67,16 +67,7 @@ struct AsStored {
   }
 };
 
-}  // namespace
-
-OptionValue as_stored(OptionValue const& value) { return std::visit(AsStored{}, value); }
-
-void write_attribute(Handle const& object, std::string const& name, OptionValue const& value) {
-  std::visit(AttributeWriter{object.id(), name.c_str()}, as_stored(value));
-}
-
-std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name) {
-  if (checked(H5Aexists(object.id(), name.c_str()), "look up an attribute") == 0) return std::nullopt;
+OptionValue read_existing(Handle const& object, std::string const& name) {
   Handle const attribute(checked(H5Aopen(object.id(), name.c_str(), H5P_DEFAULT), "open an attribute"));
   Handle const type(checked(H5Aget_type(attribute.id()), "read an attribute's type"));
   Handle const space(checked(H5Aget_space(attribute.id()), "read an attribute's shape"));
@@ -85,7 +76,7 @@ std::optional<OptionValue> read_attribute(Handle const& object, std::string cons
   auto const count = static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space.id()), "count values"));
   bool const scalar = rank == 0 && count == 1;
   check_claimed_size(attribute, static_cast<double>(count) * static_cast<double>(H5Tget_size(type.id())));
-  if (!scalar && rank != 1) throw Failure("attribute \"" + name + "\" is neither one value nor a list");
+  if (!scalar && rank != 1) throw Failure("it is neither one value nor a list");
 
   if (kind == H5T_STRING && H5Tis_variable_str(type.id()) == 0) {
     PaddedTexts padded(count, H5Tget_size(type.id()));
@@ -106,7 +97,24 @@ std::optional<OptionValue> read_attribute(Handle const& object, std::string cons
     if (scalar) return values[0];
     return values;
   }
-  throw Failure("attribute \"" + name + "\" has a type that results never have");
+  throw Failure("it has a type that results never have");
+}
+
+}  // namespace
+
+OptionValue as_stored(OptionValue const& value) { return std::visit(AsStored{}, value); }
+
+void write_attribute(Handle const& object, std::string const& name, OptionValue const& value) {
+  std::visit(AttributeWriter{object.id(), name.c_str()}, as_stored(value));
+}
+
+std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name) {
+  if (checked(H5Aexists(object.id(), name.c_str()), "look up an attribute") == 0) return std::nullopt;
+  try {
+    return read_existing(object, name);
+  } catch (Failure const& failure) {
+    throw Failure("attribute \"" + name + "\": " + failure.what());
+  }
 }
 
 std::vector<std::string> attribute_names(Handle const& object) {

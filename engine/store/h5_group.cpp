@@ -73,6 +73,12 @@ Handle make_groups(Handle const& file, std::string const& path) {
 
 bool is_group(Handle const& object) { return H5Iget_type(object.id()) == H5I_GROUP; }
 
+std::uint64_t address(Handle const& object) {
+  H5O_info_t info{};
+  checked(H5Oget_info2(object.id(), &info, H5O_INFO_BASIC), "find an object's address");
+  return info.addr;
+}
+
 std::vector<std::string> child_names(Handle const& group) {
   std::vector<std::string> names;
   auto const collect = [](hid_t, char const* name, H5L_info_t const*, void* list) -> herr_t {

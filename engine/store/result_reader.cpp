@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
-#include "engine/store/content_digest.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
@@ -154,15 +153,21 @@ std::vector<std::string> ResultReader::attribute_names(std::string const& object
 
 std::string ResultReader::content_sha256() const { return attribute<std::string>("/", content_digest_key); }
 
-std::string ResultReader::verify() const {
+ReadFacts ResultReader::read_everything(FilePart part) const {
+  return guarded("/", [&] { return torquescope::read_everything(file_, part); });
+}
+
+ReadFacts ResultReader::verified_content() const {
   auto const format = attribute<std::int64_t>("/", "format");
   if (format != result_format)
     throw refused(fmt::format("{} has format {}: its digest was taken in another way", name_.string(), format),
                   "run the job again to get a file whose content can be verified");
-  std::string found = guarded("/", [&] { return content_digest(file_); });
-  if (found != content_sha256()) throw damaged(name_, "", "its content does not match its sha256");
+  ReadFacts found = read_everything(FilePart::content);
+  if (found.sha256 != content_sha256()) throw damaged(name_, "", "its content does not match its sha256");
   return found;
 }
+
+std::string ResultReader::verify() const { return verified_content().sha256; }
 
 std::string verify_result(fs::path const& name) { return ResultReader(name).verify(); }
 

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/store/content_digest.hpp"
 #include "engine/store/h5.hpp"
 
 namespace torquescope {
@@ -51,7 +52,11 @@ class ResultReader {
   std::filesystem::path const& name() const { return name_; }
   std::string content_sha256() const;  // as the writer stored it
 
-  // reads everything; throws unless it is what was written; returns content_sha256
+  // every value and attribute of a part, whatever its digest is
+  ReadFacts read_everything(FilePart part) const;
+  // reads everything; throws unless it is what was written
+  ReadFacts verified_content() const;
+  // the same; returns content_sha256
   std::string verify() const;
 
  private:

@@ -8,6 +8,7 @@
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
 #include "engine/app/result/result_tables.hpp"
+#include "engine/app/result/verification_text.hpp"
 #include "engine/run/diagnosis_reader.hpp"
 
 namespace torquescope {
@@ -17,6 +18,7 @@ namespace {
 struct ShowArguments {
   std::string file;
   bool all = false;
+  bool verify = false;
 };
 
 void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments, Session const& session) {
@@ -29,7 +31,15 @@ void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments
   session.document(read_verdict_json(reader));
 }
 
+ExitCode show_verification(ShowArguments const& arguments, Session const& session) {
+  Verification const facts = verify_everything(arguments.file);
+  session.result(verification_text(facts));
+  session.document(verification_json(facts));
+  return ExitCode::ok;
+}
+
 ExitCode show_result(ShowArguments const& arguments, Session const& session) {
+  if (arguments.verify) return show_verification(arguments, session);
   ResultSummary const summary = read_summary(arguments.file);
   Ink const& ink = session.result_ink();
   if (summary.has_diagnosis) {
@@ -50,9 +60,12 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope show crs_a465_joint.h5\n"
       "  torquescope show lab.h5 --json lab.json\n"
+      "  torquescope show lab.h5 --verify && cp lab.h5 /archive\n"
       "  torquescope show lab.h5 --json - | jq .estimators[0].parameters\n");
   command->add_option("R.h5", arguments->file, "result file of torquescope run or diagnose, HDF5")->required();
   command->add_flag("--all", arguments->all, "of a diagnosis, every effect that was weighed")->group("results");
+  command->add_flag("--verify", arguments->verify, "read all of it and compare every checksum; exit code 65: damaged")
+      ->group("results");
   add_json_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -155,7 +155,7 @@ TEST(ResultReader, RefusesTextsOfVariableLength) {
     H5Sclose(space);
     H5Tclose(type);
   });
-  EXPECT_THAT(verifying(folder / "R.h5").second, HasSubstr("\"variable\" has a type that results never have"));
+  EXPECT_THAT(verifying(folder / "R.h5").second, HasSubstr("\"variable\": it has a type that results never have"));
 }
 
 TEST(ResultReader, NoticesAChangeMadeByAnotherProgram) {
