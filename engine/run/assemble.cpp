@@ -125,6 +125,27 @@ bool wants_statistics(Experiment::Parts const& parts) {
   });
 }
 
+// the largest values that the options allow one by one overflow 64 bits together; doubles do not
+void check_sizes(Experiment::Parts const& parts, std::vector<Problem>& problems) {
+  constexpr double tebibyte = 0x1p40, most_tebibytes = 1024.0;
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < parts.estimators.size(); ++i) {
+    auto const& plan = parts.estimators[i];
+    if (plan.is_closed_form()) continue;
+    auto const members = static_cast<double>(plan.make_optimiser(parts.box, {})->batch_size());
+    double const entries = static_cast<double>(plan.stop_rules.generations) + 1.0;
+    double const numbers_per_member = static_cast<double>(parts.regressor->size()) + 1.0;
+    double const bytes =
+        static_cast<double>(parts.experiment.runs) * entries * members * numbers_per_member * sizeof(double);
+    if (bytes <= most_tebibytes * tebibyte) continue;
+    problems.push_back(
+        problem_at(*sections[i], "generations",
+                   fmt::format("{} runs of {} generations are {:.3g} TiB of history; a job may have {}",
+                               parts.experiment.runs, plan.stop_rules.generations, bytes / tebibyte, most_tebibytes),
+                   "fewer generations, a smaller population, or fewer experiment.runs"));
+  }
+}
+
 // float32 where its rounding would decide between candidates is refused, at the line that asks for it
 void check_precision(Experiment::Parts& parts) {
   std::vector<Problem> problems;
@@ -184,6 +205,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   bool const simulates = job.find("simulate") != nullptr;
   SimulationPlan plan;
   if (simulates && parts->regressor) plan = plan_simulation(job, parts->regressor->joint(), problems);
+  if (problems.empty()) check_sizes(*parts, problems);
   if (!problems.empty()) throw Error(std::move(problems));
 
   // then the data

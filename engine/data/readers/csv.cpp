@@ -5,6 +5,7 @@
 // Rows       as many cells as names; one trailing separator is allowed; empty lines do not count
 // Text       a column with text in some cell becomes unusable, with its first line; a line of text only (a repeated
 //            header) is an error
+// Bounds     a line 1 MiB, columns 4096; of gzip see gunzip.hpp
 // Errors     Error 65 with file:line
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace torquescope {
 namespace {
 
 constexpr std::size_t most_columns = 4096;
+constexpr std::size_t longest_line = std::size_t{1} << 20;
 
 bool accepts(std::filesystem::path const&, std::string const& first_bytes) {
   bool const utf16 = first_bytes.starts_with("\xff\xfe") || first_bytes.starts_with("\xfe\xff");  // said in read()
@@ -46,6 +48,11 @@ class CsvText {
   // the next line that is neither empty nor a comment
   bool next_line() {
     while (lines_.next(line_)) {
+      validate(line_.size() <= longest_line, [&] {
+        return problem(
+            fmt::format("line {} has {} bytes; a line may have {}", lines_.line_number(), line_.size(), longest_line),
+            "is this one record per line? lines end with LF, CRLF or CR");
+      });
       auto const first = line_.find_first_not_of(" \t");
       if (first == std::string_view::npos) continue;
       if (line_[first] != '#') return true;

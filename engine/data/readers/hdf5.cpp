@@ -5,9 +5,11 @@
 //            or the names in its attribute `columns`. MATLAB stores transposed: known by the attribute MATLAB_class
 // Refused    numbers that live in another file: external links, external storage, virtual datasets; soft links are not
 //            followed (their target is reached under its own path)
-// Checked    type, rank, sizes and layout before anything is allocated; the bytes parsed are those of the sha256
+//            numbers packed by a filter that is not HDF5's own: none is loaded from this machine's folders
+// Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated; the bytes parsed are those of the sha256
+// Confined   in a process of its own: one damaged file in a hundred crashes HDF5 1.10 or keeps it busy for ever
 // Errors     Error 65 when the file is damaged or cut short
-// Threads    one at a time: the HDF5 library is not thread-safe
+// Threads    one at a time
 // Source     HDF5 1.10 C API; MATLAB 7.3: an HDF5 file behind 512 bytes of its own
 
 #include <fmt/format.h>
@@ -18,7 +20,9 @@
 
 #include "engine/base/digest.hpp"
 #include "engine/base/error.hpp"
+#include "engine/data/confined_reader.hpp"
 #include "engine/data/data_problem.hpp"
+#include "engine/data/delimited_text.hpp"
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/data/table_builder.hpp"
@@ -101,7 +105,7 @@ std::vector<std::string> text_attribute(hid_t object, char const* name) {
 
 class FileWalk {
  public:
-  explicit FileWalk(TableBuilder& table) : table_(table) {}
+  FileWalk(TableBuilder& table, hsize_t file_bytes) : table_(table), file_bytes_(file_bytes) {}
 
   void root(hid_t root) {
     H5O_info_t info{};
@@ -149,8 +153,31 @@ class FileWalk {
     if (info.type == H5O_TYPE_DATASET) dataset(opened.id(), path);
   }
 
+  // a filter that does not belong to HDF5 itself, or ""
+  static std::string foreign_filter(hid_t creation) {
+    for (int k = 0; k < H5Pget_nfilters(creation); ++k) {
+      unsigned flags = 0, settings = 0;
+      std::size_t n_values = 0;
+      char name[64] = "";
+      H5Z_filter_t const filter =
+          H5Pget_filter2(creation, static_cast<unsigned>(k), &flags, &n_values, nullptr, sizeof(name), name, &settings);
+      constexpr H5Z_filter_t last_of_hdf5 = H5Z_FILTER_SCALEOFFSET;
+      if (filter < 1 || filter > last_of_hdf5) return fmt::format("{:.20} (filter {})", shown(name), filter);
+    }
+    return {};
+  }
+
+  // whether the bytes stored can hold so many numbers: a few bytes may claim any size, and unpack to nothing but zeros
+  bool can_hold(hid_t dataset, hid_t creation, hid_t type, hsize_t const sizes[2]) const {
+    constexpr double best_compression = 1032;  // of deflate
+    double const stored = static_cast<double>(std::min<hsize_t>(H5Dget_storage_size(dataset), file_bytes_));
+    double const claimed =
+        static_cast<double>(sizes[0]) * static_cast<double>(sizes[1]) * static_cast<double>(H5Tget_size(type));
+    return claimed <= stored * (H5Pget_layout(creation) == H5D_CHUNKED ? best_compression : 1.0);
+  }
+
   // why a dataset cannot serve, or ""
-  static std::string objection(hid_t dataset, hid_t type, hid_t space) {
+  std::string objection(hid_t dataset, hid_t type, hid_t space) const {
     auto const kind = H5Tget_class(type);
     if (kind == H5T_STRING) return "is text";
     if (kind != H5T_INTEGER && kind != H5T_FLOAT) return "is not made of plain real numbers";
@@ -161,6 +188,12 @@ class FileWalk {
     if (H5Pget_external_count(creation.id()) != 0) return "keeps its numbers in another file; copy them into this one";
     if (H5Pget_layout(creation.id()) == H5D_VIRTUAL)
       return "is a virtual dataset over other files; copy its numbers into this one";
+    if (auto const filter = foreign_filter(creation.id()); !filter.empty())
+      return fmt::format("is packed by {}, which is not part of HDF5; store it with gzip", filter);
+    hsize_t sizes[2] = {0, 1};
+    H5Sget_simple_extent_dims(space, sizes, nullptr);
+    if (!can_hold(dataset, creation.id(), type, sizes))
+      return fmt::format("claims {} x {} numbers, far more than its bytes can hold", sizes[0], sizes[1]);
     return {};
   }
 
@@ -187,7 +220,7 @@ class FileWalk {
     table_.reserve(sizes[0], sizes[1], path);
     std::vector<double> values(static_cast<std::size_t>(sizes[0] * sizes[1]));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-      table_.cannot_use(path, "cannot be decoded: it is damaged, or compressed by a filter that is not installed");
+      table_.cannot_use(path, "cannot be decoded: it is damaged");
       return;
     }
     bool const transposed = !matlab_class.empty();
@@ -197,28 +230,34 @@ class FileWalk {
   }
 
   TableBuilder& table_;
+  hsize_t file_bytes_;
   std::set<haddr_t> seen_;  // groups can contain each other
   std::size_t n_objects_ = 0;
 };
 
-RawTable read(std::filesystem::path const& path) {
+RawTable read_here(std::filesystem::path const& path) {
   std::string bytes = read_whole_file(path);
   QuietErrors const quiet;
+  H5PLset_loading_state(0);
   TableBuilder table(path.string(), sha256_hex(bytes));
   // the file in memory: the numbers read are those that were hashed, and nothing is ever written
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.id(), std::size_t{1} << 20, 0);
   H5Pset_file_image(access.id(), bytes.data(), bytes.size());
-  Handle const file(H5Fopen(path.filename().c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  // under a name that nothing can have, being below a file: HDF5 refuses an image when it finds a file of its name
+  Handle const file(H5Fopen((path / "image").c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   validate(static_cast<bool>(file), [&] {
     return bad_data(fmt::format("{} is a damaged HDF5 file, or was cut short", path.string()), path.string(), 0,
                     "copy it again; was the program that wrote it stopped before it closed the file?");
   });
+  hsize_t const file_bytes = bytes.size();
   bytes = {};
   Handle const root(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose);
-  if (root) FileWalk(table).root(root.id());
+  if (root) FileWalk(table, file_bytes).root(root.id());
   return std::move(table).finish();
 }
+
+RawTable read(std::filesystem::path const& path) { return read_confined(path, read_here, "HDF5"); }
 
 }  // namespace
 
