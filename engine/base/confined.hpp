@@ -2,10 +2,10 @@
 // Work on a file that nobody vouches for, in a child process: when a library crashes, loops or eats memory there, this
 // process says so and lives on.
 //
-// Why        HDF5 1.10 and matio crash or loop on one damaged recording in a hundred (measured: tests/hostile)
+// Why        HDF5 1.10 and matio crash or loop on two damaged recordings in a hundred (measured: tests/hostile)
 // Limits     processor seconds; memory beyond what the process has already (not under a sanitizer, which reserves all)
 // Errors     an Error thrown by the work is thrown here, with all its problems; when the child ends in any other way,
-//            Error{broke_off(how)}, how: "crashed (signal 11)", "took longer than 10 s", "ran out of memory"
+//            Error{broke_off(how)}, how: "crashed (signal 11)", "took longer than 5 s", "ran out of memory"
 // Threads    the child has one thread, whatever the parent has: the work must not wait for others. It leaves by _exit:
 //            no exit handler of a library runs, no file of the parent is flushed
 
@@ -18,7 +18,7 @@
 namespace torquescope {
 
 struct ConfinedLimits {
-  int processor_seconds = 10;
+  int processor_seconds = 5;
   std::uint64_t more_memory_bytes = std::uint64_t{10} << 30;
 };
 

@@ -30,7 +30,7 @@ class PackedWriter {
   PackedWriter& numbers(std::vector<Number> const& list) {
     return whole(static_cast<std::int64_t>(list.size())).raw(list.data(), list.size() * sizeof(Number));
   }
-  std::string take() && { return std::move(bytes_); }
+  std::string take() { return std::move(bytes_); }
 
  private:
   PackedWriter& raw(void const* data, std::size_t size) {

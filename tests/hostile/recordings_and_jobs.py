@@ -170,17 +170,17 @@ class DamagedRecordings(Folder):
         cell = np.array([1, "x"], dtype=object)
         scipy.io.savemat(self.path("rec.mat"), {"t_s": DATA[:, 0], "q_rad": DATA[:, 1], "tau_Nm": DATA[:, 2], "s": {"a": cell}})
         draw = random.Random(SEED)
-        marks = [b"GCOL", b"TREE", b"HEAP", b"SNOD", b"\x89HDF"]
+        marks = [b"GCOL", b"TREE", b"HEAP", b"SNOD", b"\x89HDF", b"q_rad", b"tau_Nm", b"MATLAB"]
         for name, count in [("rec.h5", 80), ("rec.mat", 60)]:
             with open(self.path(name), "rb") as file:
                 whole = file.read()
-            places = [place for place in map(whole.find, marks) if place >= 0] or [0, len(whole) - 600]
+            places = [place for place in map(whole.find, marks) if place >= 0]
             codes = {}
             broke_off = 0
             for _ in range(count):
                 damaged = bytearray(whole)
                 for _ in range(draw.choice([1, 2, 4])):
-                    place = min(len(damaged) - 1, draw.choice(places) + draw.randrange(300))
+                    place = min(len(damaged) - 1, max(0, draw.choice(places) - 60) + draw.randrange(300))
                     damaged[place] = draw.choice([damaged[place] ^ 1 << draw.randrange(8), 255, 0])
                 outcome = self.check(self.write("damaged" + name[3:], damaged))
                 self.assertIn(outcome.code, [0, 65, 78], outcome.err)

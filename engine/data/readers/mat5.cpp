@@ -2,7 +2,7 @@
 //
 // Names      the variable's; a matrix gives "name[0]", "name[1]", ... (rows are samples)
 // Checked    class, rank and size before anything is allocated; the bytes parsed are those of the sha256
-// Confined   in a process of its own: one damaged file in a hundred crashes matio or keeps it busy for ever
+// Confined   in a process of its own: of a hundred damaged files two crash matio or keep it busy for ever
 // Errors     Error 65 when the file is damaged
 // Source     matio; MATLAB "MAT-File Format", level 5. Version 7.3 is HDF5: readers/hdf5.cpp
 
