@@ -21,8 +21,10 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))
     writer.attribute("/diagnosis/options", key, value);
-  write_provenance(writer, request.threads, started, std::chrono::duration<double>(Clock::now() - start).count());
-  writer.finish();
+  write_program(writer);
+  std::string const content_sha256 = writer.finish();
+  double const seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  write_circumstances(request.output, {request.threads, started, seconds, content_sha256});
   return diagnosis;
 }
 

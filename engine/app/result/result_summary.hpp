@@ -15,7 +15,7 @@ namespace torquescope {
 
 struct EstimatorSummary {
   std::string name, kind, title;
-  std::int64_t runs = 0;
+  std::int64_t runs = 0, missing_runs = 0;  // missing: of a partial merge
   std::vector<double> parameters;       // [R] of the median run
   std::vector<double> parameters_mean;  // [R] over the runs, as a paper would average them
   std::vector<double> standard_error;   // [R] least squares only: HAC; else empty
@@ -60,6 +60,7 @@ struct ResultSummary {
 
   std::int64_t runs() const;  // of all estimators
   std::int64_t evaluations() const;
+  bool is_partial() const;  // some runs are missing
 };
 
 ResultSummary read_summary(std::filesystem::path const& file);
