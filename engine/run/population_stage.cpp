@@ -15,6 +15,7 @@
 #include "engine/run/optimise.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/run_scheduler.hpp"
+#include "engine/run/search_identity.hpp"
 #include "engine/run/stage_progress.hpp"
 
 namespace torquescope {
@@ -53,6 +54,8 @@ SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& o
   request.folders = {segment_folder_of(options.output)};
   request.folders.insert(request.folders.end(), options.more_segments.begin(), options.more_segments.end());
   request.expected = origin_of(experiment, options);
+  for (auto const& plan : experiment.parts().estimators)
+    if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
   request.allow_mixed = options.allow_mixed;
   if (options.shard.count > 1) request.wanted = [&](std::size_t run) { return options.shard.has(run); };
   return SavedRuns(request);
@@ -165,7 +168,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   std::map<std::size_t, std::size_t> safe;
   for (std::size_t const run : runs)
     if (auto const generations = attempt.saved.generations(plan.label, run)) safe[run] = generations;
-  attempt.keeper.begin_estimator(plan.label, shape, std::move(safe));
+  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, std::move(safe));
 
   StageProgress progress(sink, plan.label, static_cast<std::int64_t>(runs.size()),
                          static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * shape.members));

@@ -31,10 +31,10 @@ RunKeeper::RunKeeper(Setting setting, std::mutex& hdf5)
       next_ns_(start_ns_ + nanoseconds(setting_.interval_s)),
       names_(setting_.folder, setting_.shard) {}
 
-void RunKeeper::begin_estimator(std::string const& label, HistoryShape const& shape,
+void RunKeeper::begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
                                 std::map<std::size_t, std::size_t> already_safe) {
   std::lock_guard const lock(guard_);
-  estimators_.push_back({label, shape});
+  estimators_.push_back({label, search_sha256, shape});
   for (auto const& [run, generations] : already_safe) safe_[{estimators_.size() - 1, run}] = generations;
 }
 
@@ -125,7 +125,8 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
   pending_bytes_ = 0;
   written_interval_ = interval_.load();
   std::vector<EstimatorParts> estimators;
-  for (auto const& estimator : estimators_) estimators.push_back({estimator.label, estimator.shape, {}});
+  for (auto const& estimator : estimators_)
+    estimators.push_back({estimator.label, estimator.search_sha256, estimator.shape, {}});
   std::map<RunId, std::size_t> const safe = safe_;
   auto const name = names_.next();
   SegmentOrigin origin = setting_.origin;

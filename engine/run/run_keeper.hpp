@@ -35,7 +35,7 @@ class RunKeeper {
   RunKeeper(Setting setting, std::mutex& hdf5);
 
   // of the runs that follow, until the next call; already_safe: generations that segments have, by run
-  void begin_estimator(std::string const& label, HistoryShape const& shape,
+  void begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
                        std::map<std::size_t, std::size_t> already_safe);
 
   // between begin() and ended() a run is waited for before a segment is written
@@ -58,7 +58,7 @@ class RunKeeper {
     std::shared_ptr<RunHistory const> whole{};      // of one that has ended
   };
   struct Estimator {
-    std::string label;
+    std::string label, search_sha256;
     HistoryShape shape;
   };
 

@@ -12,17 +12,22 @@ namespace {
 
 constexpr std::size_t most_open_files = 16;
 
+// the number of runs may grow
+bool same_lists(HistoryShape const& a, HistoryShape const& b) {
+  return a.generations == b.generations && a.members == b.members && a.parameters == b.parameters;
+}
+
 Error other_job(SegmentFile const& file, SegmentOrigin const& expected) {
   bool const other_text = file.origin().job_sha256 != expected.job_sha256;
+  std::string const folder = file.name().parent_path().string();
   Problem problem;
   problem.code = ExitCode::bad_job;
   problem.what = fmt::format("{} holds runs of {}", file.name().string(),
                              other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)",
                                                       file.origin().job_name)
                                         : "this job on other recordings (their sha256 differs)");
-  problem.notes = {"results of two jobs are never mixed"};
-  problem.help = "--out another name, or delete " + file.name().parent_path().string() +
-                 (other_text ? "; --allow-mixed when the change of the job changes no number" : "");
+  problem.help = fmt::format(
+      "--out another name, or delete {}; --allow-mixed goes on with those estimators whose numbers stay the same", folder);
   return Error(problem);
 }
 
@@ -37,9 +42,11 @@ Error other_program(SegmentFile const& file) {
   return Error(problem);
 }
 
-Error other_shape(SegmentFile const& file, std::string const& label) {
+Error other_search(SegmentFile const& file, std::string const& label) {
   return Error(Problem{.code = ExitCode::bad_job,
-                       .what = fmt::format("runs of {} in {} have other sizes than this job", label, file.name().string()),
+                       .what = fmt::format("runs of {} in {} were made with other settings, or on other data", label,
+                                           file.name().string()),
+                       .notes = {"--allow-mixed takes what follows from the same numbers, and this does not"},
                        .help = "--out another name, or delete " + file.name().parent_path().string()});
 }
 
@@ -61,19 +68,8 @@ SavedRuns::SavedRuns(SavedRunsRequest const& request) {
     for (auto const& name : segments_in(folder)) {
       try {
         SegmentFile const file(name);
-        bool const same_job = file.origin().job_sha256 == request.expected.job_sha256;
-        bool const same_inputs = file.origin().inputs_sha256 == request.expected.inputs_sha256;
-        if (!same_inputs && !(request.allow_mixed && !same_job)) throw other_job(file, request.expected);
-        bool const same_program = file.origin().numerics_sha256 == request.expected.numerics_sha256;
-        if (!same_program && !request.allow_mixed) throw other_program(file);
-        auto const is_wanted = [&](auto const& estimator) {
-          auto const& entries = estimator.second.entries;
-          return !request.wanted || std::any_of(entries.begin(), entries.end(),
-                                                [&](auto const& entry) { return request.wanted(entry.run); });
-        };
-        if (std::none_of(file.estimators().begin(), file.estimators().end(), is_wanted)) continue;
+        if (!accept(file, request)) continue;
         file.verify();
-        mixed_ = mixed_ || !same_program || !same_inputs;
         files_.push_back(name);
         take(file, files_.size() - 1);
       } catch (Error const& error) {
@@ -87,6 +83,25 @@ SavedRuns::SavedRuns(SavedRunsRequest const& request) {
       std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {
         return a.first != b.first ? a.first < b.first : a.end > b.end;
       });
+}
+
+// false: nothing in it is wanted
+bool SavedRuns::accept(SegmentFile const& file, SavedRunsRequest const& request) {
+  bool const same_inputs = file.origin().inputs_sha256 == request.expected.inputs_sha256;
+  bool const same_program = file.origin().numerics_sha256 == request.expected.numerics_sha256;
+  if (!same_inputs && !request.allow_mixed) throw other_job(file, request.expected);
+  if (!same_program && !request.allow_mixed) throw other_program(file);
+  bool wanted = false;
+  for (auto const& [label, index] : file.estimators()) {
+    auto const known = request.searches.find(label);
+    if (known == request.searches.end()) continue;
+    if (known->second != index.search_sha256) throw other_search(file, label);
+    wanted = wanted || !request.wanted ||
+             std::any_of(index.entries.begin(), index.entries.end(),
+                         [&](auto const& entry) { return request.wanted(entry.run); });
+  }
+  if (wanted) mixed_ = mixed_ || !same_program || !same_inputs;
+  return wanted;
 }
 
 void SavedRuns::take(SegmentFile const& file, std::size_t index) {
@@ -140,7 +155,7 @@ std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape co
   for (Piece const& piece : *pieces) {
     if (piece.first > whole.count) break;  // what lies between is lost: so is what follows
     SegmentFile& file = opened(piece.file);
-    if (!(file.estimators().at(label).shape == shape)) throw other_shape(file, label);
+    if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
     RunPart part = file.read(label, piece.entry);
     std::size_t const difference = first_difference(whole.history, part, shape);
     if (difference < part.end()) throw disagree(label, run, difference, source_of(difference), file.name());

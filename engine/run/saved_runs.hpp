@@ -24,7 +24,8 @@ namespace torquescope {
 struct SavedRunsRequest {
   std::vector<std::filesystem::path> folders;
   SegmentOrigin expected;    // the job and the program that would go on
-  bool allow_mixed = false;  // take segments of another program or another text of the job
+  std::map<std::string, std::string> searches;  // search_sha256 of every population method, by label
+  bool allow_mixed = false;  // take segments of another program, or of a job whose other text changes no number of these
   std::function<bool(std::size_t run)> wanted{};  // segments without such runs are not read further; empty: all
 };
 
@@ -53,6 +54,7 @@ class SavedRuns {
   using Pieces = std::vector<Piece>;
 
   Pieces const* find(std::string const& label, std::size_t run) const;
+  bool accept(SegmentFile const& file, SavedRunsRequest const& request);
   void take(SegmentFile const& file, std::size_t index);
   SegmentFile& opened(std::size_t file);
 

@@ -68,6 +68,7 @@ void write_estimator(ResultWriter& writer, EstimatorParts const& estimator) {
   std::string const group = group_of(estimator.label);
   std::string const itself = group.substr(0, group.size() - 1);
   auto const& shape = estimator.shape;
+  writer.attribute(itself, "search_sha256", estimator.search_sha256);
   writer.attribute(itself, "runs", static_cast<std::int64_t>(shape.runs));
   writer.attribute(itself, "generations", static_cast<std::int64_t>(shape.generations));
   writer.attribute(itself, "members", static_cast<std::int64_t>(shape.members));
@@ -180,6 +181,7 @@ void SegmentFile::read_index(std::string const& label) {
     return static_cast<std::size_t>(value);
   };
   Index index;
+  index.search_sha256 = reader_.attribute<std::string>(group.substr(0, group.size() - 1), "search_sha256");
   index.shape = {size("runs"), size("generations"), size("members"), size("parameters")};
   std::size_t const n = reader_.whole_numbers(group + "run").values.size();
   auto const run = counts(reader_, group + "run", n), first = counts(reader_, group + "first", n),

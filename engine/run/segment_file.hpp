@@ -30,6 +30,7 @@ struct SegmentOrigin {
 
 struct EstimatorParts {
   std::string label;
+  std::string search_sha256;  // of all that its numbers follow from, but the program: settings and training data
   HistoryShape shape;
   std::vector<RunPart> parts;
 };
@@ -48,6 +49,7 @@ class SegmentFile {
     std::string stop_reason;
   };
   struct Index {
+    std::string search_sha256;
     HistoryShape shape;
     std::vector<Entry> entries;
   };

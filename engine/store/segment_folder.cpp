@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope {
@@ -92,10 +93,10 @@ void remove_segments(fs::path const& result) {
   }
   ::rmdir(folder.c_str());
 
-  std::string const begin = result.filename().string() + ".tmp.";
   fs::path const home = result.has_parent_path() ? result.parent_path() : fs::path(".");
   for (auto const& name : files_in(home))
-    if (name.filename().string().starts_with(begin)) remove_if_abandoned(name);
+    for (auto const& whole : {result, circumstances_file_of(result)})
+      if (name.filename().string().starts_with(whole.filename().string() + ".tmp.")) remove_if_abandoned(name);
 }
 
 }  // namespace torquescope

@@ -99,12 +99,12 @@ ExitCode show_status(std::string const& name, Session const& session) {
       return ExitCode::ok;
     }
   }
-  validate(has_segments, [&] {
+  JobStatus const status = has_segments ? read_status(folder) : JobStatus{};
+  validate(!status.writers.empty() || !status.damaged.empty(), [&] {
     return Problem{.code = ExitCode::no_input,
-                   .what = fmt::format("there is neither {} nor {}", result.string(), folder.string()),
+                   .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
                    .help = "a job writes its first segment after 20 s (run --save-every), a shorter one only its result"};
   });
-  JobStatus const status = read_status(folder);
   session.result(status_text(status, result, session.result_ink()));
   session.document(status_json(status, result, false));
   return ExitCode::ok;
