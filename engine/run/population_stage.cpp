@@ -138,7 +138,11 @@ class Group {
 Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given)
     : options(given),
       saved(find_saved_runs(experiment, given)),
-      keeper({segment_folder_of(given.output), origin_of(experiment, given), given.shard, given.segment_seconds},
+      keeper({.folder = segment_folder_of(given.output),
+              .origin = origin_of(experiment, given),
+              .shard = given.shard,
+              .interval_s = given.segment_seconds,
+              .everything = given.shard.count > 1},
              hdf5) {
   auto const runs = runs_of_shard(experiment.parts(), options.shard);
   for (auto const& plan : experiment.parts().estimators) {

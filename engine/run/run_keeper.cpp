@@ -11,6 +11,7 @@ namespace torquescope {
 namespace {
 
 constexpr double share_of_time = 0.01;
+constexpr double share_not_kept = 0.1;
 constexpr double most_intervals = 15.0;
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
@@ -71,12 +72,12 @@ void RunKeeper::put(RunId id, Pending pending, std::unique_lock<std::mutex>& loc
   pending_bytes_ += bytes_of(id);
 
   std::uint64_t const interval = interval_.load();
+  bool const everything = setting_.everything || interval > 0;
   bool const time_to_write = interval > written_interval_ && all_handed_over();
-  bool const too_much = pending_bytes_ > setting_.most_bytes;
-  if (time_to_write || (too_much && interval > 0))
+  if (time_to_write || (everything && pending_bytes_ > setting_.most_bytes))
     write(lock);
-  else if (too_much)
-    let_go_of_some();
+  else if (!everything)
+    let_go_of_some(setting_.most_bytes / 4);
 }
 
 bool RunKeeper::all_handed_over() const {
@@ -85,8 +86,9 @@ bool RunKeeper::all_handed_over() const {
 }
 
 // the oldest first; half of it, so that this is seldom
-void RunKeeper::let_go_of_some() {
-  while (pending_bytes_ > setting_.most_bytes / 2 && !pending_.empty()) {
+void RunKeeper::let_go_of_some(std::size_t most_bytes) {
+  if (pending_bytes_ <= most_bytes) return;
+  while (pending_bytes_ > most_bytes / 2 && !pending_.empty()) {
     pending_bytes_ -= bytes_of(pending_.begin()->first);
     pending_.erase(pending_.begin());
   }
@@ -111,6 +113,8 @@ void RunKeeper::ended(std::size_t run, std::shared_ptr<RunHistory const> history
   std::unique_lock lock(guard_);
   RunId const id{estimators_.size() - 1, run};
   under_way_.erase(id);
+  bool const early = interval_.load() == 0 && now_ns() < start_ns_ + nanoseconds(share_not_kept * setting_.interval_s);
+  if (early && !setting_.everything) return;
   put(id, {{}, std::move(history)}, lock);
 }
 
