@@ -3,6 +3,7 @@
 #include <time.h>  // NOLINT(modernize-deprecated-headers): clock_gettime is POSIX, <ctime> does not promise it
 
 #include <algorithm>
+#include <iterator>
 
 #include "engine/base/contract.hpp"
 #include "engine/run/provenance_writer.hpp"
@@ -85,12 +86,13 @@ bool RunKeeper::all_handed_over() const {
   return std::all_of(under_way_.begin(), under_way_.end(), [&](auto const& run) { return run.second >= interval; });
 }
 
-// the oldest first; half of it, so that this is seldom
+// of runs that have ended the oldest first, and half of it, so that this is seldom; what is under way is handed over for an
+// interval's end or a stop only, and stays
 void RunKeeper::let_go_of_some(std::size_t most_bytes) {
   if (pending_bytes_ <= most_bytes) return;
-  while (pending_bytes_ > most_bytes / 2 && !pending_.empty()) {
-    pending_bytes_ -= bytes_of(pending_.begin()->first);
-    pending_.erase(pending_.begin());
+  for (auto run = pending_.begin(); run != pending_.end() && pending_bytes_ > most_bytes / 2;) {
+    if (run->second.whole) pending_bytes_ -= bytes_of(run->first);
+    run = run->second.whole ? pending_.erase(run) : std::next(run);
   }
 }
 

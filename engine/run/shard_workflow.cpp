@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -41,8 +43,13 @@ ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, Pro
 
 namespace {
 
+// a process that was killed and that nobody has asked after is still in the list, as "Z"
 bool is_alive(SegmentOrigin const& origin) {
-  return origin.host == host_name() && (::kill(static_cast<pid_t>(origin.pid), 0) == 0 || errno == EPERM);
+  if (origin.host != host_name() || (::kill(static_cast<pid_t>(origin.pid), 0) != 0 && errno != EPERM)) return false;
+  std::ifstream file("/proc/" + std::to_string(origin.pid) + "/stat");
+  std::string const stat{std::istreambuf_iterator<char>(file), {}};
+  std::size_t const state = stat.rfind(") ");
+  return state == std::string::npos || stat.compare(state, 3, ") Z") != 0;
 }
 
 // distinct generations of every run, and which runs have their end

@@ -122,7 +122,10 @@ class Folder:
 
     def segments(self, result="r.h5"):
         folder = self / (result + ".parts")
-        names = os.listdir(folder) if os.path.isdir(folder) else []
+        try:
+            names = os.listdir(folder)
+        except FileNotFoundError:  # not yet, or no longer
+            return []
         return sorted(os.path.join(folder, name) for name in names if name.endswith(".h5"))
 
     def done(self, result="r.h5"):
