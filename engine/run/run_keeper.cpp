@@ -33,6 +33,10 @@ RunKeeper::RunKeeper(Setting setting, std::mutex& hdf5)
       next_ns_(start_ns_ + nanoseconds(setting_.interval_s)),
       names_(setting_.folder, setting_.shard) {}
 
+double RunKeeper::share_of_first_interval() const {
+  return static_cast<double>(now_ns() - start_ns_) * 1e-9 / setting_.interval_s;
+}
+
 void RunKeeper::begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
                                 std::map<std::size_t, std::size_t> already_safe) {
   std::lock_guard const lock(guard_);
@@ -73,12 +77,12 @@ void RunKeeper::put(RunId id, Pending pending, std::unique_lock<std::mutex>& loc
   pending_bytes_ += bytes_of(id);
 
   std::uint64_t const interval = interval_.load();
-  bool const everything = setting_.everything || interval > 0;
+  bool const everything = setting_.everything || interval > 0 || share_of_first_interval() > 0.5;
   bool const time_to_write = interval > written_interval_ && all_handed_over();
   if (time_to_write || (everything && pending_bytes_ > setting_.most_bytes))
     write(lock);
   else if (!everything)
-    let_go_of_some(setting_.most_bytes / 4);
+    let_go_of_some(setting_.most_bytes / 2);
 }
 
 bool RunKeeper::all_handed_over() const {
@@ -115,7 +119,7 @@ void RunKeeper::ended(std::size_t run, std::shared_ptr<RunHistory const> history
   std::unique_lock lock(guard_);
   RunId const id{estimators_.size() - 1, run};
   under_way_.erase(id);
-  bool const early = interval_.load() == 0 && now_ns() < start_ns_ + nanoseconds(share_not_kept * setting_.interval_s);
+  bool const early = interval_.load() == 0 && share_of_first_interval() < share_not_kept;
   if (early && !setting_.everything) return;
   put(id, {{}, std::move(history)}, lock);
 }
