@@ -136,6 +136,8 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   writer.attribute("/runs", "order", order);
   write_program(writer);
   report.seconds = seconds_since(start);
+  // whoever asks to stop now is served best by the result
+  if (options.saving) options.saving();
   report.content_sha256 = writer.finish();
   write_circumstances(options.output, {options.threads, started, report.seconds, report.content_sha256},
                       attempt.saved.origins());
@@ -173,7 +175,8 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
     problem.help = "run their shards again, or `torquescope run` the job to do all that is missing; or --partial";
     throw Error(problem);
   }
-  if (count > 0) tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
+  if (count > 0)
+    tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
   IdentifyReport const report = write_result(std::move(experiment), attempt, true, progress);
   // of a part of the runs, the segments are still wanted
   if (count == 0) remove_segments(options.output);

@@ -85,8 +85,8 @@ void keep(std::vector<Run>& runs, SearchSetting const& setting) {
 void stop_if_requested(std::vector<Run>& runs, SearchSetting const& setting) {
   if (!setting.stop_requested || !setting.stop_requested()) return;
   if (setting.keep) keep(runs, setting);
-  throw Error(Problem{
-      ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
+  throw Error(
+      Problem{ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
 }
 
 }  // namespace

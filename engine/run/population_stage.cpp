@@ -69,10 +69,10 @@ RunStart make_start(PopulationStage const& stage, std::size_t run, std::optional
   try {
     start.search->restore(part->state);
   } catch (std::invalid_argument const& refusal) {
-    throw Error(Problem{.code = ExitCode::bad_job,
-                        .what = fmt::format("run {} of {} cannot go on: {}", run, stage.plan.label, refusal.what()),
-                        .help = "delete " + segment_folder_of(stage.attempt.options.output).string() +
-                                " to begin again"});
+    throw Error(
+        Problem{.code = ExitCode::bad_job,
+                .what = fmt::format("run {} of {} cannot go on: {}", run, stage.plan.label, refusal.what()),
+                .help = "delete " + segment_folder_of(stage.attempt.options.output).string() + " to begin again"});
   }
   start.history = std::move(part->history);
   return start;
@@ -179,7 +179,8 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   SearchSetting const setting{
       *objective,
       plan.stop_rules,
-      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0 : 1.0 / static_cast<double>(parts.train.regression.rows()),
+      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0
+                                                         : 1.0 / static_cast<double>(parts.train.regression.rows()),
       [&](std::span<double const> candidate) { return stage.floor.gap(candidate); },
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       attempt.options.stop_requested,
@@ -205,8 +206,8 @@ void stop_and_save(Attempt& attempt) {
   std::size_t const safe = attempt.runs_before + attempt.keeper.runs_safe();
   Problem problem;
   problem.code = ExitCode::stopped;
-  problem.what = fmt::format("stopped by {}: {} of {} runs are safe", options.stop_words ? options.stop_words() : "request",
-                             safe, attempt.runs_total);
+  problem.what = fmt::format("stopped by {}: {} of {} runs are safe",
+                             options.stop_words ? options.stop_words() : "request", safe, attempt.runs_total);
   if (attempt.keeper.segments_written() > 0 || attempt.runs_before > 0)
     problem.notes = {"and so is what others had begun, in " + segment_folder_of(options.output).string()};
   problem.help = "run the same command again to continue";
@@ -230,7 +231,8 @@ std::string missing_runs(Experiment::Parts const& parts, SavedRuns const& saved,
     constexpr std::size_t most_ranges = 12;
     bool const cut = ranges.size() > most_ranges;
     if (cut) ranges.resize(most_ranges);
-    if (!ranges.empty()) words.push_back(fmt::format("{} {}{}", plan.label, fmt::join(ranges, ", "), cut ? ", ..." : ""));
+    if (!ranges.empty())
+      words.push_back(fmt::format("{} {}{}", plan.label, fmt::join(ranges, ", "), cut ? ", ..." : ""));
   }
   return fmt::format("{}", fmt::join(words, "; "));
 }

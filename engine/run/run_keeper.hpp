@@ -57,8 +57,8 @@ class RunKeeper {
  private:
   using RunId = std::pair<std::size_t, std::size_t>;  // estimator, run
   struct Pending {
-    RunPart part{};                                 // of a run under way
-    std::shared_ptr<RunHistory const> whole{};      // of one that has ended
+    RunPart part{};                             // of a run under way
+    std::shared_ptr<RunHistory const> whole{};  // of one that has ended
   };
   struct Estimator {
     std::string label, search_sha256;

@@ -59,7 +59,8 @@ std::size_t first_difference(RunHistory const& history, RunPart const& part, His
     bool same = same_bits(history.evaluations, generation, part.history.evaluations, place, 1);
     for (auto const& list : history_lists) {
       std::size_t const width = list.width(shape);
-      same = same && same_bits(history.*list.values, generation * width, part.history.*list.values, place * width, width);
+      same =
+          same && same_bits(history.*list.values, generation * width, part.history.*list.values, place * width, width);
     }
     if (!same) return generation;
   }

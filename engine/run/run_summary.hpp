@@ -27,7 +27,7 @@ struct RunResults {
   std::vector<std::int64_t> nonfinite;
 
   std::size_t runs() const { return parameters.size(); }
-  std::vector<std::size_t> present() const;                          // indexes of runs that are not missing
+  std::vector<std::size_t> present() const;                        // indexes of runs that are not missing
   RunResults only(std::vector<std::size_t> const& indexes) const;  // these runs
   // one member of the metrics over all runs
   static std::vector<double> each(std::vector<PredictionMetrics> const& metrics, double PredictionMetrics::*member);

@@ -22,20 +22,21 @@ Error other_job(SegmentFile const& file, SegmentOrigin const& expected) {
   std::string const folder = file.name().parent_path().string();
   Problem problem;
   problem.code = ExitCode::bad_job;
-  problem.what = fmt::format("{} holds runs of {}", file.name().string(),
-                             other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)",
-                                                      file.origin().job_name)
-                                        : "this job on other recordings (their sha256 differs)");
+  problem.what = fmt::format(
+      "{} holds runs of {}", file.name().string(),
+      other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)", file.origin().job_name)
+                 : "this job on other recordings (their sha256 differs)");
   problem.help = fmt::format(
-      "--out another name, or delete {}; --allow-mixed goes on with those estimators whose numbers stay the same", folder);
+      "--out another name, or delete {}; --allow-mixed goes on with those estimators whose numbers stay the same",
+      folder);
   return Error(problem);
 }
 
 Error other_program(SegmentFile const& file) {
   Problem problem;
   problem.code = ExitCode::bad_job;
-  problem.what = fmt::format("{} was written by another program (sources, compiler or build differ)",
-                             file.name().string());
+  problem.what =
+      fmt::format("{} was written by another program (sources, compiler or build differ)", file.name().string());
   problem.notes = {"its runs may differ in their last digits from those of this one"};
   problem.help = fmt::format("go on with the program that began; or delete {} and begin again; or --allow-mixed",
                              file.name().parent_path().string());

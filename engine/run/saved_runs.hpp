@@ -23,9 +23,10 @@ namespace torquescope {
 
 struct SavedRunsRequest {
   std::vector<std::filesystem::path> folders;
-  SegmentOrigin expected;    // the job and the program that would go on
+  SegmentOrigin expected;                       // the job and the program that would go on
   std::map<std::string, std::string> searches;  // search_sha256 of every population method, by label
-  bool allow_mixed = false;  // take segments of another program, or of a job whose other text changes no number of these
+  bool allow_mixed =
+      false;  // take segments of another program, or of a job whose other text changes no number of these
   std::function<bool(std::size_t run)> wanted{};  // segments without such runs are not read further; empty: all
 };
 
@@ -59,7 +60,7 @@ class SavedRuns {
   SegmentFile& opened(std::size_t file);
 
   std::vector<std::filesystem::path> files_;
-  std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;  // a few of them
+  std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;   // a few of them
   std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation
   std::vector<SegmentOrigin> origins_;
   std::vector<std::string> warnings_;

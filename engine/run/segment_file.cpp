@@ -24,8 +24,8 @@ std::vector<Place> places_of(std::vector<RunPart> const& parts) {
 }
 
 // one list of all parts, generation after generation
-void write_list(ResultWriter& writer, std::string const& group, HistoryList const& list, EstimatorParts const& estimator,
-                std::vector<Place> const& places) {
+void write_list(ResultWriter& writer, std::string const& group, HistoryList const& list,
+                EstimatorParts const& estimator, std::vector<Place> const& places) {
   std::size_t const width = list.width(estimator.shape);
   h5::Shape shape{places.size()};
   if (width > 1) shape.push_back(width);
@@ -193,7 +193,8 @@ void SegmentFile::read_index(std::string const& label) {
   for (std::size_t i = 0; i < n; ++i) {
     if (run[i] >= index.shape.runs || first[i] + count[i] > index.shape.generations + 1)
       throw contradicts_itself(name(), group + "run");
-    index.entries.push_back({run[i], first[i], count[i], ended[i] == 1, row, state, state + states[i], stop_reasons[i]});
+    index.entries.push_back(
+        {run[i], first[i], count[i], ended[i] == 1, row, state, state + states[i], stop_reasons[i]});
     row += count[i];
     state += states[i];
   }

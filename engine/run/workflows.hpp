@@ -73,13 +73,13 @@ using ProgressSink = std::function<void(ProgressUpdate const&)>;
 struct IdentifyOptions {
   ThreadChoice threads{};
   std::filesystem::path output{};
-  std::function<bool()> stop_requested{};      // polled once a generation; true: what is done is saved, Error 75
-  std::function<std::string()> stop_words{};   // by what: "SIGTERM", "time budget (3600 s)"
-  std::function<void()> saving{};              // called before what is done is saved because of a stop
+  std::function<bool()> stop_requested{};     // polled once a generation; true: what is done is saved, Error 75
+  std::function<std::string()> stop_words{};  // by what: "SIGTERM", "time budget (3600 s)"
+  std::function<void()> saving{};             // called before what is done is saved: by a stop, or by the result itself
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "resume", "warning"
-  ShardChoice shard{};                         // of run_shard()
-  double segment_seconds = 20.0;               // between two segments, at least
-  bool allow_mixed = false;                    // go on from segments of another program, or another text of the job
+  ShardChoice shard{};                                                            // of run_shard()
+  double segment_seconds = 20.0;                                                  // between two segments, at least
+  bool allow_mixed = false;  // go on from segments of another program, or another text of the job
   std::vector<std::filesystem::path> more_segments{};  // folders beside OUTPUT.parts: of merge
 };
 

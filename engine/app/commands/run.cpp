@@ -81,9 +81,9 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   note_start(session, experiment.job_line(), experiment, options.threads);
   for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   if (shard.count > 1) {
-    session.note(session.topic_line(
-        "shard", fmt::format("{}/{} ({}): every {}th run from {} on; --shard 0/1 for all", shard.index, shard.count,
-                             shard.reason, shard.count, shard.index)));
+    session.note(
+        session.topic_line("shard", fmt::format("{}/{} ({}): every {}th run from {} on; --shard 0/1 for all",
+                                                shard.index, shard.count, shard.reason, shard.count, shard.index)));
     return run_share(std::move(experiment), options, arguments.job, session);
   }
   {

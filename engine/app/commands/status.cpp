@@ -101,9 +101,10 @@ ExitCode show_status(std::string const& name, Session const& session) {
   }
   JobStatus const status = has_segments ? read_status(folder) : JobStatus{};
   validate(!status.writers.empty() || !status.damaged.empty(), [&] {
-    return Problem{.code = ExitCode::no_input,
-                   .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
-                   .help = "a job writes its first segment after 20 s (run --save-every), a shorter one only its result"};
+    return Problem{
+        .code = ExitCode::no_input,
+        .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
+        .help = "a job writes its first segment after 20 s (run --save-every), a shorter one only its result"};
   });
   session.result(status_text(status, result, session.result_ink()));
   session.document(status_json(status, result, false));
@@ -124,9 +125,8 @@ void add_status(CLI::App& app, ChosenCommand& chosen) {
   add_json_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);
-  command->callback([name, &chosen] {
-    chosen.work = [name](Session const& session) { return show_status(*name, session); };
-  });
+  command->callback(
+      [name, &chosen] { chosen.work = [name](Session const& session) { return show_status(*name, session); }; });
 }
 
 }  // namespace torquescope

@@ -35,9 +35,10 @@ std::string this_program() {
 }
 
 Error not_submitted(std::string const& what) {
-  return Error(Problem{.code = ExitCode::no_input,
-                       .what = "sbatch did not take the job: " + what,
-                       .help = "run this where Slurm is, or --dry-run to see the scripts, or jobs/slurm/*.sbatch to edit"});
+  return Error(
+      Problem{.code = ExitCode::no_input,
+              .what = "sbatch did not take the job: " + what,
+              .help = "run this where Slurm is, or --dry-run to see the scripts, or jobs/slurm/*.sbatch to edit"});
 }
 
 // the number of the job that sbatch made
@@ -53,8 +54,8 @@ std::string sbatch(std::string const& options, std::filesystem::path const& scri
   // "1234" or "1234;cluster"; Slurm may warn in lines before it
   std::string const last = said.substr(said.rfind('\n') + 1);
   std::string const number = last.substr(0, last.find(';'));
-  bool const is_number =
-      !number.empty() && std::all_of(number.begin(), number.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  bool const is_number = !number.empty() && std::all_of(number.begin(), number.end(),
+                                                        [](unsigned char c) { return std::isdigit(c) != 0; });
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !is_number) throw not_submitted(said);
   return number;
 }
@@ -88,8 +89,8 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   write_script(merge_name, merge_script(plan));
   std::string const array = sbatch("", array_name);
   std::string const merge = sbatch("--dependency=afterok:" + array, merge_name);
-  session.note(session.topic_line("queued", fmt::format("{} shards as job {}, merge as job {} when all are done",
-                                                        plan.shards, array, merge)));
+  session.note(session.topic_line(
+      "queued", fmt::format("{} shards as job {}, merge as job {} when all are done", plan.shards, array, merge)));
   session.note(session.topic_line("look", "torquescope status " + result.string()));
   return ExitCode::ok;
 }
@@ -120,7 +121,8 @@ void add_submit(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope status lab.h5\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
   add_result_option(*command, arguments->out);
-  command->add_option("--shards", arguments->shards, "tasks of the array; each does every Nth run, in minutes not seconds")
+  command
+      ->add_option("--shards", arguments->shards, "tasks of the array; each does every Nth run, in minutes not seconds")
       ->type_name("N")
       ->required()
       ->check(no_shard_count)

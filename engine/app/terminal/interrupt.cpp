@@ -22,6 +22,7 @@ constexpr int stopped = 75;  // ExitCode::stopped
 std::atomic<int> first_signal{0};
 std::atomic<int> interrupts_seen{0};
 std::atomic<bool> notice_spoken{false};
+std::atomic<bool> saving{false};
 std::atomic<double> budget_s{0.0};
 std::atomic<double> stop_at_s{std::numeric_limits<double>::infinity()};
 static_assert(std::atomic<int>::is_always_lock_free);
@@ -45,7 +46,7 @@ void on_stop_signal(int number) {
   int none = 0;
   if (first_signal.compare_exchange_strong(none, number)) {
     say("\nstopping after the running generation (Ctrl-C to stop at once)\n");
-    ::alarm(seconds_to_stop);
+    if (!saving.load()) ::alarm(seconds_to_stop);
   }
   errno = saved_errno;
 }
@@ -108,6 +109,9 @@ std::string stop_words() {
   return number != 0 ? name_of(number) : fmt::format("time budget ({:g} s)", budget_s.load());
 }
 
-void saving_begins() { ::alarm(0); }
+void saving_begins() {
+  saving.store(true);
+  ::alarm(0);
+}
 
 }  // namespace torquescope

@@ -61,12 +61,14 @@ SegmentOrigin const origin{"job", "inputs", "program", "name", 0, 1, "", 1, 1, "
 class Keeping : public ::testing::Test {
  protected:
   RunKeeper keeper(double interval_s, bool everything = false) {
-    return RunKeeper({.folder = folder_ / "r.h5.parts", .origin = origin, .interval_s = interval_s,
-                      .everything = everything},
-                     hdf5_);
+    return RunKeeper(
+        {.folder = folder_ / "r.h5.parts", .origin = origin, .interval_s = interval_s, .everything = everything},
+        hdf5_);
   }
   std::size_t segments() const { return segments_in(folder_ / "r.h5.parts").size(); }
-  SavedRunsRequest request() const { return {.folders = {folder_ / "r.h5.parts"}, .expected = origin, .searches = {{"de", "search"}}}; }
+  SavedRunsRequest request() const {
+    return {.folders = {folder_ / "r.h5.parts"}, .expected = origin, .searches = {{"de", "search"}}};
+  }
   SavedRuns saved() const { return SavedRuns(request()); }
   static void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 

@@ -38,7 +38,8 @@ TEST(RemoveSegments, TakesSegmentsAndWhatTheDeadLeftAndNothingElse) {
   test::TemporaryFolder const folder;
   fs::path const result = folder / "R.h5", parts = segment_folder_of(result);
   make_segment_folder(parts);
-  for (auto const* name : {"R.h5.parts/a.h5", "R.h5.parts/b.h5.tmp.12", "R.h5.tmp.99", "R.h5.made.json.tmp.7", "S.h5.tmp.9"})
+  for (auto const* name :
+       {"R.h5.parts/a.h5", "R.h5.parts/b.h5.tmp.12", "R.h5.tmp.99", "R.h5.made.json.tmp.7", "S.h5.tmp.9"})
     folder.write(name, "x");
   TempFile const living(result);
   remove_segments(result);
