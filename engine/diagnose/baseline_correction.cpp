@@ -1,5 +1,6 @@
 #include "engine/diagnose/baseline_correction.hpp"
 
+#include <limits>
 #include <vector>
 
 #include "engine/base/contract.hpp"
@@ -36,7 +37,8 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
     result.parameters += gain * mismatch;
     ++result.rounds;
     // without noise all twins are one: then rounding is the yardstick
-    Eigen::ArrayXd const yardstick = result.std.array().max(1e-9 * result.parameters.array().abs());
+    constexpr double nothing = std::numeric_limits<double>::min();  // a parameter that this joint has not
+    Eigen::ArrayXd const yardstick = result.std.array().max(1e-9 * result.parameters.array().abs()).max(nothing);
     result.largest_mismatch = (mismatch.array().abs() / yardstick).maxCoeff();
     // the whole mismatch, not the shortened step: a small gain must not pass for agreement
     result.converged = result.largest_mismatch < small_mismatch;

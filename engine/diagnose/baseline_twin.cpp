@@ -1,5 +1,6 @@
 #include "engine/diagnose/baseline_twin.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -26,6 +27,9 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   TwinAddress const level_set{options.seed, options.recording, 1};
   TwinAddress const wander_set{options.seed, options.recording, 2};
   Attempt result{std::move(loop)};
+  for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
+                                  &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
+    result.loop.loop.*level = 0.0;
   auto const correct_from = [&](Eigen::VectorXd const& start) {
     result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
                                        options.step_s, correction_set, options.twins, threads);
@@ -53,19 +57,34 @@ double fitted_inertia(RecordPipeline const& pipeline, Eigen::VectorXd const& par
   return pipeline.model().twin_joint(parameters).lanes.inertia;
 }
 
+bool is_of_torque_channel(Effect const& effect) { return effect.acts_on() == ActsOn::recorded_torque; }
+
+bool any_of_torque_channel(JointModel const& model) {
+  return std::any_of(model.effects().begin(), model.effects().end(),
+                     [](auto const& one) { return is_of_torque_channel(*one.effect); });
+}
+
 // what the motor gave: the recorded torque without what effects of the torque channel add to it. A controller never saw
 // a fault of the torque's measurement (LESSONS item 16)
 Recording without_channel_faults(Recording recording, ProcessedRecord const& record, JointModel const& model) {
-  Eigen::MatrixXd columns;
+  if (!any_of_torque_channel(model)) return recording;
+  Eigen::MatrixXd const columns = model.columns(record.motion);
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     auto const& effect = *model.effects()[i].effect;
-    if (effect.acts_on() != ActsOn::recorded_torque) continue;
-    if (columns.size() == 0) columns = model.columns(record.motion);
+    if (!is_of_torque_channel(effect)) continue;
     auto const first = static_cast<Eigen::Index>(model.first_parameter(i));
     auto const width = static_cast<Eigen::Index>(effect.n_linear());
     recording.torque -= columns.middleCols(first, width) * record.parameters.segment(first, width);
   }
   return recording;
+}
+
+RecordedLoop loop_to_try(Recording const& in_loop, double inertia, JointModel const& model, FilterOptions const& filter,
+                         RecordedLoop const* decided) {
+  if (decided == nullptr) return recorded_loop(in_loop, inertia, filter);
+  if (!any_of_torque_channel(model)) return *decided;
+  if (decided->source == LoopSource::tracking) return tracking_loop(in_loop, inertia, filter);
+  return recorded_loop(in_loop, inertia, filter);
 }
 
 }  // namespace
@@ -75,11 +94,13 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   ProcessedRecord record = pipeline.process(recording);
   double const inertia = fitted_inertia(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
-  Attempt made = attempt(recorded_loop(in_loop, inertia, filter), record, pipeline, options, threads);
-  if (made.ran_away() && made.loop.source != LoopSource::tracking) {
+  bool const decides = options.loop == nullptr;
+  Attempt made = attempt(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()), record, pipeline,
+                         options, threads);
+  if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
     made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
-  } else if (made.law_is_too_poor()) {
+  } else if (decides && made.law_is_too_poor()) {
     Attempt tracking = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);

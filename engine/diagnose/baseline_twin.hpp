@@ -3,8 +3,9 @@
 //
 // Steps      least squares on the recording's rows; loop (recorded_loop.hpp); parameters by indirect inference; level of
 //            the disturbance and of what dry friction wanders, and when there is one of them the parameters again under it.
-//            A loop that runs away is replaced by
-//            the tracking loop
+//            A loop that runs away is replaced by the tracking loop
+// Loop       decided once: later models of the same recording are told the first one's, or unlike twins would be compared.
+//            Effects of the torque channel ask for another look at it: a controller never saw what they add
 // Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
 // Errors     Error 65 as the parts; also when twins run away in the tracking loop too
 // Units      SI
@@ -12,6 +13,7 @@
 // Source     LESSONS items 1 to 8 of our own prototype
 
 #include <cstdint>
+#include <memory>
 
 #include "engine/diagnose/baseline_correction.hpp"
 #include "engine/diagnose/disturbance_level.hpp"
@@ -27,6 +29,7 @@ struct TwinOptions {
   std::uint64_t seed = 0;
   std::uint32_t recording = 0;
   WanderReading wander = WanderReading::beside_motion;
+  std::shared_ptr<RecordedLoop const> loop{};  // as decided before; none: decide
 };
 
 struct BaselineTwin {

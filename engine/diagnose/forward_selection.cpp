@@ -19,7 +19,6 @@ namespace {
 
 constexpr double least_share_of_rest = 0.25;
 constexpr double nearly_all = 0.97;
-constexpr double least_cv_t = 2.0;
 constexpr std::size_t n_refined = 5;
 
 std::vector<double> q_of(std::vector<EffectScan> const& scans) {
@@ -32,17 +31,11 @@ std::vector<double> q_of(std::vector<EffectScan> const& scans) {
   return hierarchical_q(p, family);
 }
 
-// reason against linear parameters, empty when there is none
-std::string implausible(RefinedEffect const& refined, JointScales const& scales) {
-  if (!refined.effect->is_plausible(refined.shape, scales)) return "its best shape is none that it could have";
-  auto const bounds = refined.effect->linear_bounds(scales);
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    double const value = refined.parameters[static_cast<Eigen::Index>(k)];
-    auto const& name = refined.effect->parameters()[k].name;
-    if (value < bounds[k].lower || value > bounds[k].upper)
-      return fmt::format("{} = {:.3g} is outside its plausible range", name, value);
-  }
-  return {};
+// Most of the gain is there on blocks that the fit has not seen, or the gain per block is beyond its own spread. An effect
+// that acts in few places gains in few blocks, so that its spread says nothing
+bool helps_elsewhere(BlockedGain const& cv, double gain) {
+  constexpr double least_t = 2.0, most = 0.5;
+  return cv.t >= least_t || cv.gain >= most * gain;
 }
 
 class Search {
@@ -60,6 +53,7 @@ class Search {
       return problem;
     });
     stage_ = std::move(*first);
+    setting_.loop = std::make_shared<RecordedLoop const>(stage_.twin->loop);
     while (take_one()) {
     }
     if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_, stage_);
@@ -95,8 +89,11 @@ class Search {
     for (std::size_t i = 0; i < scans.size(); ++i)
       if (q[i] <= options_.q) found = std::max(found, scans[i].gain);
     remaining_ = std::max(stage_.energy.excess, found);
-    bool const is_open =
-        found > 0.0 && (is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share);
+    bool const is_clear = is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share;
+    // later on, what an imperfect first name leaves is just as certain, and no physics
+    is_faint_ = is_first && !is_clear && *std::min_element(q.begin(), q.end()) <= faint_q &&
+                energy_share(stage_, found) > smallest_faint_share;
+    bool const is_open = found > 0.0 && (is_clear || is_faint_);
     if (is_first) {
       selection_.first_energy = stage_.energy;
       selection_.first_scan = scans;
@@ -140,15 +137,31 @@ class Search {
     }
     std::stable_sort(trials.begin(), trials.end(),
                      [](Trial const& a, Trial const& b) { return a.refined.gain > b.refined.gain; });
+    prefer_what_repeats(trials);
     prefer_fewer_parameters(trials);
     return trials;
+  }
+
+  // What happens once fits any one peak and can be checked nowhere else. Something that acts all the time and explains half
+  // as much on blocks it was not fitted to comes first: an event cannot be foretold from other blocks
+  static void prefer_what_repeats(std::vector<Trial>& trials) {
+    constexpr double half = 0.5;
+    for (auto event = trials.begin(); event != trials.end(); ++event) {
+      if (!event->refined.effect->is_event()) continue;
+      double const enough = half * event->refined.gain;
+      std::stable_partition(event, trials.end(), [&](Trial const& trial) {
+        return !trial.refined.effect->is_event() && trial.cv.gain >= enough;
+      });
+    }
   }
 
   static void prefer_fewer_parameters(std::vector<Trial>& trials) {
     if (trials.empty()) return;
     double const enough = nearly_all * trials.front().refined.gain;
-    auto const last =
-        std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) { return trial.refined.gain < enough; });
+    auto const last = std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) {
+      return trial.refined.gain < enough ||
+             trial.refined.effect->is_event() != trials.front().refined.effect->is_event();
+    });
     std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
       return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
     });
@@ -166,23 +179,27 @@ class Search {
              fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_));
       return false;
     }
-    if (std::string why = implausible(trial.refined, columns.scales()); !why.empty()) {
-      reject(effect, std::move(why));
+    if (!effect->is_plausible(trial.refined.shape, columns.scales())) {
+      reject(effect, "its best shape is none that it could have");
       return false;
     }
     RegionConsistency const region = region_of(columns, trial.refined);
-    if (!region.holds()) {
+    if (!region.holds() && setting_.ablation.region_consistency) {
       reject(effect, fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)",
                                  100.0 * region.share, 100.0 * region.asked_for));
       return false;
     }
     // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
+    if (effect->is_event() && is_faint_) {
+      reject(effect, "happens once, and is too faint to be told from what twins cannot repeat");
+      return false;
+    }
     if (effect->is_event() && gain < least_share_of_rest * whole()) {
       reject(effect, fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                                  100.0 * gain / whole()));
       return false;
     }
-    if (!effect->is_event() && trial.cv.t < least_cv_t) {
+    if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) {
       reject(effect, "does not help on blocks it was not fitted to");
       return false;
     }
@@ -259,6 +276,7 @@ class Search {
   ModelStage stage_;
   Selection selection_;
   double remaining_ = 0.0;  // energy that this round looks for
+  bool is_faint_ = false;   // this round's gate is open for a candidate's certainty, not for its size
 };
 
 }  // namespace

@@ -79,8 +79,9 @@ class JointWork {
 
   void diagnose() {
     Recording recording = from_zero(input_.train);
-    StageSetting const setting{recording,    input_.regressor, input_.filter, input_.filter_section,
-                               input_.twins, input_.seed,      input_.threads};
+    StageSetting setting{recording,    input_.regressor, input_.filter, input_.filter_section,
+                         input_.twins, input_.seed,      input_.threads};
+    setting.ablation = input_.ablation;
     // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
     auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
     if (!why)
@@ -169,7 +170,7 @@ class JointWork {
   }
 
   void check_on_unseen(StageSetting const& setting) {
-    joint_.forward.push_back(simulate_forward(setting.recording, baseline(), final_stage()));
+    joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     double torque = 0.0, before = 0.0, after = 0.0, floor = 0.0;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : input_.validate) {

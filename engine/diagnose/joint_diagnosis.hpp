@@ -31,6 +31,7 @@ struct DiagnosisInput {
   std::size_t twins = 200;
   std::uint64_t seed = 0;
   int threads = 1;
+  Ablation ablation{};
 };
 
 Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress);

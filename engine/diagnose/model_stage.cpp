@@ -13,11 +13,14 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   TwinOptions options;
   options.seed = setting.seed;
   options.wander = setting.wander;
+  options.loop = setting.loop;
   options.twins = 2 * twin_lanes;  // two threads have something to do
   BaselineTwin made = make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.threads);
+  ablate_twin(made, *pipeline, setting.ablation);
   TwinAddress const null_set{setting.seed, options.recording, first_free_twin_set};
   TwinComparison comparison =
       compare_with_twins(setting.recording, made.twin, *pipeline, null_set, setting.twins, setting.threads);
+  if (!comparison.ran_away) replace_null(comparison, setting.ablation.null, setting.seed, setting.threads);
   ModelStage stage{std::move(pipeline), std::move(made), std::move(comparison), {}};
   if (!stage.comparison.ran_away) stage.energy = mismatch_energy(stage.comparison.rows);
   return stage;

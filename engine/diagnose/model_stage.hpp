@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/diagnose/ablation.hpp"
 #include "engine/diagnose/baseline_twin.hpp"
 #include "engine/diagnose/candidate_columns.hpp"
 #include "engine/diagnose/mismatch_energy.hpp"
@@ -26,6 +27,8 @@ struct StageSetting {
   std::uint64_t seed = 0;
   int threads = 1;
   WanderReading wander = WanderReading::beside_motion;
+  Ablation ablation{};
+  std::shared_ptr<RecordedLoop const> loop{};  // as the first stage decided; none: decide
 };
 
 struct ModelStage {

@@ -40,15 +40,28 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   return record;
 }
 
+// columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle
+std::vector<Eigen::Index> RecordPipeline::present_columns(Eigen::MatrixXd const& columns) const {
+  auto const baseline = static_cast<Eigen::Index>(model_.regressor().size());
+  std::vector<Eigen::Index> present;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k)
+    if (k < baseline || !columns.col(k).isZero(0.0)) present.push_back(k);
+  return present;
+}
+
 void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const {
+  std::vector<RegressorColumn> const owners = model_.column_owners();
+  std::vector<Eigen::Index> const present = present_columns(record.columns);
   RegressionData data;
-  data.columns = model_.column_owners();
+  for (Eigen::Index k : present) data.columns.push_back(owners[static_cast<std::size_t>(k)]);
   data.recording_names = {name};
-  data.phi = std::move(record.columns);
+  bool const all_are = present.size() == owners.size();
+  data.phi = all_are ? std::move(record.columns) : Eigen::MatrixXd(record.columns(Eigen::all, present));
   data.tau = std::move(record.torque);
-  record.parameters = solve_weighted(data, {});
-  record.residual = data.tau - data.phi * record.parameters;
-  record.columns = std::move(data.phi);
+  record.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(owners.size()));
+  record.parameters(present) = solve_weighted(data, {});
+  record.residual = data.tau - data.phi * record.parameters(present);
+  if (all_are) record.columns = std::move(data.phi);
   record.torque = std::move(data.tau);
 }
 

@@ -65,6 +65,7 @@ class RecordPipeline {
   Eigen::VectorXd picked(Eigen::Ref<Eigen::VectorXd const> const& signal, ProcessedRecord const& record) const;
 
  private:
+  std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   void fit(ProcessedRecord& record, std::string const& name) const;
 
   JointModel model_;

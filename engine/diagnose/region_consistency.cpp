@@ -10,7 +10,6 @@
 namespace torquescope {
 namespace {
 
-constexpr double region_energy = 0.8;
 constexpr double least_share = 0.7;
 constexpr double unlucky = 0.05;  // of the twins
 

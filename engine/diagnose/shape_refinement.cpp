@@ -16,6 +16,13 @@ class Refinement {
   Refinement(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch)
       : columns_(columns), effect_(*scan.effect), ranges_(scan.grid.ranges), mismatch_(mismatch) {
     best_.effect = scan.effect;
+    auto const bounds = effect_.linear_bounds(columns.scales());
+    least_.resize(static_cast<Eigen::Index>(bounds.size()));
+    most_.resize(least_.size());
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      least_[static_cast<Eigen::Index>(k)] = bounds[k].lower;
+      most_[static_cast<Eigen::Index>(k)] = bounds[k].upper;
+    }
     try_shape(scan.shape);
   }
 
@@ -63,7 +70,7 @@ class Refinement {
  private:
   BoundedGain gain_at(std::vector<double> const& shape) const {
     OrthonormalGroup const group = columns_.group(effect_, shape);
-    return bounded_gain(group, inner_products(group.q, mismatch_));
+    return boxed_gain(group, inner_products(group.q, mismatch_), least_, most_);
   }
 
   double noise_at(std::vector<double> const& shape) const {
@@ -123,6 +130,7 @@ class Refinement {
   Effect const& effect_;
   std::vector<ParameterRange> const& ranges_;
   Eigen::VectorXd const& mismatch_;
+  Eigen::VectorXd least_{}, most_{};  // plausible sizes of the linear parameters
   RefinedEffect best_{};
 };
 

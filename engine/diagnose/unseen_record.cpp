@@ -106,16 +106,19 @@ RecordPipeline pipeline_for(Recording const& recording, StageSetting const& sett
   return {model, setting.filter, recording.rate_hz, recording.position.size(), setting.filter_section};
 }
 
-// the training's loop on another recording's reference
-std::optional<RecordedLoop> loop_on(Recording const& recording, ModelStage const& stage) {
-  auto const& trained = stage.twin->loop;
-  if (trained.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
+// the loop that another recording was made in, without levels; none where twins follow a measured motion
+std::optional<RecordedLoop> loop_of(Recording const& recording, ModelStage const& stage) {
+  if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
-  RecordedLoop loop = recorded_loop(recording, 1.0, {});
-  loop.loop.disturbance_std = trained.loop.disturbance_std;
-  loop.loop.disturbance_variance_error = trained.loop.disturbance_variance_error;
-  loop.loop.friction_wander = trained.loop.friction_wander;
-  loop.loop.friction_wander_variance_error = trained.loop.friction_wander_variance_error;
+  return recorded_loop(recording, 1.0, {});
+}
+
+// disturbance and wander as in training
+TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
+  auto const& trained = stage.twin->loop.loop;
+  for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
+                                  &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
+    loop.*level = trained.*level;
   return loop;
 }
 
@@ -132,7 +135,8 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 double floor_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                 RecordedLoop const& loop, Eigen::VectorXd const& parameters) {
   RecordPipeline const pipeline = pipeline_for(recording, setting, stage.model());
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), loop.loop, loop.track, stage.twin->twin.step_s());
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
+                       stage.twin->twin.step_s());
   std::vector<double> relerr(twin_lanes, unknown);
   for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, relerr.size(), setting.threads,
                 [&](VisitedTwin const& visited) {
@@ -170,18 +174,16 @@ TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipel
   return trace;
 }
 
-ForwardSimulation simulate_forward(Recording const& recording, ModelStage const& baseline,
-                                   ModelStage const& augmented) {
+ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
+                                   ModelStage const& baseline, ModelStage const& augmented) {
   ForwardSimulation result;
   result.recording = recording.name;
   result.encoder_step = baseline.twin->loop.loop.encoder_step;
   double const mean = recording.position.mean();
   result.motion_rms = std::sqrt((recording.position.array() - mean).square().mean());
-  auto const loop = loop_on(recording, baseline);
-  if (!loop) return result;
+  if (!loop || loop->source == LoopSource::tracking) return result;
   result.before_rms = position_error(recording, *loop, baseline);
-  auto const own = loop_on(recording, augmented);
-  result.after_rms = position_error(recording, *own, augmented);
+  result.after_rms = position_error(recording, *loop, augmented);
   return result;
 }
 
@@ -224,8 +226,8 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     result.without.push_back((after.torque - after.columns(Eigen::all, others) * refitted).squaredNorm());
   }
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
-  result.forward = simulate_forward(recording, baseline, augmented);
-  auto const loop = loop_on(recording, augmented);
+  auto const loop = loop_of(recording, augmented);
+  result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
     result.floor = floor_of(recording, setting, augmented, *loop, augmented.comparison.recording.parameters);

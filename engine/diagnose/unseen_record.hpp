@@ -33,8 +33,10 @@ struct UnseenResult {
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented);
 
-// closed loop from the recording's reference, without noise, before and after; of a recording without reference: unknown
-ForwardSimulation simulate_forward(Recording const& recording, ModelStage const& baseline, ModelStage const& augmented);
+// closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows the
+// measured motion: unknown
+ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
+                                   ModelStage const& baseline, ModelStage const& augmented);
 
 // torque and residuals on all kept samples; NaN where the mask has none
 TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,

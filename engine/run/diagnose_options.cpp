@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/diagnose/null_kind.hpp"
 #include "engine/optim/optimiser.hpp"
 
 namespace torquescope {
@@ -61,8 +62,29 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"q", &DiagnoseOptions::q, "1", 1e-6, 0.5, "share of false names that is put up with among the names given"},
        {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"},
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
-        "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"}});
+        "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
+       {"null", &DiagnoseOptions::null, null_words(),
+        "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
+       {"indirect_inference", &DiagnoseOptions::indirect_inference,
+        "ablation, not for use: false makes twins of the least-squares baseline, biased as the pipeline makes it"},
+       {"region_consistency", &DiagnoseOptions::region_consistency,
+        "ablation, not for use: false takes effects that do not help where they act"},
+       {"twin_noise", &DiagnoseOptions::twin_noise, "1", 0.05, 20.0,
+        "ablation, not for use: factor on all noise of the twins, as if it were stated wrongly"}});
   return table;
+}
+
+std::vector<std::string> DiagnoseOptions::ablations() const {
+  DiagnoseOptions const whole;
+  std::vector<std::string> found;
+  auto const note = [&](std::string const& key, auto const& here, auto const& method) {
+    if (here != method) found.push_back(key + " = " + to_text(OptionValue{here}));
+  };
+  note("null", null, whole.null);
+  note("indirect_inference", indirect_inference, whole.indirect_inference);
+  note("region_consistency", region_consistency, whole.region_consistency);
+  note("twin_noise", twin_noise, whole.twin_noise);
+  return found;
 }
 
 std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,

@@ -18,6 +18,14 @@ struct DiagnoseOptions {
   double q = 0.05;
   std::int64_t max_effects = 5;
   std::string shape_optimiser = "de";
+  // ablations (ablation.hpp)
+  std::string null = "twins";
+  bool indirect_inference = true;
+  bool region_consistency = true;
+  double twin_noise = 1.0;
+
+  // in the words of a job file, those that differ from the method: "null = \"iid\""; empty: it is whole
+  std::vector<std::string> ablations() const;
 
   static OptionTable<DiagnoseOptions> const& table();
 };

@@ -107,6 +107,18 @@ std::string Experiment::data_line() const {
   return line;
 }
 
+namespace {
+
+// empty for the whole method
+std::string ablation_words(DiagnoseOptions const& options) {
+  auto const ablations = options.ablations();
+  if (ablations.empty()) return {};
+  return fmt::format("an ablation ({}): it shows what a part of the method brings; believe no name it gives",
+                     fmt::join(ablations, ", "));
+}
+
+}  // namespace
+
 std::vector<std::string> Experiment::warnings() const {
   std::vector<std::string> lines;
   auto const add = [&](DataSet const& set) {
@@ -117,6 +129,7 @@ std::vector<std::string> Experiment::warnings() const {
   add(parts_->train);
   if (parts_->validate) add(*parts_->validate);
   if (!parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
+  if (std::string const words = ablation_words(parts_->diagnose); !words.empty()) lines.push_back("diagnose: " + words);
   return lines;
 }
 
@@ -150,6 +163,8 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     lines.push_back({Level::ok, "diagnosis",
                      fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),
                                  counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"))});
+  if (std::string const words = ablation_words(parts_->diagnose); !words.empty())
+    lines.push_back({Level::warn, "diagnosis", words});
   if (parts_->estimators.empty()) return lines;
   double evaluations = 0.0, bytes = 0.0;
   auto const parameters = static_cast<double>(parts_->regressor->size());

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <limits>
 #include <utility>
 
@@ -17,10 +16,6 @@
 namespace torquescope {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // what every estimator of one job shares
 struct Study {
@@ -112,8 +107,7 @@ void tell_what_was_done(Attempt const& attempt) {
 
 // from an attempt that has, or makes, every run
 IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges, ProgressSink const& progress) {
-  auto const start = Clock::now();
-  std::string const started = utc_now();
+  Beginning const beginning;
   auto const& options = attempt.options;
   auto const& parts = experiment.parts();
   ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
@@ -134,13 +128,10 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
     for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;
   }
   writer.attribute("/runs", "order", order);
-  write_program(writer);
-  report.seconds = seconds_since(start);
   // whoever asks to stop now is served best by the result
   if (options.saving) options.saving();
-  report.content_sha256 = writer.finish();
-  write_circumstances(options.output, {options.threads, started, report.seconds, report.content_sha256},
-                      attempt.saved.origins());
+  report.content_sha256 = finish_result(writer, options.output, options.threads, beginning, attempt.saved.origins());
+  report.seconds = beginning.seconds();
   report.bytes = std::filesystem::file_size(options.output);
   return report;
 }

@@ -56,24 +56,27 @@ std::string utc_now() {
   return text;
 }
 
-void write_program(ResultWriter& writer) {
+double Beginning::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - at).count();
+}
+
+std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
+                          Beginning const& beginning, std::vector<SegmentOrigin> const& segments) {
   std::string const group = "/provenance";
   writer.attribute(group, "version", std::string(version));
   writer.attribute(group, "compiler", std::string(compiler));
   writer.attribute(group, "build_type", std::string(build_type));
   writer.attribute(group, "numerics_sha256", numerics_sha256());
-}
+  std::string content_sha256 = writer.finish();
 
-void write_circumstances(std::filesystem::path const& result, Circumstances const& made,
-                         std::vector<SegmentOrigin> const& segments) {
   Json const document = {{"schema", 1},
-                         {"content_sha256", made.content_sha256},
-                         {"started", made.started},
+                         {"content_sha256", content_sha256},
+                         {"started", beginning.started},
                          {"finished", utc_now()},
-                         {"seconds", made.seconds},
+                         {"seconds", beginning.seconds()},
                          {"host", host_name()},
-                         {"threads", made.threads.count},
-                         {"threads_reason", made.threads.reason},
+                         {"threads", threads.count},
+                         {"threads_reason", threads.reason},
                          {"vector_target", vector_target()},
                          {"commit", source_commit()},
                          {"scheduler", scheduler()},
@@ -82,6 +85,7 @@ void write_circumstances(std::filesystem::path const& result, Circumstances cons
   TempFile file(circumstances_file_of(result));
   file.write_at(0, text.data(), text.size());
   file.publish();
+  return content_sha256;
 }
 
 }  // namespace torquescope

@@ -5,6 +5,7 @@
 //
 // Errors     those of ResultWriter; 74 when the file beside it cannot be written
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,16 +18,16 @@ namespace torquescope {
 
 std::string utc_now();  // "2026-03-01T12:00:00Z"
 
-// /provenance: the program
-void write_program(ResultWriter& writer);
+// when the work on a result began
+struct Beginning {
+  std::string started = utc_now();
+  std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
 
-struct Circumstances {
-  ThreadChoice threads;
-  std::string started;  // utc_now() when the work began; it ends now
-  double seconds = 0.0;
-  std::string content_sha256;  // of the result this belongs to
+  double seconds() const;  // since then
 };
-void write_circumstances(std::filesystem::path const& result, Circumstances const& made,
-                         std::vector<SegmentOrigin> const& segments = {});
+
+// the last that is written: /provenance, then the result is published, then what stands beside it. Returns content_sha256
+std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
+                          Beginning const& beginning, std::vector<SegmentOrigin> const& segments = {});
 
 }  // namespace torquescope

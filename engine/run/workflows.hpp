@@ -139,6 +139,14 @@ struct DiagnoseRequest {
 // finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify"
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
+// writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods other
+// than ours; no diagnosis is made. Returns how many effects have columns
+struct ColumnsReport {
+  std::size_t effects = 0;
+  std::size_t rows = 0;  // of the training recording
+};
+ColumnsReport write_candidate_columns(Experiment const& experiment, DiagnoseRequest const& request);
+
 // makes the recording that the job's [simulate] describes; CSV or HDF5 by the ending of `output`
 struct SimulateReport {
   std::size_t samples = 0;

@@ -36,6 +36,15 @@ void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const
   }
 }
 
+// The recording's first position is what the encoder read: a joint whose readings are off begins where it would read that.
+// Otherwise the law sees the whole error arrive in one tick
+void read_as_recorded(TwinJoint const& joint, LaneInstant const& start, double* position) {
+  alignas(64) double read[twin_lanes];
+  std::copy_n(position, twin_lanes, read);
+  for (auto const& make : joint.effects) make()->shift_position(start, read);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] -= read[lane] - position[lane];
+}
+
 // the law in all lanes: what it remembers, and its answer
 class LaneController {
  public:
@@ -137,21 +146,16 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * step_s) * (1.0 - 1e-9)));
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
-  // beyond its ends the reference goes on as its odd reflection: a ramp stays a ramp, or the law would see it stop dead
-  auto const reference_at = [&](Eigen::Index k) {
-    auto const& r = track_.reference;
-    if (k < 0) return 2.0 * r[0] - r[std::min(-k, n - 1)];
-    if (k >= n) return 2.0 * r[n - 1] - r[std::max(2 * (n - 1) - k, Eigen::Index{0})];
-    return r[k];
-  };
+  ReferenceSignal const reference(track_.reference);
   LoopLaw const& law = loop_.law;
   open_.resize(n);
   wanted_.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    wanted_[k] = reference_at(k + law.shift);
+    wanted_[k] = reference(k + law.shift);
     open_[k] = law.constant;
     for (std::size_t j = 0; j < law.reference.size(); ++j)
-      open_[k] += law.reference[j] * reference_at(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
+      open_[k] += law.reference[j] * reference(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
+    for (auto const& term : law.terms) open_[k] += term.gain * term(reference, k);
   }
 }
 
@@ -181,6 +185,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
   alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
   double const tick_s = 1.0 / track_.rate_hz;
+  read_as_recorded(joint_, instant_of(state, 0.0, tick_s, command), state.q);
   for (Eigen::Index k = 0; k < samples(); ++k) {
     double const time_s = static_cast<double>(k) * tick_s;
 

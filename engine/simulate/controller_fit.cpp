@@ -10,6 +10,7 @@
 #include "engine/base/contract.hpp"
 #include "engine/simulate/controller_limits.hpp"
 #include "engine/simulate/controller_regression.hpp"
+#include "engine/simulate/feedforward_search.hpp"
 
 namespace torquescope {
 namespace {
@@ -47,31 +48,60 @@ bool white_enough(std::array<double, 4> const& acf, double bound) {
 
 double white_bound(SampleRows const& rows) { return z_white / std::sqrt(static_cast<double>(rows.size())); }
 
-int best_shift(LoopSignals const& s, SampleRows const& rows) {
+using Terms = std::vector<ReferenceTerm>;
+
+// Both windows, by Schwarz's criterion: a law that looks further back than the narrow one would be taken for a shifted one,
+// and the wide one contains small shifts
+int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) {
+  constexpr std::size_t enough = 8192;
+  SampleRows const rows = thinned(all, enough);
   double const n = static_cast<double>(rows.size());
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (int shift : {0, -1, 1, -2, 2}) {
-    double const sse =
-        std::max(regress_controller(s, {most_lags, shift}, rows).sse, std::numeric_limits<double>::min());
-    // the neighbouring samples of the reference imitate a small shift: none, unless the likelihood says otherwise
-    double const criterion = n * std::log(sse) + (shift == 0 ? 0.0 : z_coefficient * z_coefficient);
-    if (criterion < least) {
-      least = criterion;
-      best = shift;
+  for (int shift : {0, -1, 1, -2, 2})
+    for (auto const& window : {narrow_window, wide_window}) {
+      ControllerColumns const columns{most_lags, shift, window, true, terms};
+      double const sse = std::max(regress_controller(s, columns, rows).sse, std::numeric_limits<double>::min());
+      // the neighbouring samples of the reference imitate a small shift: none, unless the likelihood says otherwise
+      double const criterion = n * std::log(sse) + static_cast<double>(columns.count()) * std::log(n) +
+                               (shift == 0 ? 0.0 : z_coefficient * z_coefficient);
+      if (criterion < least) {
+        least = criterion;
+        best = shift;
+      }
     }
-  }
   return best;
 }
 
+// For rows that the fit has not seen: the narrow window, unless the wide one explains so much more that the law must look
+// that far (a feedforward at the corners of a trapezoid)
+ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& all) {
+  constexpr std::size_t enough = 8192;
+  SampleRows const rows = thinned(all, enough);
+  ControllerColumns const narrow{most_lags, shift, narrow_window, true, terms};
+  ControllerColumns const wide{most_lags, shift, wide_window, true, terms};
+  double const n = static_cast<double>(rows.size());
+  double const gain = n * std::log(regress_controller(s, narrow, rows).sse / regress_controller(s, wide, rows).sse);
+  // Schwarz's criterion
+  return gain > static_cast<double>(wide.count() - narrow.count()) * std::log(n) ? wide : narrow;
+}
+
+// none where the linear law leaves nothing but white noise
+Terms feedforward(LoopSignals const& s, int shift, SampleRows const& rows) {
+  ControllerColumns const columns{most_lags, shift, wide_window};
+  auto const linear = regress_controller(s, columns, rows);
+  if (white_enough(residual_acf(linear.residual, rows), white_bound(rows))) return {};
+  return find_feedforward(s, columns, rows);
+}
+
 // Akaike: a lag too many costs nothing here, one too few bends the law while the noise still looks white
-ControllerRegression best_lags(LoopSignals const& s, int shift, SampleRows const& rows) {
+ControllerRegression best_lags(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& rows) {
   double const n = static_cast<double>(rows.size());
   ControllerRegression best;
   double least = std::numeric_limits<double>::infinity();
   for (int lags : lag_ladder)
     for (auto const& window : {narrow_window, wide_window}) {
-      ControllerColumns const columns{lags, shift, window};
+      ControllerColumns const columns{lags, shift, window, true, terms};
       ControllerRegression tried = regress_controller(s, columns, rows);
       double const criterion = n * std::log(std::max(tried.sse, std::numeric_limits<double>::min())) +
                                2.0 * static_cast<double>(columns.count());
@@ -102,6 +132,9 @@ LoopLaw law_of(ControllerRegression const& fit) {
     law.reference[static_cast<std::size_t>(j)] -= c[columns.reference() + j];
     law.reference[static_cast<std::size_t>(j) + 1] += c[columns.reference() + j];
   }
+  law.terms = columns.terms;
+  for (std::size_t j = 0; j < law.terms.size(); ++j)
+    law.terms[j].gain = c[columns.first_term() + static_cast<Eigen::Index>(j)];
   law.constant = c[columns.constant()];
   law.integral = columns.has_integral ? c[columns.integral()] : 0.0;
   return law;
@@ -125,18 +158,20 @@ ControllerFit fit_controller(LoopSignals const& signals) {
   // which rows obey the law at all; the first fit chose its rows by the torque, the next ones by the law
   SampleRows const all = usable_rows(signals.position.size());
   SampleRows rows = inner_rows(signals, all);
-  int shift = best_shift(signals, rows);
+  int shift = best_shift(signals, {}, rows);
+  Terms terms = feedforward(signals, shift, rows);
   ControllerLimits limits;
   for (int pass = 0; pass < limit_passes; ++pass) {
-    ControllerRegression const sofar = regress_controller(signals, {most_lags, shift}, rows);
+    ControllerRegression const sofar = regress_controller(signals, cautious_columns(signals, shift, terms, rows), rows);
     limits = find_limits(signals, sofar, all);
     rows = limits.any() ? unclipped_rows(signals, sofar, limits, all) : all;
-    if (pass == 0) shift = best_shift(signals, rows);
+    if (pass == 0) shift = best_shift(signals, terms, rows);
     if (!limits.any()) break;
   }
 
   // the law
-  ControllerRegression fit = best_lags(signals, shift, rows);
+  terms = feedforward(signals, shift, rows);
+  ControllerRegression fit = best_lags(signals, shift, terms, rows);
   ControllerFit result;
   result.integral_z = fit.coefficients[fit.columns.integral()] / fit.errors[fit.columns.integral()];
   if (!(std::abs(result.integral_z) > z_coefficient)) {

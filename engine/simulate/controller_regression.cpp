@@ -17,7 +17,10 @@ Eigen::VectorXd summed_error(LoopSignals const& s, int shift) {
   return sum;
 }
 
-Eigen::MatrixXd regressors(LoopSignals const& s, ControllerColumns const& columns, SampleRows const& rows) {
+}  // namespace
+
+Eigen::MatrixXd controller_regressors(LoopSignals const& s, ControllerColumns const& columns, SampleRows const& rows) {
+  ReferenceSignal const reference(s.reference);
   Eigen::VectorXd const sum = summed_error(s, columns.shift);
   auto const& q = s.position;
   auto const& r = s.reference;
@@ -30,12 +33,19 @@ Eigen::MatrixXd regressors(LoopSignals const& s, ControllerColumns const& column
       x(i, columns.reference() + j) = r[at - columns.window.behind + j + 1] - r[at - columns.window.behind + j];
     x(i, columns.constant()) = 1.0;
     x(i, columns.drift()) = s.time_s[k] - s.time_s[0];
+    for (std::size_t j = 0; j < columns.terms.size(); ++j)
+      x(i, columns.first_term() + static_cast<Eigen::Index>(j)) = columns.terms[j](reference, k);
     if (columns.has_integral) x(i, columns.integral()) = sum[k];
   }
   return x;
 }
 
-}  // namespace
+SampleRows thinned(SampleRows const& rows, std::size_t most) {
+  std::size_t const stride = (rows.size() + most - 1) / most;
+  SampleRows some;
+  for (std::size_t i = 0; i < rows.size(); i += stride) some.push_back(rows[i]);
+  return some;
+}
 
 Eigen::VectorXd picked(Eigen::VectorXd const& signal, SampleRows const& rows) {
   Eigen::VectorXd result(static_cast<Eigen::Index>(rows.size()));
@@ -45,7 +55,7 @@ Eigen::VectorXd picked(Eigen::VectorXd const& signal, SampleRows const& rows) {
 
 ControllerRegression regress_controller(LoopSignals const& s, ControllerColumns const& columns,
                                         SampleRows const& rows) {
-  Eigen::MatrixXd x = regressors(s, columns, rows);
+  Eigen::MatrixXd x = controller_regressors(s, columns, rows);
   Eigen::VectorXd const u = picked(s.torque, rows);
   Eigen::VectorXd length = x.colwise().norm();
   for (auto& one : length) one = one > 0.0 ? one : 1.0;
@@ -73,7 +83,7 @@ ControllerRegression regress_controller(LoopSignals const& s, ControllerColumns 
 }
 
 Eigen::VectorXd asked_torque(LoopSignals const& s, ControllerRegression const& fit, SampleRows const& rows) {
-  return regressors(s, fit.columns, rows) * fit.coefficients;
+  return controller_regressors(s, fit.columns, rows) * fit.coefficients;
 }
 
 }  // namespace torquescope

@@ -2,7 +2,8 @@
 // One linear regression of the torque on what a controller of a given shape can see (controller_fit.hpp chooses shapes).
 //
 // Equation   u_k = sum of columns: e_k = r_(k+shift) - q_k; q_(k-i) - q_(k-i-1), i = 0 .. lags-1; r_(k+shift+j+1) -
-//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; sum_(i<=k) e_i last, if there is an integral
+//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; terms of the reference fed forward; sum_(i<=k) e_i last, if
+//            there is an integral
 // Rank       columns of no use (a reference that never accelerates) get the coefficient 0 and an infinite error
 // Shapes     signals: n samples; a regression: one number per row of `rows`, which ascend
 // Requires   lags + 1 and behind - shift samples before every row, shift + ahead after it
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "engine/simulate/loop_signals.hpp"
+#include "engine/simulate/reference_term.hpp"
 
 namespace torquescope {
 
@@ -30,12 +32,14 @@ struct ControllerColumns {
   int lags = 0, shift = 0;
   ReferenceWindow window = narrow_window;
   bool has_integral = true;
+  std::vector<ReferenceTerm> terms{};  // their gains are not read
 
   Eigen::Index differences() const { return window.behind + window.ahead; }
   Eigen::Index reference() const { return 1 + lags; }  // r_(i+1) - r_i, i = -behind first
   Eigen::Index constant() const { return reference() + differences(); }
   Eigen::Index drift() const { return constant() + 1; }
-  Eigen::Index integral() const { return drift() + 1; }
+  Eigen::Index first_term() const { return drift() + 1; }
+  Eigen::Index integral() const { return first_term() + static_cast<Eigen::Index>(terms.size()); }
   Eigen::Index count() const { return integral() + (has_integral ? 1 : 0); }
 };
 
@@ -47,11 +51,18 @@ struct ControllerRegression {
   double sse = 0.0;
 };
 
+// [rows][columns.count()]
+Eigen::MatrixXd controller_regressors(LoopSignals const& signals, ControllerColumns const& columns,
+                                      SampleRows const& rows);
+
 ControllerRegression regress_controller(LoopSignals const& signals, ControllerColumns const& columns,
                                         SampleRows const& rows);
 
 // the law's torque at every row, sensor drift included, before any limit; rows may be others than those of the fit
 Eigen::VectorXd asked_torque(LoopSignals const& signals, ControllerRegression const& fit, SampleRows const& rows);
+
+// every so manieth row, at most `most` of them
+SampleRows thinned(SampleRows const& rows, std::size_t most);
 
 Eigen::VectorXd picked(Eigen::VectorXd const& signal, SampleRows const& rows);
 

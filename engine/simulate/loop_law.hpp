@@ -1,8 +1,9 @@
 #pragma once
-// A linear discrete controller as its numbers: what an identified loop is, and what twins are simulated with.
+// A discrete controller as its numbers, linear in what it measures: what an identified loop is, and what twins are
+// simulated with.
 //
-// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k) e_i,
-//            e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1
+// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k) e_i +
+//            sum of the terms of the reference fed forward,  e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1
 // Shapes     position: lags 0, 1, ...; reference: `behind` samples before k + shift, that one, and those ahead of it
 // Units      q, r rad or m; u N m or N; gains their quotients
 // Threads    plain record
@@ -10,11 +11,14 @@
 #include <limits>
 #include <vector>
 
+#include "engine/simulate/reference_term.hpp"
+
 namespace torquescope {
 
 struct LoopLaw {
   std::vector<double> position{};
   std::vector<double> reference{};
+  std::vector<ReferenceTerm> terms{};
   int behind = 1;
   int shift = 0;
   double integral = 0.0;

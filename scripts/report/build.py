@@ -30,9 +30,15 @@ HERE = Path(__file__).resolve().parent
 
 def page(study):
     """The text of the page."""
-    cases = all_cases(study)
+    body = _of_diagnosis(study) if study.diagnosis else _of_study(study)
+    return render(all_cases(study), study=study, tables=tables,
+                  legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators], **body)
+
+
+def render(cases, **said):
+    """A page of these figures ({name: figures.Case}): `parts` are its templates, the rest is what they say."""
     lines = sum(len(case.traces.get("series", ())) for case in cases.values())
-    most = min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // lines)
+    most = min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // max(1, lines))
     figures, samples = {}, {}
     for name, case in cases.items():
         figures[name] = _figure(name, case, most)
@@ -41,20 +47,19 @@ def page(study):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("page.html").render(
-        study=study, words=words, tables=tables, q=quantities, figures=figures, samples=samples,
-        css=(HERE / "page.css").read_text(), js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1),
-        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators],
-        **(_of_diagnosis(study) if study.diagnosis else _of_study(study)))
+        words=words, q=quantities, figures=figures, samples=samples, css=(HERE / "page.css").read_text(),
+        js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1), **said)
 
 
 def _of_study(study):
-    return {"body": "study.html", "verdict": words.verdict(study), "head": words.head(study), "numbers": words.big_numbers(study),
-            "verdict_json": ""}
+    return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study),
+            "numbers": words.big_numbers(study), "verdict_json": ""}
 
 
 def _of_diagnosis(study):
     joints = study.diagnosis.joints
-    return {"body": "diagnosis.html", "verdict": words_of_diagnosis.verdict(study), "head": words_of_diagnosis.head(study),
+    return {"parts": ["diagnosis.html", "recording.html"], "verdict": words_of_diagnosis.verdict(study),
+            "head": words_of_diagnosis.head(study),
             "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
             "lists": tables_of_diagnosis, "diagnosed": diagnosed,
             # a script element ends at the first "</", wherever it stands

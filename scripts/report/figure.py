@@ -1,18 +1,24 @@
 #!/usr/bin/python3
-"""One figure of a result as PDF, PNG or SVG, for a paper.
+"""One figure of a result, or of a scoreboard, as PDF, PNG or SVG, for a paper.
 
     figure.py --list R.h5                              names of the figures this file can show
     figure.py convergence R.h5 convergence.pdf
     figure.py torque_trace_train R.h5 trace.png --narrow
+    figure.py power_T1 board.json power.pdf            board.json of scripts/proof
 """
 
 import argparse
 import sys
 
 import style
-from figures import all_cases
+from board import Board
+from figures import all_cases, board_cases
 from read_result import ResultError
 from study import Study
+
+
+def cases_of(path):
+    return board_cases(Board(path)) if path.endswith(".json") else all_cases(Study(path))
 
 
 def main(arguments):
@@ -24,7 +30,7 @@ def main(arguments):
     if options.list:
         if len(options.names) != 1:
             parser.error("--list takes one result file")
-        for name, case in all_cases(Study(options.names[0])).items():
+        for name, case in cases_of(options.names[0]).items():
             print(f"{name:32} {case.title}")
         return 0
     if len(options.names) != 3:
@@ -32,7 +38,7 @@ def main(arguments):
     name, result, out = options.names
     if not out.endswith((".pdf", ".png", ".svg")):
         parser.error(f"cannot write {out}: the name must end in .pdf, .png or .svg")
-    cases = all_cases(Study(result))
+    cases = cases_of(result)
     if name not in cases:
         print(f"error: no figure \"{name}\" in {result}\n  help: figure.py --list {result}", file=sys.stderr)
         return 64

@@ -50,6 +50,25 @@ TEST(DrawnNames, GoThroughEveryEffectAtEverySizeForFiveSeeds) {
   for (auto const& [effect, sizes] : seen) EXPECT_EQ(sizes.size(), 25u) << effect;
 }
 
+TEST(DrawnNames, OfAnotherSuiteHaveOtherSeedsAndTheSameEffectsAndSizes) {
+  std::set<std::string> seen;
+  for (int tier = 0; tier <= 7; ++tier) {
+    for (std::uint64_t i = 1; i <= 200; ++i) {
+      for (std::uint64_t suite : {0u, 1u, 2u}) {
+        DrawnName const name = listed_name(tier, i, suite);
+        EXPECT_EQ(name.seed / seeds_per_suite, suite);
+        EXPECT_EQ(name.size, listed_name(tier, i).size);
+        EXPECT_EQ(parse_drawn_name(name.text()).stream(), name.stream());
+        seen.insert(name.text());
+      }
+      if (tier == 1) {
+        EXPECT_EQ(listed_name(tier, i, 1).words, listed_name(tier, i).words);
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), 8u * 200u * 3u);
+}
+
 TEST(DrawnNames, ConcealSetsOfDifferentFamilies) {
   for (int tier : {2, 3}) {
     std::set<std::vector<std::string>> sets;

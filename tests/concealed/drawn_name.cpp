@@ -132,37 +132,37 @@ DrawnName parse_drawn_name(std::string const& text) {
   return name;
 }
 
-DrawnName listed_name(int tier, std::uint64_t index) {
-  std::uint64_t const i = index - 1;
+DrawnName listed_name(int tier, std::uint64_t index, std::uint64_t suite) {
+  std::uint64_t const i = index - 1, shift = suite * seeds_per_suite;
   auto const& effects = catalogue_effects();
   std::vector<double> const large = {1.0, 2.0, 4.0};
   auto nth = [](auto const& list, std::uint64_t place) { return list[place % list.size()]; };
   switch (tier) {
     case 0:
-      return {0, {}, 0.0, index};
+      return {0, {}, 0.0, shift + index};
     case 1: {
       // neighbours differ in effect and size, so that any stretch of the list holds something of all
       std::uint64_t const round = i / effects.size(), n_sizes = effect_sizes().size();
-      return {1, {nth(effects, i).name}, nth(effect_sizes(), i % effects.size() + round), 1 + round / n_sizes};
+      return {1, {nth(effects, i).name}, nth(effect_sizes(), i % effects.size() + round), shift + 1 + round / n_sizes};
     }
     case 2:
     case 3:
-      return {tier, drawn_set(index, static_cast<std::size_t>(tier)), nth(large, i), index};
+      return {tier, drawn_set(shift + index, static_cast<std::size_t>(tier)), nth(large, i), shift + index};
     case 4:
-      return {4, {nth(outside_effects(), i).name}, nth(large, i / outside_effects().size()), index};
+      return {4, {nth(outside_effects(), i).name}, nth(large, i / outside_effects().size()), shift + index};
     case 5: {
       auto const motion = nth(weak_motions(), i);
-      return {5, {motion, nth(hidden_by(motion), i / weak_motions().size())}, 2.0, index};
+      return {5, {motion, nth(hidden_by(motion), i / weak_motions().size())}, 2.0, shift + index};
     }
     case 6:
-      return {6, {nth(decoys(), i)}, 0.0, index};
+      return {6, {nth(decoys(), i)}, 0.0, shift + index};
     default:
       break;
   }
   auto const regime = nth(wrong_regimes(), i);
-  if (i / wrong_regimes().size() % 2 == 0) return {7, {regime}, 0.0, index};
-  Random random(index, "regime");
-  return {7, {regime, effects[random.index(effects.size())].name}, 2.0, index};
+  if (i / wrong_regimes().size() % 2 == 0) return {7, {regime}, 0.0, shift + index};
+  Random random(shift + index, "regime");
+  return {7, {regime, effects[random.index(effects.size())].name}, 2.0, shift + index};
 }
 
 }  // namespace concealed

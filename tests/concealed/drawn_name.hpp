@@ -31,8 +31,10 @@ struct DrawnName {
 
 DrawnName parse_drawn_name(std::string const& text);
 
-// number `index` of its tier, from 1 on; T1 goes through all effects and sizes before the seed changes
-DrawnName listed_name(int tier, std::uint64_t index);
+// number `index` of its tier, from 1 to seeds_per_suite - 1; T1 goes through all effects and sizes before the seed changes.
+// Another suite has other seeds throughout: what was mended while looking at one is tested on one nobody has looked at
+inline constexpr std::uint64_t seeds_per_suite = 100000;
+DrawnName listed_name(int tier, std::uint64_t index, std::uint64_t suite = 0);
 
 std::vector<double> const& effect_sizes();
 std::vector<std::string> const& weak_motions();

@@ -8,8 +8,8 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
-READERS = {"calibrate.py", "test_calibrate.py", "judge.py", "score.py", "test_score.py",
-           "test_run_suite.py", "independent.py"}
+READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
+           "independent.py"}
 
 
 def foreign_includes(sources):
@@ -39,7 +39,7 @@ def main(root):
             text = re.sub(r"^echo .*$", "", text, flags=re.MULTILINE)
             if "truth.json" in text or re.search(r'#\s*include\s+"concealed/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
-    for path in here.glob("*.py"):
+    for path in here.rglob("*.py"):
         if "truth.json" in path.read_text() and path.name not in READERS:
             found.append(f"{path.name} reads a truth: only the scorer may")
     print("\n".join(found) or f"{len(sources)} sources of the concealed plant: none shares a header with the engine")

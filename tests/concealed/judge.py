@@ -4,13 +4,17 @@ A reported effect answers a true one exactly (its name), by class (the true name
 family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
 Each reported effect answers at most one true effect, better levels first; one that answers none is a false name.
 A law whose form is not the catalogue's is found when its family is found (PHYSICS.md section 4).
+Guesses are what is named and then the ranking, without repeats: a true effect's rank is the place of the first guess of its family.
+The main parameter is the first the truth lists; of a pair called ..._sin and ..._cos the vector counts, not its turn.
 Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no physics)
 accepts every verdict that claims nothing beyond the names the truth allows.
 """
 import dataclasses
+import math
+
+import verdict_record
 
 LEVELS = ("exact", "class", "family")
-VERDICTS = ("none", "named", "class", "unexplained", "insufficient", "data_fault")
 MUST_FIND_SNR = 0.3        # below it naming is optional; inventing is not
 LARGEST_STEP_ERROR = 0.01  # of the noise floor: a coarser plant is no truth
 
@@ -24,8 +28,12 @@ class Found:
     n_equivalent: int = 0              # effects the answer says fit as well: a class of everything says nothing
     first: bool = False                # answered by the first effect the verdict lists
     iou: float | None = None
-    parameter_error: float | None = None  # largest relative error of the true parameters that are reported
+    parameter_error: float | None = None  # relative error of the main parameter
     intervals: tuple = ()              # (truth inside the 95 % interval) per reported parameter
+    family: str = ""                   # its own, of those it may answer to
+    form: str = ""                     # the law it was made with
+    rank: int | None = None            # guess that has its family, from 1; None: no guess has
+    blind: float | None = None         # chance that three guesses drawn from the list have its family; None: no list
 
 
 @dataclasses.dataclass
@@ -33,7 +41,7 @@ class Judgement:
     case: str
     expected: str
     snr: float
-    verdict: str                       # one of VERDICTS, "missing" or "invalid"
+    verdict: str                       # one of verdict_record.VERDICTS, "missing" or "invalid"
     right: bool = False
     n_named: int = 0
     false_names: tuple = ()
@@ -42,6 +50,13 @@ class Judgement:
     tier: str = ""
     drawn: str = ""                    # the name a drawn case was made from
     wanted_snr: float = 0.0            # size each of its effects was made with
+    names: tuple = ()                  # (name, family, stated confidence or None, answers something concealed), as listed
+    loop_ratio: float | None = None    # closed-loop position error, after over before
+    reason: str = ""
+    seconds: float | None = None
+    rig: dict = dataclasses.field(default_factory=dict)
+    seal: str = ""
+    concealed: tuple = ()              # what lies in it, also where the catalogue has no name for it
 
     def reached(self, level):
         """All true effects found at this level or better."""
@@ -62,16 +77,16 @@ def check_truth(truth):
 
 
 def region_iou(region, truth_regions):
-    """Shared over joint occupancy of the reported interval and the true region, on the axis of the report."""
-    if not region or region.get("from") is None or region.get("to") is None:
+    """Shared over joint occupancy of the reported intervals and the true region, on the axis of the report."""
+    places = (region or {}).get("places") or [[(region or {}).get("from"), (region or {}).get("to")]]
+    if any(end is None for place in places for end in place):
         return None
     for true in truth_regions:
         if true["axis"] != region.get("axis"):
             continue
-        low, high = region["from"], region["to"]
         both = either = 0.0
         for left, right, share, inside in zip(true["edges"], true["edges"][1:], true["occupancy"], true["inside"]):
-            covered = max(0.0, min(high, right) - max(low, left)) / (right - left)
+            covered = sum(max(0.0, min(high, right) - max(low, left)) for low, high in places) / (right - left)
             both += share * covered if inside else 0.0
             either += share if inside else share * covered
         return both / either if either > 0.0 else 0.0
@@ -86,23 +101,45 @@ def _answers(reported, true, level):
     return reported.get("family") in true["families"]
 
 
+def _main_error(values, parameters):
+    """values: {name: estimate}; relative error of the first of the true parameters, None when it is not reported."""
+    if not parameters:
+        return None
+    stem = parameters[0]["name"].removesuffix("_sin")
+    main = [p for p in parameters if p["name"] in (f"{stem}_sin", f"{stem}_cos")] or parameters[:1]
+    size = math.hypot(*(p["value"] for p in main))
+    if size == 0.0 or any(values.get(p["name"]) is None for p in main):
+        return None
+    return math.hypot(*(values[p["name"]] - p["value"] for p in main)) / size
+
+
 def _parameter_score(reported, true):
-    values = {p["name"]: p for p in reported.get("parameters", [])}
-    errors, inside = [], []
+    """-> (relative error of the main parameter, (truth inside the interval) of each that is reported with one)."""
+    reports = {p["name"]: p for p in reported.get("parameters", [])}
+    inside = []
     for parameter in true["parameters"]:
-        estimate = values.get(parameter["name"])
-        if estimate is None or estimate["value"] is None or parameter["value"] == 0.0:
-            continue
-        errors.append(abs(estimate["value"] / parameter["value"] - 1.0))
-        if estimate.get("ci95") and None not in estimate["ci95"]:
-            inside.append(estimate["ci95"][0] <= parameter["value"] <= estimate["ci95"][1])
-    return (max(errors) if errors else None), tuple(inside)
+        report = reports.get(parameter["name"], {})
+        if report.get("ci95") and None not in report["ci95"]:
+            inside.append(report["ci95"][0] <= parameter["value"] <= report["ci95"][1])
+    return _main_error({name: p["value"] for name, p in reports.items()}, true["parameters"]), tuple(inside)
+
+
+def guesses(record):
+    """Families of the named effects and of the ranking after them, each name once."""
+    ranked = {effect["name"]: effect["family"] for effect in [*record["effects"], *record["ranking"]][::-1]}
+    order = dict.fromkeys(effect["name"] for effect in [*record["effects"], *record["ranking"]])
+    return [ranked[name] for name in order]
+
+
+def blind_chance(n, n_right, guesses=3):
+    """Chance that `guesses` drawn without looking from a list of n hit one of the n_right; None without a list to draw from."""
+    return 1.0 - math.comb(n - n_right, guesses) / math.comb(n, guesses) if n >= guesses else None
 
 
 def match(reported, true_effects):
     """-> (list of Found, in the order of true_effects; names that answer nothing)."""
     known = [t for t in true_effects if t["name"]]
-    found = [Found(t["name"], t["size"]["snr_eff"]) for t in known]
+    found = [Found(t["name"], t["size"]["snr_eff"], family=t["families"][0], form=t.get("form", "")) for t in known]
     free = list(range(len(reported)))
     for level in LEVELS:
         for f, t in zip(found, known):
@@ -140,39 +177,57 @@ def _is_right(judgement, truth):
         if f.snr >= MUST_FIND_SNR and f.level not in wanted:
             return False
     needed = any(f.snr >= MUST_FIND_SNR for f in judgement.found)
-    return judgement.verdict in ("named", "class") or not needed
+    # some effects are faults of the instruments: a verdict that names them so has found them
+    return judgement.verdict in ("named", "class", "data_fault") or not needed
 
 
-def _gap_closed(joint, oracle):
-    before = joint["baseline"]["validation_relerr"]
-    after = (joint.get("augmented") or {}).get("validation_relerr")
-    if before is None or after is None or before <= oracle:
+def _gap_closed(unseen, oracle):
+    """Share of the way from the baseline's error to the oracle's; an error that stays is a gap that stays."""
+    if unseen is None or unseen.get("before") is None or unseen.get("after") is None or unseen["before"] <= oracle:
         return None
-    return (before - after) / (before - oracle)
+    return (unseen["before"] - unseen["after"]) / (unseen["before"] - oracle)
+
+
+def _loop_ratio(loop):
+    ratio = loop["after"] / loop["before"] if loop and loop["before"] else math.nan
+    return ratio if math.isfinite(ratio) else None
+
+
+def _concealed(truth):
+    """Names of what lies in the case: effects, and the circumstance that stands first in the name of T5, T6 and T7."""
+    words = truth.get("drawn", "").split(":")[1:-1]
+    drawn = tuple(words[0].split("+")) if words else ()
+    return drawn or tuple(t["name"] or t.get("form", "") for t in truth["effects"])
 
 
 def judge(truth, verdict):
-    """verdict: the parsed JSON of `diagnose --json`, or None when there is none."""
+    """verdict: the parsed JSON of `diagnose --json` or of a rival (verdict_record.py), or None when there is none."""
     check_truth(truth)
     out = Judgement(truth["case"], truth["expected"], truth["size"]["snr_eff"], "missing")
     out.found = tuple(match([], truth["effects"])[0])
     out.tier, out.drawn, out.wanted_snr = (truth.get(key, default) for key, default in
                                            (("tier", ""), ("drawn", ""), ("wanted_snr", 0.0)))
+    out.rig, out.concealed = truth.get("rig", {}), _concealed(truth)
     if verdict is None:
         return out
     try:
-        if verdict["schema"] != 1 or verdict["verdict"] not in VERDICTS:
-            raise KeyError("schema or verdict")
-        joint = verdict["joints"][0] if verdict["joints"] else {"effects": [], "baseline": {}}
-        reported = joint["effects"]
+        record = verdict_record.of(verdict)
+        reported = record["effects"]
         found, false_names = match(reported, truth["effects"])
         if truth["expected"] == "measurement":
             false_names = _claims(reported, truth["may_name"])
-        gap = _gap_closed(joint, truth["relerr"]["validate"]["oracle"]) if truth["effects"] and joint["baseline"] else None
-    except (KeyError, TypeError, IndexError):
+        gap = _gap_closed(record["unseen"], truth["relerr"]["validate"]["oracle"]) if truth["effects"] else None
+        families = guesses(record)
+        names = tuple((r["name"], r["family"], verdict_record.confidence_of(r), r["name"] not in false_names) for r in reported)
+        loop = _loop_ratio(record["loop"])
+    except (verdict_record.Invalid, KeyError, TypeError, IndexError):
         out.verdict = "invalid"
         return out
-    out.verdict, out.n_named = verdict["verdict"], len(reported)
-    out.found, out.false_names, out.gap_closed = tuple(found), false_names, gap
+    for f, t in zip(found, (t for t in truth["effects"] if t["name"])):
+        f.rank = next((i for i, family in enumerate(families, 1) if family in t["families"]), None)
+        f.blind = blind_chance(len(families), sum(family in t["families"] for family in families))
+    out.verdict, out.n_named, out.names = record["verdict"], len(reported), names
+    out.found, out.false_names, out.gap_closed, out.loop_ratio = tuple(found), false_names, gap, loop
+    out.reason, out.seconds = record["reason"], record["seconds"]
     out.right = _is_right(out, truth)
     return out

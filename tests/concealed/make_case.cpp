@@ -3,7 +3,8 @@
 // make_case --list                names of the sealed cases, one per line
 // make_case --words               effects, families, parameters, units and axes the truths are written with, as JSON
 // make_case --drawn NAME OUT_DIR  writes a drawn case (drawn_name.hpp) to OUT_DIR/FOLDER
-// make_case --list-drawn TIER FROM..TO   names of drawn cases, for example T1 1..775, one per line
+// make_case --list-drawn TIER FROM..TO [SUITE]   names of drawn cases, for example T1 1..775, one per line; another SUITE
+//                                (0 when not given) has other seeds throughout
 // make_case --folders NAME...     folder of each drawn case, one per line
 // Prints one line: seal, folder, realised effect size. Exit code 0; 64 usage; 1 with a message when it fails.
 #include <cstdio>
@@ -20,8 +21,8 @@ namespace {
 int usage() {
   std::fputs(
       "usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --drawn NAME OUT_DIR\n"
-      "       make_case --list | make_case --list-drawn TIER FROM..TO | make_case --folders NAME... | make_case "
-      "--words\n",
+      "       make_case --list | make_case --list-drawn TIER FROM..TO [SUITE] | make_case --folders NAME...\n"
+      "       make_case --words\n",
       stderr);
   return 64;
 }
@@ -30,16 +31,16 @@ bool is_number(std::string const& word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
 }
 
-int list_drawn(std::string const& tier, std::string const& stretch) {
+int list_drawn(std::string const& tier, std::string const& stretch, std::string const& suite) {
   auto const dots = stretch.find("..");
   bool const good = tier.size() == 2 && tier[0] == 'T' && tier[1] >= '0' && tier[1] <= '7' &&
                     dots != std::string::npos && is_number(stretch.substr(0, dots)) &&
-                    is_number(stretch.substr(dots + 2));
+                    is_number(stretch.substr(dots + 2)) && is_number(suite) && suite.size() < 10;
   if (!good) return usage();
   std::uint64_t const from = std::stoull(stretch.substr(0, dots)), to = std::stoull(stretch.substr(dots + 2));
-  if (from == 0) return usage();
+  if (from == 0 || to >= concealed::seeds_per_suite) return usage();
   for (std::uint64_t i = from; i <= to; ++i)
-    std::printf("%s\n", concealed::listed_name(tier[1] - '0', i).text().c_str());
+    std::printf("%s\n", concealed::listed_name(tier[1] - '0', i, std::stoull(suite)).text().c_str());
   return 0;
 }
 
@@ -66,7 +67,8 @@ int run(std::vector<std::string> const& words) {
     make(concealed::clean_case(std::stoull(words[1])), words[2]);
     return 0;
   }
-  if (words.size() == 3 && words[0] == "--list-drawn") return list_drawn(words[1], words[2]);
+  if ((words.size() == 3 || words.size() == 4) && words[0] == "--list-drawn")
+    return list_drawn(words[1], words[2], words.size() == 4 ? words[3] : "0");
   if (words.size() == 3 && words[0] == "--drawn") {
     make(concealed::drawn_case(concealed::parse_drawn_name(words[1])), words[2]);
     return 0;

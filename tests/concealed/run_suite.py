@@ -1,23 +1,24 @@
 """Makes concealed cases, lets the engine diagnose them, and has the scorer judge the verdicts.
 
     run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO | --drawn FILE_OR_NAMES]
-                 [--jobs N] [--threads N] [--all-right]
+                 [--shard [I/N]] [--jobs N] [--threads N] [--all-right]
 
 PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or --drawn:
 every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated by commas;
-their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the case's seal and the program
-are those it was made with; a diagnosis that failed is tried again.
+their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the
+case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs a share of the cases (shard.py), without I/N the
+one Slurm says; each shard wants an OUT of its own, and score.py OUT... gathers them.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
     OUT/open/NAME       the job and its recordings, the folder the program runs in
     OUT/verdicts/NAME.json, OUT/results/NAME.h5, OUT/logs/NAME.txt
     OUT/made.json       which case was made (seal, program) and diagnosed (seal, program, seconds, exit code)
+    OUT/board.json, OUT/board.h5   the scoreboard of these cases (score.py)
 
 Exit code: the scorer's; 64 usage, 70 when make_case fails. A program that fails is a case without a verdict, no error here.
 """
 import argparse
 import concurrent.futures
-import contextlib
 import dataclasses
 import hashlib
 import json
@@ -30,6 +31,7 @@ import threading
 import time
 
 import score
+import shard
 
 OPEN = ("job.toml", "train.csv", "validate.csv")
 SLOWEST_S = 1800  # a diagnosis of a minute of recording: beyond this it hangs
@@ -134,18 +136,6 @@ def wanted_cases(options, make_case):
     return f"no sealed case {', '.join(unknown)}; there are {', '.join(known)}" if unknown else {n: [n] for n in names}
 
 
-@contextlib.contextmanager
-def scored_folder(out, names):
-    """The sealed folders of these cases only: others in OUT belong to an earlier command."""
-    folder = out / "scored"
-    folder.mkdir(exist_ok=True)
-    for link in folder.iterdir():
-        link.unlink()
-    for name in names:
-        (folder / name).symlink_to(out.resolve() / "sealed" / name)
-    yield folder
-
-
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("program", "make_case", "out"):
@@ -154,6 +144,7 @@ def main(arguments):
     which.add_argument("--cases", help="sealed cases, separated by commas")
     which.add_argument("--clean", help="seeds of clean records, FROM..TO")
     which.add_argument("--drawn", help="names of drawn cases: a file, one per line, or separated by commas")
+    parser.add_argument("--shard", nargs="?", const="", help="I/N: the cases whose place in the list is I modulo N")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
     parser.add_argument("--threads", type=int, default=0, help="threads of each diagnosis; 0: as it likes")
     parser.add_argument("--all-right", action="store_true", help="exit code 1 unless every case is right")
@@ -163,6 +154,17 @@ def main(arguments):
     if isinstance(cases, str):
         print(f"run_suite.py: {cases}", file=sys.stderr)
         return 64
+    if options.shard is not None:
+        try:
+            mine = shard.of(options.shard or None, os.environ)
+        except ValueError as problem:
+            print(f"run_suite.py: {problem}", file=sys.stderr)
+            return 64
+        names = shard.share(list(cases), mine)
+        print(f"shard {mine[0]} of {mine[1]}: {len(names)} of {len(cases)} cases" if mine else "no shard: every case")
+        cases = {name: cases[name] for name in names}
+        if not cases:
+            return 0
     suite = Suite(options.program.resolve(), make_case, options.out.resolve(), options.threads)
     try:
         with concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
@@ -172,9 +174,7 @@ def main(arguments):
         print(f"run_suite.py: {problem}", file=sys.stderr)
         return 70
     print()
-    with scored_folder(suite.out, cases) as sealed:
-        return score.main([str(sealed), str(suite.out / "verdicts"), "--json", str(suite.out / "board.json"),
-                           *(["--all-right"] if options.all_right else [])])
+    return score.score([suite.out], cases, all_right=options.all_right)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 import run_suite
+import score
 
 MAKE_CASE = None
 STAND_IN = """#!{python}
@@ -60,7 +61,8 @@ class RunSuite(unittest.TestCase):
         # the program saw the job and the recordings, nothing else
         self.assertEqual(sorted(self.called()), [["clean_1", list(run_suite.OPEN)], ["clean_2", list(run_suite.OPEN)]])
         board = json.loads((self.out / "board.json").read_text())
-        self.assertEqual(board["board"]["clean: verdict none"]["hits"], 2)
+        table = {row["key"]: row for row in board["methods"]["torquescope"]["table"]}
+        self.assertEqual((table["clean_none"]["hits"], table["clean_none"]["n"]), (2, 2))
 
         code, text, _ = self.run_suite("none", "--clean", "1..2", "--all-right")
         self.assertEqual((code, len(self.called())), (0, 2))
@@ -81,7 +83,7 @@ class RunSuite(unittest.TestCase):
         names.write_text("T0:3\nT6:late:1\n")
         code, text, error = self.run_suite("none", "--drawn", str(names), "--all-right")
         self.assertEqual(code, 0, text + error)
-        self.assertIn("T6, 1 cases", text)
+        self.assertRegex(text, r"T6 measurement decoys +1 +1 +0 +0")
         folders = [folder for folder, _ in self.called()]
         self.assertEqual([len(set(folders)), [len(folder) for folder in folders]], [2, [12, 12]])
         truths = [json.loads((self.out / "sealed" / folder / "truth.json").read_text()) for folder in folders]
@@ -109,6 +111,21 @@ class RunSuite(unittest.TestCase):
         self.assertIn("FAILED with exit code 1", text)
         self.assertIn("missing", text)
         self.assertIn("cannot", (self.out / "logs" / "clean_1.txt").read_text())
+
+    def test_a_shard_runs_its_share_and_the_shards_make_one_board(self):
+        # one case for two shards: the second has nothing to do, which is no mistake
+        for index in range(2):
+            self.out = self.folder / f"shard_{index}"
+            code, text, _ = self.run_suite("none", "--clean", "1..1", "--shard", f"{index}/2")
+            self.assertEqual(code, 0)
+            self.assertIn(f"shard {index} of 2: {1 - index} of 1 cases", text)
+        self.assertEqual([folder for folder, _ in self.called()], ["clean_1"])
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            code = score.main([str(self.folder / "shard_0"), str(self.folder / "shard_1"), "--board", str(self.folder / "whole")])
+        self.assertEqual(code, 0)
+        self.assertIn("1 cases", printed.getvalue())
+        self.assertTrue((self.folder / "whole" / "board.h5").exists())
+        self.assertEqual(self.run_suite("none", "--clean", "1..1", "--shard", "2/2")[0], 64)
 
     def test_words_it_does_not_understand(self):
         self.assertEqual(self.run_suite("none", "--clean", "5..1")[0], 64)

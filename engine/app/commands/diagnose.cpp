@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ namespace {
 struct DiagnoseArguments {
   std::string job;
   std::string out{};
+  std::string columns{};
   int threads = 0;  // 0: not given
   bool all = false;
 };
@@ -87,8 +89,28 @@ void print_diagnosis(Session const& session, Diagnosis const& diagnosis, std::st
   session.document(json);
 }
 
+ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& experiment, Session const& session) {
+  // made in seconds: nothing is kept, and nothing that may be dear is written over
+  std::error_code ignored;
+  validate(!std::filesystem::exists(std::filesystem::symlink_status(arguments.columns, ignored)), [&] {
+    Problem problem{ExitCode::exists, arguments.columns + " exists"};
+    problem.help = "--columns another name, or delete it";
+    return problem;
+  });
+  DiagnoseRequest request;
+  request.threads = choose_threads(arguments.threads);
+  request.output = arguments.columns;
+  note_start(session, experiment.diagnose_line(), experiment, request.threads);
+  ColumnsReport const report = write_candidate_columns(experiment, request);
+  session.note(
+      session.topic_line("columns", fmt::format("of {} effects on {} rows; no diagnosis was made", report.effects,
+                                                count_text(static_cast<std::int64_t>(report.rows)))));
+  return ExitCode::ok;
+}
+
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
   Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
+  if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 
@@ -139,6 +161,12 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
   command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
+  command
+      ->add_option("--columns", arguments->columns,
+                   "write the columns of every effect on the job's recordings here (HDF5) and make no diagnosis: for "
+                   "other methods, on equal terms")
+      ->type_name("C.h5")
+      ->group("results");
   add_threads_option(*command, arguments->threads);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);

@@ -7,8 +7,8 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/report/page_builder.hpp"
+#include "engine/app/result/result_summary.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/store/result_reader.hpp"
 
 namespace torquescope {
 
@@ -21,7 +21,7 @@ struct ReportArguments {
 
 ExitCode report_result(ReportArguments const& arguments, Session const& session) {
   // refuse a file that is not ours with our own words, before Python is asked
-  ResultReader const reader(arguments.result);
+  refuse_columns(ResultReader(arguments.result));
   std::filesystem::path page = arguments.out;
   if (page.empty()) page = std::filesystem::path(arguments.result).replace_extension(".html");
   build_page(arguments.result, page);

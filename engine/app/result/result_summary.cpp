@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "engine/base/error.hpp"
 #include "engine/store/result_files.hpp"
-#include "engine/store/result_reader.hpp"
 
 namespace torquescope {
 
@@ -153,8 +153,17 @@ double quantile(std::vector<double> values, double share) {
   return values[below] == values[above] ? values[below] : values[below] + fraction * (values[above] - values[below]);
 }
 
+void refuse_columns(ResultReader const& reader) {
+  validate(!reader.exists("/columns"), [&] {
+    Problem problem{ExitCode::bad_data, reader.name().string() + " holds columns for other methods, no result"};
+    problem.help = "torquescope diagnose JOB.toml without --columns makes one";
+    return problem;
+  });
+}
+
 ResultSummary read_summary(std::filesystem::path const& file) {
   ResultReader const reader(file);
+  refuse_columns(reader);
   ResultSummary summary;
   summary.file = file;
   summary.bytes = std::filesystem::file_size(file);

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/store/result_reader.hpp"
+
 namespace torquescope {
 
 struct EstimatorSummary {
@@ -64,6 +66,9 @@ struct ResultSummary {
 };
 
 ResultSummary read_summary(std::filesystem::path const& file);
+
+// Error 65 for a file of `diagnose --columns`: there is nothing to show in it
+void refuse_columns(ResultReader const& reader);
 
 // the value below which a share of the values lies, between neighbours linearly; NaN for none
 double quantile(std::vector<double> values, double share);

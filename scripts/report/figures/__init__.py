@@ -2,7 +2,7 @@
 
 A figure module has  TITLE     a heading of a few words
                      draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080)
-                     cases()   Study -> {name: Case}: what of this file it can draw; empty when there is nothing to draw
+                     cases()   Study (or Board) -> {name: Case}: what of this file it can draw; empty when there is nothing to draw
 Adding one is a file here, its name in one of the lists below, and a place in the template of its kind of result.
 """
 
@@ -14,6 +14,7 @@ STUDY_MODULES = ("parameters", "relative_error", "torque_trace", "residual_autoc
            "decision_surface")
 DIAGNOSIS_MODULES = ("mismatch_map", "residual_before_after", "missing_torque", "twin_energy", "error_before_after",
                      "diagnosed_trace", "residual_budget", "parameters_before_after")
+BOARD_MODULES = ("power_curve", "family_confusion", "share_histogram", "stated_confidence", "diagnosis_seconds")
 RECORDING_MODULES = ("recording_trace", "speed_histogram", "torque_by_speed")
 
 
@@ -35,7 +36,16 @@ class Case:
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
     modules = (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
+    return _cases(modules, study)
+
+
+def board_cases(board):
+    """{name: Case} of everything this scoreboard can show."""
+    return _cases(BOARD_MODULES, board)
+
+
+def _cases(modules, source):
     cases = {}
     for module in modules:
-        cases.update(importlib.import_module(f"figures.{module}").cases(study))
+        cases.update(importlib.import_module(f"figures.{module}").cases(source))
     return cases

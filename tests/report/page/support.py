@@ -21,12 +21,14 @@ except ImportError as error:
     print(f"skipped: {error} (Debian: python3-h5py python3-matplotlib python3-jinja2)")
     sys.exit(77)
 
+import make_board  # noqa: E402
 import make_result  # noqa: E402
 import vary_diagnosis  # noqa: E402
 
 FOLDER = Path(tempfile.mkdtemp(prefix="torquescope_page_"))
 atexit.register(shutil.rmtree, FOLDER, True)
 KINDS = tuple(make_result.KINDS)
+BOARDS = tuple(make_board.KINDS)
 # the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
 EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
 VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
@@ -37,8 +39,8 @@ needs_diagnoses = unittest.skipUnless(EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGN
 
 @lru_cache(maxsize=None)
 def result(kind):
-    """Path of the result file of this kind (make_result.py, write_example_diagnosis.cpp, vary_diagnosis.py)."""
-    path = FOLDER / f"{kind}.h5"
+    """Path of the file of this kind (make_result.py, write_example_diagnosis.cpp, vary_diagnosis.py, make_board.py)."""
+    path = FOLDER / f"{kind}.{'json' if kind in BOARDS else 'h5'}"
     if kind in VERDICTS:
         subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
     elif kind in VARIED:
@@ -46,6 +48,8 @@ def result(kind):
         shutil.copy(result(source), path)
         with h5py.File(path, "r+") as file:
             vary(file)
+    elif kind in BOARDS:
+        make_board.write(kind, path)
     else:
         make_result.KINDS[kind](path)
     return path
@@ -60,9 +64,11 @@ def study(kind):
 @lru_cache(maxsize=None)
 def page(kind):
     """Path of the built page."""
+    import board
     import build
+    import build_board
     path = FOLDER / f"{kind}.html"
-    path.write_text(build.page(study(kind)), encoding="utf-8")
+    path.write_text(build_board.page(board.Board(result(kind))) if kind in BOARDS else build.page(study(kind)), encoding="utf-8")
     return path
 
 

@@ -24,7 +24,8 @@ except ImportError:
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 FLAGS = ("--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
          "--disable-component-update --disable-sync --hide-scrollbars").split()
-KINDS = support.KINDS + support.DIAGNOSES
+KINDS = support.KINDS + support.DIAGNOSES + support.BOARDS
+FEWEST_FIGURES = {"insufficient": 5, "board_few": 1}
 WIDTHS, THEMES = (1280, 400), ("light", "dark")
 LEAST_TEXT_PX = 10.5
 MOST_BYTES = 3e6
@@ -102,7 +103,7 @@ class Page(unittest.TestCase):
             with self.subTest(kind=kind, width=width, theme=theme):
                 self.open(kind, width, theme)
                 found = self.script(MEASURE, LEAST_TEXT_PX, OVERLAP_PX)
-                self.assertGreaterEqual(found["figures"], 5 if kind == "insufficient" else 8)
+                self.assertGreaterEqual(found["figures"], FEWEST_FIGURES.get(kind, 8))
                 for law in ("empty", "small", "outside", "overlapping", "tainted", "requests"):
                     self.assertEqual(found[law], [], law)
                 self.assertEqual(found["scroll"], found["inner"])
@@ -133,7 +134,7 @@ class Page(unittest.TestCase):
                            "performance.getEntriesByType('navigation')[0].domInteractive")
 
     def test_the_title_is_what_was_found(self):
-        for kind in ("crs", *support.VERDICTS):
+        for kind in ("crs", "board", *support.VERDICTS):
             self.open(kind)
             self.assertEqual(self.browser.title, self.browser.find_element(By.TAG_NAME, "h1").text.replace("\n", " "))
 

@@ -94,6 +94,29 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
 }
 
+TEST_F(DiagnoseCommand, WritesTheColumnsOfEffectsInsteadOfADiagnosis) {
+  write_job(job_text + "[diagnose]\neffects = [\"spring\", \"stribeck\"]\n");
+  std::filesystem::path const columns = folder / "C.h5";
+  Outcome const outcome = run({"--columns", columns.string()});
+  EXPECT_EQ(outcome.code, ExitCode::ok) << outcome.err;
+  EXPECT_EQ(diagnosed, 0);
+  EXPECT_FALSE(std::filesystem::exists(result()));
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, HasSubstr("no diagnosis was made"));
+  ResultReader const reader(columns);
+  auto const names = reader.attribute<std::vector<std::string>>("/columns", "effects");
+  EXPECT_THAT(names, ::testing::IsSubsetOf({"spring", "stribeck"}));
+  ASSERT_THAT(names, Not(IsEmpty()));
+  std::size_t const rows = reader.numbers("/columns/train/torque").shape.at(0);
+  EXPECT_GT(rows, 100u);
+  EXPECT_EQ(reader.numbers("/columns/train/regressor").shape, (h5::Shape{rows, 4}));
+  for (auto const& name : names)
+    EXPECT_EQ(reader.numbers("/columns/train/candidates/" + name).shape, (h5::Shape{rows, 1})) << name;
+
+  EXPECT_THROW(read_summary(columns), Error);  // `show` and `report` say what it is
+  EXPECT_EQ(run({"--columns", columns.string()}).code, ExitCode::exists);
+}
+
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
   for (auto const& diagnosis : {example::invented_none(), example::invented_unexplained(),
                                 example::invented_insufficient(), example::invented_data_fault()}) {

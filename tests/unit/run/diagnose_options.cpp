@@ -108,5 +108,23 @@ TEST(DiagnoseOptions, RefusesNamesThatMeanNothingHereWithTheirPlace) {
   EXPECT_THAT(problems_of("[diagnose]\ntwinz = 100\n[[estimator]]\nname = \"ols\"\n", Purpose::identify), SizeIs(1));
 }
 
+TEST(DiagnoseOptions, AnAblationIsReadAndWarnedAbout) {
+  Experiment const whole = load("[diagnose]\nnull = \"twins\"\ntwin_noise = 1\n", Purpose::diagnose);
+  EXPECT_THAT(whole.parts().diagnose.ablations(), SizeIs(0));
+  EXPECT_THAT(whole.warnings(), ::testing::Not(::testing::Contains(HasSubstr("ablation"))));
+  Experiment const experiment =
+      load("[diagnose]\nnull = \"hac\"\nindirect_inference = false\nregion_consistency = false\ntwin_noise = 0.5\n",
+           Purpose::diagnose);
+  EXPECT_EQ(experiment.parts().diagnose.ablations(),
+            (std::vector<std::string>{"null = \"hac\"", "indirect_inference = false", "region_consistency = false",
+                                      "twin_noise = 0.5"}));
+  EXPECT_THAT(experiment.warnings(), ::testing::Contains(HasSubstr("an ablation (null = \"hac\"")));
+  bool is_checked = false;
+  for (auto const& line : experiment.check(1))
+    is_checked |= line.level == CheckLine::Level::warn && line.text.find("ablation") != std::string::npos;
+  EXPECT_TRUE(is_checked);
+  EXPECT_THAT(problems_of("[diagnose]\nnull = \"normal\"\ntwin_noise = 0\n", Purpose::diagnose), SizeIs(2));
+}
+
 }  // namespace
 }  // namespace torquescope

@@ -192,3 +192,21 @@ TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
   // friction of 1.3 N m over a stiffness of J omega^2 = 1280 N m/rad
   EXPECT_LT(rms(group.position[0] - recording.position), 2.0 * 1.3 / 1280.0);
 }
+
+TEST(CleanTwin, FeedsForwardWhatItsLawSays) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  auto const plain = twin_of(recording);
+  TwinLoop quiet = noiseless(plain.loop());
+  quiet.law.position.assign(1, 0.0);
+  quiet.law.reference.clear();
+  quiet.law.integral = quiet.law.constant = 0.0;
+  double const friction = 0.6, width = 1e-4, gravity = 0.3;
+  quiet.law.terms = {{ReferenceShape::smooth_sign, 0, 2, width, friction},
+                     {ReferenceShape::cosine, 1, 1, 1.0, gravity}};
+  TwinGroup group;
+  CleanTwin(plain.joint(), quiet, plain.track(), 1e-4).simulate({1, 0, 0}, 0, group);
+  auto const& r = recording.reference;
+  for (Eigen::Index k = 2; k + 1 < r.size(); k += 97)
+    EXPECT_DOUBLE_EQ(group.torque[0][k],
+                     friction * std::tanh(0.5 * (r[k] - r[k - 2]) / width) + gravity * std::cos(r[k + 1]));
+}

@@ -122,6 +122,43 @@ TEST(ControllerFit, TellsASensorDriftFromTheLoop) {
   EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
 }
 
+// The torque of a pd loop behind a feedforward that its author wrote otherwise than the search does: a slope over three
+// samples, friction as an arctangent, gravity of the reference's angle
+TEST(ControllerFit, FindsFrictionAndGravityFedForward) {
+  auto recording = simulate_joint(loop_plan("pd"), 3);
+  auto const& r = recording.reference;
+  double const friction = 1.1, gravity = 0.7, knee = 0.03;
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    Eigen::Index const back = std::max<Eigen::Index>(k - 3, 0);
+    double const velocity = (r[k] - r[back]) / 3.0 * recording.rate_hz;
+    recording.torque[k] += friction * std::atan(velocity / knee) / std::atan(1e9) + gravity * std::sin(r[k]);
+  }
+  auto const found = fit(recording);
+  EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 0.1);
+  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 3e-3);
+  // at a steady speed all of the friction is there, with its sign
+  double forward = 0.0, gravity_found = 0.0;
+  Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(100, 0.0, 0.2);
+  for (auto const& term : found.law.terms) {
+    if (term.shape == ReferenceShape::smooth_sign) forward += term.gain * term(ReferenceSignal(ramp), 50);
+    if (term.shape == ReferenceShape::sine) gravity_found = term.gain;
+  }
+  EXPECT_NEAR(forward, friction, 0.05);
+  EXPECT_NEAR(gravity_found, gravity, 0.02);
+}
+
+TEST(ControllerFit, FeedsNothingForwardThatIsNotThere) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    EXPECT_TRUE(fit(simulate_joint(loop_plan("pd"), seed)).law.terms.empty());
+  // nor where the noise has a memory
+  auto recording = simulate_joint(loop_plan("pd"), 3);
+  double memory = 0.0;
+  for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
+    recording.torque[k] += memory =
+        0.9 * memory + (recording.torque[k] - recording.torque[std::max<Eigen::Index>(k - 1, 0)]) * 0.3;
+  EXPECT_TRUE(fit(recording).law.terms.empty());
+}
+
 TEST(ControllerFit, SaysWhenTheLoggerWasTooSlow) {
   auto plan = loop_plan("pd");
   plan.noise.torque_std = 0.002;

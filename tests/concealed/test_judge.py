@@ -1,61 +1,9 @@
-"""The scorer on hand-made truths and verdicts: perfect, wrong, abstaining, missing, broken."""
-import contextlib
-import io
-import json
-import pathlib
+"""One verdict against one truth, made by hand: perfect, wrong, abstaining, missing, broken."""
 import sys
-import tempfile
 import unittest
 
-import binomial
 import judge
-import score
-
-
-def size(snr):
-    return {"snr_eff": snr, "torque_share": 0.01 * snr}
-
-
-def true_effect(name="stribeck", families=("reversal", "velocity_law"), catalogue_form=True, snr=3.0):
-    region = {"axis": "velocity", "edges": [-2.0, -1.0, 0.0, 1.0, 2.0], "occupancy": [0.25] * 4,
-              "inside": [False, True, True, False]}
-    return {"name": name, "families": list(families), "catalogue_form": catalogue_form, "size": size(snr),
-            "parameters": [{"name": "stribeck", "value": 0.5}], "regions": [region]}
-
-
-def truth(expected="named", effects=None, snr=3.0):
-    effects = [true_effect(snr=snr)] if effects is None else effects
-    return {"case": "x", "expected": expected, "size": size(snr), "effects": effects,
-            "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01}}, "step_error": {"torque": 1e-6, "position": 1e-6}}
-
-
-def clean():
-    return truth("none", [], 0.0)
-
-
-def effect(name="stribeck", family="reversal", equivalent=(), low=-1.0, high=1.0):
-    return {"name": name, "family": family, "equivalent": list(equivalent), "region": {"axis": "velocity", "from": low, "to": high},
-            "parameters": [{"name": "stribeck", "value": 0.55, "ci95": [0.45, 0.65]}]}
-
-
-def verdict(kind="named", effects=()):
-    joint = {"effects": list(effects), "baseline": {"validation_relerr": 0.11}, "augmented": {"validation_relerr": 0.02}}
-    return {"schema": 1, "verdict": kind, "joints": [joint]}
-
-
-class Binomial(unittest.TestCase):
-    def test_closed_forms_at_the_ends(self):
-        self.assertAlmostEqual(binomial.upper(0, 12), 1 - 0.05 ** (1 / 12), 9)
-        self.assertAlmostEqual(binomial.lower(12, 12), 0.05 ** (1 / 12), 9)
-        self.assertEqual(binomial.upper(5, 5), 1.0)
-        self.assertEqual(binomial.lower(0, 5), 0.0)
-
-    def test_sample_sizes_of_the_protocol(self):
-        # PHYSICS.md section 4: 16 of 500 stays below 5 %, 371 of 400 above 90 %; one more or less does not
-        self.assertLess(binomial.upper(16, 500), 0.05)
-        self.assertGreater(binomial.upper(17, 500), 0.05)
-        self.assertGreater(binomial.lower(371, 400), 0.90)
-        self.assertLess(binomial.lower(369, 400), 0.90)
+from example_cases import clean, effect, true_effect, truth, verdict
 
 
 class Judge(unittest.TestCase):
@@ -179,7 +127,7 @@ class Judge(unittest.TestCase):
             judge.judge(coarse, verdict("none"))
 
 
-class Tiers(unittest.TestCase):
+class OtherTiers(unittest.TestCase):
     def decoy(self):
         return {**clean(), "expected": "measurement", "tier": "T6", "drawn": "T6:late:1", "may_name": ["delay"]}
 
@@ -203,70 +151,69 @@ class Tiers(unittest.TestCase):
         self.assertFalse(judge.judge(weak(), verdict("none")).right)
         self.assertTrue(judge.judge(weak(0.1), verdict("none")).right)
 
-    def judged(self, tier, size, answer, expected="named"):
-        made = truth(expected, None if expected == "named" else [], size)
-        return judge.judge({**made, "tier": tier, "drawn": f"{tier}:x:{size}", "wanted_snr": size}, answer)
 
-    def test_tiers_and_sizes_are_counted_apart(self):
-        right, silent = verdict("named", [effect()]), verdict("none")
-        all_of = [self.judged("T1", 0.5, silent), self.judged("T1", 0.5, right), self.judged("T1", 2.0, right),
-                  self.judged("T0", 0.0, silent, "none"), judge.judge(clean(), silent)]
-        tiers, curve = score.by_tier(all_of), score.power_curve(all_of)
-        self.assertEqual({tier: board["cases"] for tier, board in tiers.items()}, {"T0": 1, "T1": 3})
-        self.assertEqual(tiers["T0"]["clean: verdict none"]["hits"], 1)
-        self.assertEqual(list(curve), ["T1"])
-        self.assertEqual([(size, row["family"]["hits"], row["family"]["of"]) for size, row in curve["T1"].items()],
-                         [("0.5", 1, 2), ("2", 1, 1)])
-        # the protocol's naming rate begins at SNR_eff 1
-        self.assertEqual(tiers["T1"]["single: family"]["of"], 1)
-        self.assertEqual(len(score.power_lines(curve)), 3)
+class OtherAnswers(unittest.TestCase):
+    def test_a_region_on_both_sides_of_zero_is_two_intervals(self):
+        places = [[-1.0, -0.5], [0.5, 1.0]]
+        one, regions = {"axis": "velocity", "from": 0.5, "to": 1.0}, true_effect()["regions"]
+        self.assertAlmostEqual(judge.region_iou(one, regions), 0.25)
+        self.assertAlmostEqual(judge.region_iou({**one, "places": places}, regions), 0.5)
+        beside = {**verdict("named", [effect(low=0.5)]), "places": {"stribeck": places}}
+        self.assertAlmostEqual(judge.judge(truth(), beside).found[0].iou, 0.5)
 
+    def test_a_pair_of_sine_and_cosine_is_one_vector(self):
+        # 0.3 off a vector of length 5, however small its sine is
+        true = true_effect("gravity", ["static_position"])
+        true["parameters"] = [{"name": "gravity_sin", "value": 0.0}, {"name": "gravity_cos", "value": -5.0}]
+        said = effect("gravity", "static_position")
+        said["parameters"] = [{"name": "gravity_sin", "value": 0.3}, {"name": "gravity_cos", "value": -5.0}]
+        self.assertAlmostEqual(judge.judge(truth(effects=[true]), verdict("named", [said])).found[0].parameter_error, 0.06)
+        del said["parameters"][1]
+        self.assertIsNone(judge.judge(truth(effects=[true]), verdict("named", [said])).found[0].parameter_error)
 
-class Board(unittest.TestCase):
-    def run_score(self, truths, verdicts, *options):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            for case, text in truths.items():
-                (folder / case).mkdir()
-                (folder / case / "truth.json").write_text(text)
-            (folder / "verdicts").mkdir()
-            for case, text in verdicts.items():
-                (folder / "verdicts" / f"{case}.json").write_text(text)
-            out, err = io.StringIO(), io.StringIO()
-            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-                code = score.main([str(folder), str(folder / "verdicts"), "--json", str(folder / "board.json"), *options])
-            board = json.loads((folder / "board.json").read_text()) if code < 64 else None
-            return code, out.getvalue(), err.getvalue(), board
+    def test_the_main_parameter_is_the_first_of_the_truth(self):
+        true = true_effect()
+        true["parameters"].append({"name": "stribeck_time", "value": 2.0})
+        said = effect()
+        said["parameters"].append({"name": "stribeck_time", "value": 9.0, "ci95": [8.0, 10.0]})
+        found = judge.judge(truth(effects=[true]), verdict("named", [said])).found[0]
+        self.assertAlmostEqual(found.parameter_error, 0.1)
+        self.assertEqual(found.intervals, (True, False))
 
-    def test_counts_missing_verdicts_in_the_denominator(self):
-        code, text, _, board = self.run_score({"a": json.dumps(clean()), "b": json.dumps(clean()), "c": json.dumps(clean())},
-                                              {"a": json.dumps(verdict("none")), "b": "not json"})
-        self.assertEqual(code, 0)
-        self.assertEqual(board["board"]["clean: verdict none"]["hits"], 1)
-        self.assertEqual(board["board"]["clean: verdict none"]["of"], 3)
-        self.assertEqual(board["board"]["no answer"]["hits"], 2)
-        # silence is not caution
-        self.assertEqual(board["board"]["clean: any false name"]["hits"], 2)
-        self.assertIn("missing", text)
+    def test_guesses_are_names_and_then_the_ranking_without_repeats(self):
+        answer = {**verdict("named", [effect("cogging", "order_locked")]),
+                  "ranking": [{"name": "cogging", "family": "order_locked"}, {"name": "spring", "family": "static_position"},
+                              {"name": "presliding", "family": "reversal"}]}
+        self.assertEqual(judge.judge(truth(), answer).found[0].rank, 3)
+        self.assertIsNone(judge.judge(truth(), {**answer, "ranking": []}).found[0].rank)
+        self.assertEqual(judge.judge(truth(), {**verdict("none"), "ranking": answer["ranking"]}).found[0].rank, 3)
 
-    def test_small_effects_do_not_enter_the_naming_rates(self):
-        _, _, _, board = self.run_score({"a": json.dumps(truth()), "b": json.dumps(truth(snr=0.5))},
-                                        {"a": json.dumps(verdict("named", [effect()]))})
-        self.assertEqual(board["board"]["single: exact"]["of"], 1)
+    def test_three_blind_guesses_from_four_miss_one_of_two_right_ones_never(self):
+        self.assertEqual(judge.blind_chance(4, 2), 1.0)
+        self.assertAlmostEqual(judge.blind_chance(4, 1), 0.75)  # 3 of 4
+        self.assertAlmostEqual(judge.blind_chance(30, 5), 1 - 25 * 24 * 23 / (30 * 29 * 28))
+        self.assertEqual(judge.blind_chance(5, 0), 0.0)
+        self.assertIsNone(judge.blind_chance(2, 1))
 
-    def test_all_right_means_every_case(self):
-        truths = {"a": json.dumps(clean()), "b": json.dumps(truth())}
-        right = {"a": json.dumps(verdict("none")), "b": json.dumps(verdict("named", [effect()]))}
-        self.assertEqual(self.run_score(truths, right, "--all-right")[0], 0)
-        code, text, _, _ = self.run_score(truths, {**right, "b": json.dumps(verdict("none"))}, "--all-right")
-        self.assertEqual(code, 1)
-        self.assertIn("not right: x", text)
-        self.assertEqual(self.run_score(truths, {"a": right["a"]}, "--all-right")[0], 1)
+    def test_a_fault_of_the_instruments_that_is_named_so_is_found(self):
+        drift = truth(effects=[true_effect("sensor_drift", ["time"])])
+        self.assertTrue(judge.judge(drift, verdict("data_fault", [effect("sensor_drift", "time")])).right)
+        self.assertFalse(judge.judge(drift, verdict("data_fault")).right)
+        self.assertFalse(judge.judge(drift, verdict("data_fault", [effect("thermal_friction", "time")])).right)
 
-    def test_no_truth_and_damaged_truth(self):
-        self.assertEqual(self.run_score({}, {})[0], 66)
-        self.assertEqual(self.run_score({"a": "{"}, {})[0], 65)
-        self.assertEqual(self.run_score({"a": json.dumps({"case": "a"})}, {})[0], 65)
+    def test_a_rival_needs_no_more_than_names_and_families(self):
+        rival = {"case": "x", "verdict": "named", "effects": [{"name": "stribeck", "family": "reversal"}]}
+        j = judge.judge(truth(), rival)
+        self.assertEqual((j.right, j.found[0].level, j.found[0].iou, j.gap_closed), (True, "exact", None, None))
+        self.assertEqual(j.names, (("stribeck", "reversal", None, True),))
+        self.assertAlmostEqual(judge.judge(truth(), {**rival, "unseen": {"before": 0.11, "after": 0.02}}).gap_closed, 0.9)
+        for broken in ({"verdict": "named"}, {"verdict": "perhaps", "effects": []}, {"verdict": "named", "effects": [{"name": "stribeck"}]}):
+            self.assertEqual(judge.judge(truth(), broken).verdict, "invalid")
+
+    def test_a_name_states_one_minus_its_false_discovery_rate(self):
+        said = [{**effect(), "q": 0.04}, {**effect("spring", "static_position"), "confidence": 0.7, "q": 0.01}]
+        self.assertEqual(judge.judge(truth(), verdict("named", said)).names,
+                         (("stribeck", "reversal", 0.96, True), ("spring", "static_position", 0.7, False)))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,55 @@
+#pragma once
+// The columns of every candidate on a recording, for methods other than ours: same pipeline, same catalogue, same search of
+// shapes, but no twin anywhere.
+//
+// Rows       those of RecordPipeline::process() on the recording itself: kept samples on which the joint surely moves one way
+// Motion     the recording's own, filtered: what somebody without twins has (ours are computed from the motion of a twin
+//            without noise and encoder, candidate_columns.hpp)
+// Shape      where the effect explains most of the least-squares residual, signs kept: grid (shape_grid.hpp), then the same
+//            refinement as in a diagnosis. The whole grid would be gigabytes; `grid_points` and the count of shapes say how
+//            much was searched, for tests that charge for it
+// Unseen     the same columns, at the shape found in training, on every unseen recording
+// Simulator  a recording with a simulator's torque is exported less what that simulator explains, as it is diagnosed
+// Units      SI
+// Errors     as RecordPipeline
+// Threads    spreads grid points over `threads`; same bits for any number
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/joint_diagnosis.hpp"
+
+namespace torquescope {
+
+struct RecordColumns {
+  std::string recording{};
+  double kept_rate_hz = 0.0;
+  double cutoff_hz = 0.0;  // of the parallel filter: rows closer than its periods repeat each other
+  std::vector<Eigen::Index>
+      kept_rows{};  // of each row: index among the kept samples; a step above 1 is a masked reversal
+  Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};
+  Eigen::VectorXd torque{};                   // filtered
+  Eigen::MatrixXd regressor{};                // of the model, filtered
+  std::vector<Eigen::MatrixXd> candidates{};  // of each of ColumnExport::candidates: n x n_linear, filtered
+};
+
+struct ShapedCandidate {
+  Effect const* effect = nullptr;
+  std::vector<double> shape{};
+  std::size_t grid_points = 0;
+  double gain = 0.0;  // energy of the residual it explains there
+};
+
+struct ColumnExport {
+  std::vector<ShapedCandidate> candidates{};  // explain something
+  std::vector<Effect const*>
+      not_testable{};  // explain nothing: the model does already, or the allowed sign is the wrong one
+  RecordColumns train;
+  std::vector<RecordColumns> validate{};
+};
+
+ColumnExport export_columns(DiagnosisInput const& input);
+
+}  // namespace torquescope

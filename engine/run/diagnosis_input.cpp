@@ -1,0 +1,38 @@
+#include "engine/run/diagnosis_input.hpp"
+
+#include "engine/run/job_sections.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// a diagnosis compares one recording with its twins; more of them are for `run`
+Recording const& training_recording(Experiment::Parts const& parts) {
+  auto const& recordings = parts.train.recordings;
+  validate(recordings.size() == 1, [&] {
+    Problem problem =
+        problem_at(section_or_empty(parts.job, "recording"), "train", "a diagnosis is made of one training recording",
+                   "name one in train, the others in validate");
+    return problem;
+  });
+  return recordings.front();
+}
+
+}  // namespace
+
+JobInput::JobInput(Experiment::Parts const& parts, int threads)
+    : filter_(section_or_empty(parts.job, "filter")),
+      input_{training_recording(parts), parts.validate ? parts.validate->recordings : none_, *parts.regressor,
+             parts.filter, filter_} {
+  input_.selection.candidates = parts.effects;
+  input_.selection.q = parts.diagnose.q;
+  input_.selection.max_effects = static_cast<std::size_t>(parts.diagnose.max_effects);
+  input_.selection.shape_optimiser = parts.diagnose.shape_optimiser;
+  input_.twins = static_cast<std::size_t>(parts.diagnose.twins);
+  input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
+  input_.threads = threads;
+  input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.region_consistency,
+                     parts.diagnose.twin_noise};
+}
+
+}  // namespace torquescope
