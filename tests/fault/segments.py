@@ -235,6 +235,19 @@ class Segments(study.FaultTest):
             process.send_signal(signal.SIGCONT)
             self.assertIn(study.Ended(process).code, {code, 75})
 
+    def test_a_generation_that_takes_long_is_not_waited_for(self):
+        folder = self.folder(study.JOB.replace("population = 14", "population = 100000")
+                             .replace("duration_s = 15", "duration_s = 2000").replace("validate = true", "validate = false"))
+        process = folder.start("run", "job.toml", "--out", "r.h5", "--threads", "1")
+        while b"stage=de" not in process.stderr.readline():
+            pass
+        time.sleep(1.0)  # into the first generation, which takes some ten seconds
+        process.terminate()
+        ended = study.Ended(process, time.monotonic())
+        self.assert_ended(ended, 75)
+        self.assertLess(ended.seconds, 5.0)
+        self.assertIn("in the middle of a generation", ended.said)
+
     def test_a_time_budget_is_a_reason_to_stop(self):
         folder = self.folder()
         folder.write("job.toml", study.JOB.replace("generations = 250", "generations = 200000"))
