@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import time
 import unittest
@@ -215,6 +216,44 @@ class Segments(study.FaultTest):
             self.assert_ended(study.Ended(process), 75)
         self.assertFalse(json.loads(folder.run("status", "r.h5.parts", "--json", "-").out)["writers"][0]["alive_here"])
         self.assert_ended(folder.run("status", "nothing.h5"), 66)
+
+    def test_the_scripts_of_submit_requeue_what_was_stopped(self):
+        """Both scripts under bash, with Slurm's commands replaced: srun runs the rest of its line, scontrol notes its words."""
+        folder = self.folder()
+        for name, text in (("srun", 'shift; exec "$@"'), ("squeue", "echo 1:00:00"),
+                           ("scontrol", f'echo "$@" >> {folder / "requeued"}; exit 1')):
+            folder.write(name, "#!/bin/sh\n" + text + "\n")
+            os.chmod(folder / name, 0o755)
+        said = folder.run("submit", "job.toml", "--out", "r.h5", "--shards", "2", "--dry-run")
+        self.assert_ended(said, 0)
+        array, merge = said.out.split("\n# r.h5.merge.sbatch\n")
+        folder.write("array.sh", array)
+        folder.write("merge.sh", merge)
+
+        def start(script, task, **more):
+            slurm = {"SLURM_JOB_ID": "7", "SLURM_ARRAY_JOB_ID": "7", "SLURM_ARRAY_TASK_ID": str(task), **more}
+            return subprocess.Popen(["bash", script], cwd=folder.path, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE,
+                                    env=study.environment({"PATH": folder.path + ":" + os.environ["PATH"], **slurm}))
+
+        folder.write("job.toml", study.JOB.replace("generations = 250", "generations = 200000"))
+        process = start("array.sh", 0)
+        while b"fitness" not in process.stderr.readline():
+            pass
+        process.send_signal(signal.SIGUSR1)
+        self.assert_ended(study.Ended(process), 75)
+        with open(folder / "requeued", encoding="utf-8") as file:
+            self.assertEqual(file.read(), "requeue 7_0\n")
+        shutil.rmtree(folder / "r.h5.parts", ignore_errors=True)
+        folder.write("job.toml", study.JOB)
+        for task in (0, 1):
+            ended = study.Ended(start("array.sh", task, SLURM_RESTART_COUNT="1"))
+            self.assert_ended(ended, 0)
+            self.assertIn(f"{task}/2 (--shard)", ended.said)
+        self.assert_ended(study.Ended(start("merge.sh", 0)), 0)
+        for name in ("srun", "squeue", "scontrol", "requeued", "array.sh", "merge.sh"):
+            os.remove(folder / name)
+        self.assert_same(folder)
 
     def test_only_a_second_interrupt_ends_at_once(self):
         for numbers, code in (((signal.SIGINT, signal.SIGINT), 130), ((signal.SIGTERM, signal.SIGTERM, signal.SIGINT), 75),
