@@ -11,7 +11,8 @@
 namespace torquescope {
 namespace {
 
-constexpr double even_within_steps = 0.005;
+constexpr double even_within_steps = 0.02;
+constexpr double rate_open_by = 0.005;  // relative, when stamps jitter
 constexpr double slowest_step_s = 0.5;
 
 // stamps as a person would write them: enough digits to see the step
@@ -193,7 +194,7 @@ Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& t
   check_step(typical, table);
   check_gaps(stamps_s, sampling, typical, table);
   count_missing(sampling, steps, typical);
-  sampling.rate_hz = roundest(1.0 / typical, even_within_steps);
+  sampling.rate_hz = roundest(1.0 / typical, rate_open_by);
   return sampling;
 }
 

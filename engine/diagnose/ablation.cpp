@@ -1,7 +1,5 @@
 #include "engine/diagnose/ablation.hpp"
 
-#include <utility>
-
 namespace torquescope {
 namespace {
 
@@ -22,9 +20,9 @@ TwinLoop louder(TwinLoop loop, double factor) {
 void ablate_twin(BaselineTwin& made, RecordPipeline const& pipeline, Ablation const& ablation) {
   if (!ablation.changes_twins()) return;
   if (!ablation.indirect_inference) made.baseline.parameters = made.record.parameters;
-  made.loop.loop = louder(std::move(made.loop.loop), ablation.twin_noise);
-  made.twin = CleanTwin(pipeline.model().twin_joint(made.baseline.parameters), made.loop.loop, made.loop.track,
-                        made.twin.step_s());
+  // the loop stays as found: later models of the recording begin with it
+  made.twin = CleanTwin(pipeline.model().twin_joint(made.baseline.parameters),
+                        louder(made.loop.loop, ablation.twin_noise), made.loop.track, made.twin.step_s());
 }
 
 }  // namespace torquescope
