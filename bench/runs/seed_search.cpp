@@ -152,11 +152,11 @@ int run(Request const& request) {
       shape.runs, request.threads,
       request.together > 0 ? request.together : runs_side_by_side(*fitness.objective, rules, shape.members),
       [&](std::size_t first, std::size_t count, int team) {
-        std::vector<std::unique_ptr<Optimiser>> searches;
+        std::vector<RunStart> starts;
         for (std::size_t index = first; index < first + count; ++index)
-          searches.push_back(make_optimiser(box, {1, static_cast<std::uint32_t>(index)}));
+          starts.push_back({make_optimiser(box, {1, static_cast<std::uint32_t>(index)})});
         std::vector<Workspace> workspaces;
-        return optimise(searches, setting, team, workspaces);
+        return optimise(std::move(starts), setting, team, workspaces);
       },
       [&](std::size_t index, RunHistory const& history) {
         mse.push_back(history.best.back());

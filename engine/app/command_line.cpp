@@ -65,6 +65,9 @@ void parse_command_line(std::vector<std::string> const& words, ParsedCommandLine
   add_diagnose(app, parsed.chosen, diagnose);
   add_show(app, parsed.chosen);
   add_report(app, parsed.chosen);
+  add_merge(app, parsed.chosen);
+  add_status(app, parsed.chosen);
+  add_submit(app, parsed.chosen);
   add_simulate(app, parsed.chosen);
   add_list(app, parsed.chosen);
   add_describe(app, parsed.chosen);

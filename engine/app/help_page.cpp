@@ -14,11 +14,14 @@ std::string program_help() {
   return R"(Torquescope identifies robot joints from recordings of position and torque.
 
   torquescope check    JOB.toml      is everything there?       (seconds)
-  torquescope run      JOB.toml      identify; a finished job is shown again
+  torquescope run      JOB.toml      identify; killed? run it again: it goes on
   torquescope diagnose JOB.toml      find the physics the model lacks
   torquescope show     R.h5          tables here
   torquescope report   R.h5          one page with pictures
   torquescope simulate JOB.toml --out REC.csv     recordings from a model
+  torquescope submit   JOB.toml --shards N        the same on a Slurm cluster
+  torquescope merge    JOB.toml      one result of all shards
+  torquescope status   R.h5          how far a job is, living or dead
   torquescope list     [effects|optimisers|readers|losses|estimators|sections]
   torquescope describe NAME          what it does, every option
 

@@ -1,7 +1,5 @@
 // `torquescope diagnose --columns`: what the engine would search, as plain numbers in a file (RESULT_FORMAT.md, /columns).
 
-#include <chrono>
-
 #include "engine/diagnose/column_export.hpp"
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/provenance_writer.hpp"
@@ -73,9 +71,7 @@ void write_candidate(ResultWriter& writer, std::string const& group, ShapedCandi
 }  // namespace
 
 ColumnsReport write_candidate_columns(Experiment const& experiment, DiagnoseRequest const& request) {
-  using Clock = std::chrono::steady_clock;
-  auto const start = Clock::now();
-  std::string const started = utc_now();
+  Beginning const beginning;
   auto const& parts = experiment.parts();
   ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
@@ -93,8 +89,7 @@ ColumnsReport write_candidate_columns(Experiment const& experiment, DiagnoseRequ
   write_record(writer, "/columns/train", found.train, found.candidates, joint);
   for (std::size_t k = 0; k < found.validate.size(); ++k)
     write_record(writer, "/columns/validate_" + std::to_string(k + 1), found.validate[k], found.candidates, joint);
-  write_provenance(writer, request.threads, started, std::chrono::duration<double>(Clock::now() - start).count());
-  writer.finish();
+  finish_result(writer, request.output, request.threads, beginning);
   return {names.size(), static_cast<std::size_t>(found.train.torque.size())};
 }
 

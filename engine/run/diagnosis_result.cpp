@@ -1,7 +1,5 @@
 #include "engine/run/diagnosis_result.hpp"
 
-#include <chrono>
-
 #include "engine/run/diagnosis_writer.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/provenance_writer.hpp"
@@ -11,9 +9,7 @@ namespace torquescope {
 
 Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const& request,
                              std::function<Diagnosis()> const& find) {
-  using Clock = std::chrono::steady_clock;
-  auto const start = Clock::now();
-  std::string const started = utc_now();
+  Beginning const beginning;
   auto const& parts = experiment.parts();
   ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
@@ -21,8 +17,7 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))
     writer.attribute("/diagnosis/options", key, value);
-  write_provenance(writer, request.threads, started, std::chrono::duration<double>(Clock::now() - start).count());
-  writer.finish();
+  finish_result(writer, request.output, request.threads, beginning);
   return diagnosis;
 }
 

@@ -44,9 +44,16 @@ void write_parameters(ResultWriter& writer, std::string const& path, std::vector
   writer.numbers(path, {vectors.size(), static_cast<std::size_t>(vectors.front().size())}, rows, note);
 }
 
-void write_summary(ResultWriter& writer, std::string const& group, RunResults const& results) {
+void write_summary(ResultWriter& writer, std::string const& group, RunResults const& all) {
+  // of a partial merge: of the runs that are there (not one: NaN, as everything that is absent)
+  auto const present = all.present();
+  bool const whole = present.size() == all.runs() || present.empty();
+  RunResults const some = whole ? RunResults() : all.only(present);
+  RunResults const& results = whole ? all : some;
+  if (present.size() < all.runs())
+    writer.attribute(group, "missing_runs", static_cast<std::int64_t>(all.runs() - present.size()));
   auto const mse = RunResults::each(results.train, &PredictionMetrics::mse);
-  writer.attribute(group, "runs", static_cast<std::int64_t>(results.runs()));
+  writer.attribute(group, "runs", static_cast<std::int64_t>(all.runs()));
   writer.attribute(group, "mse_median", median(mse));
   writer.attribute(group, "mse_best", *std::min_element(mse.begin(), mse.end()));
   writer.attribute(group, "mse_worst", *std::max_element(mse.begin(), mse.end()));
@@ -58,7 +65,8 @@ void write_summary(ResultWriter& writer, std::string const& group, RunResults co
   if (!results.validate.empty())
     writer.attribute(group, "validation_relerr_median",
                      median(RunResults::each(results.validate, &PredictionMetrics::relerr)));
-  writer.attribute(group, "median_run", static_cast<std::int64_t>(lower_median_index(results.gap)));
+  std::size_t const median_run = lower_median_index(results.gap);
+  writer.attribute(group, "median_run", static_cast<std::int64_t>(whole ? median_run : present[median_run]));
   std::int64_t evaluations = 0, nonfinite = 0;
   for (std::size_t run = 0; run < results.runs(); ++run) {
     evaluations += results.evaluations[run];

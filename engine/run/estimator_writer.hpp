@@ -9,19 +9,11 @@
 
 #include "engine/problem/fitness_choice.hpp"
 #include "engine/run/estimator_plan.hpp"
-#include "engine/run/run_history.hpp"
+#include "engine/run/run_part.hpp"
 #include "engine/run/run_summary.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
-
-// sizes of every history of one population method
-struct HistoryShape {
-  std::size_t runs = 0;
-  std::size_t generations = 0;  // without the initial one
-  std::size_t members = 0;
-  std::size_t parameters = 0;
-};
 
 // torque_unit: "N m" or "N"
 void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,

@@ -1,77 +1,31 @@
-// `torquescope run`: every estimator of a job over the recordings, every generation into the result file.
+// `torquescope run` and `merge`: every estimator of a job over the recordings, every generation into the result file.
 
-#include <atomic>
-#include <chrono>
-#include <memory>
-#include <mutex>
+#include <fmt/format.h>
 
+#include <limits>
+#include <utility>
+
+#include "engine/base/error.hpp"
 #include "engine/effects/joint_form.hpp"
-#include "engine/problem/residual_objective.hpp"
-#include "engine/problem/squared_error_floor.hpp"
-#include "engine/problem/statistics_objective.hpp"
 #include "engine/run/estimator_writer.hpp"
-#include "engine/run/experiment_parts.hpp"
-#include "engine/run/optimise.hpp"
+#include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
-#include "engine/run/run_scheduler.hpp"
+#include "engine/run/stage_progress.hpp"
 #include "engine/run/study_writer.hpp"
 
 namespace torquescope {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-// tells the sink at most once per finished run and some times a second between
-class StageProgress {
- public:
-  StageProgress(ProgressSink const& sink, std::string stage, std::int64_t runs, std::int64_t evaluations)
-      : sink_(sink), start_(Clock::now()) {
-    update_.stage = std::move(stage);
-    update_.runs_total = runs;
-    update_.evaluations_total = evaluations;
-    tell();
-  }
-
-  void count_evaluations(std::int64_t evaluations) {
-    evaluations_.fetch_add(evaluations, std::memory_order_relaxed);
-    // a thread that finds the sink busy leaves the news to the next one
-    std::unique_lock const lock(guard_, std::try_to_lock);
-    if (lock.owns_lock() && seconds_since(last_) > 0.05) tell();
-  }
-
-  void count_run() {
-    std::lock_guard const lock(guard_);
-    ++update_.runs_done;
-    tell();
-  }
-
- private:
-  void tell() {
-    last_ = Clock::now();
-    update_.evaluations_done = evaluations_.load(std::memory_order_relaxed);
-    update_.seconds = seconds_since(start_);
-    if (sink_) sink_(update_);
-  }
-
-  ProgressSink const& sink_;
-  Clock::time_point start_;
-  Clock::time_point last_{};
-  std::mutex guard_;
-  std::atomic<std::int64_t> evaluations_{0};
-  ProgressUpdate update_;
-};
-
 // what every estimator of one job shares
 struct Study {
   Experiment::Parts const& parts;
-  IdentifyOptions const& options;
+  Attempt& attempt;
   ProgressSink const& progress;
   ResultWriter& writer;
   SquaredErrorFloor const& floor;  // of the training rows: what every gap is measured with
   std::string torque_unit;         // "N m" or "N"
+  bool merges = false;             // nothing runs: segments have it all, or what there is
 };
 
 void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
@@ -98,69 +52,63 @@ RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
   return results;
 }
 
-std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, EstimatorPlan const& plan,
-                                          FitnessChoice const& choice) {
-  auto const& rows = parts.train.regression;
-  auto const scale = fitness_scale(plan.objective);
-  if (choice.from_statistics)
-    return std::make_unique<StatisticsObjective>(*parts.statistics, static_cast<std::size_t>(rows.rows()), parts.box,
-                                                 scale);
-  if (choice.in_float32) return std::make_unique<SinglePrecisionObjective>(rows, parts.box, scale);
-  return std::make_unique<ResidualObjective>(rows, parts.box, make_loss(plan.objective, rows), scale);
+// of a run that no segment has
+RunHistory missing_history(HistoryShape const& shape) {
+  RunHistory history;
+  history.pad(shape.generations + 1, shape.members, shape.parameters);
+  history.parameters.assign(shape.parameters, std::numeric_limits<double>::quiet_NaN());
+  history.stop_reason = missing_run;
+  return history;
 }
 
 RunResults run_population_method(Study const& study, EstimatorPlan const& plan) {
   auto const& parts = study.parts;
   auto const choice = fitness_choice(parts, plan);
-  auto const objective = make_objective(parts, plan, choice);
-  HistoryShape const shape{static_cast<std::size_t>(parts.experiment.runs),
-                           static_cast<std::size_t>(plan.stop_rules.generations),
-                           plan.make_optimiser(parts.box, {})->batch_size(), parts.regressor->size()};
+  HistoryShape const shape = history_shape(parts, plan);
   declare_histories(study.writer, plan.label, shape, study.torque_unit);
-  StageProgress progress(study.progress, plan.label, parts.experiment.runs,
-                         static_cast<std::int64_t>(shape.runs * (shape.generations + 1) * shape.members));
-
-  SearchSetting const setting{
-      *objective,
-      plan.stop_rules,
-      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0
-                                                         : 1.0 / static_cast<double>(parts.train.regression.rows()),
-      [&](std::span<double const> candidate) { return study.floor.gap(candidate); },
-      [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
-      study.options.stop_requested,
-  };
-  auto const run = [&](std::size_t first, std::size_t count, int team) {
-    std::vector<std::unique_ptr<Optimiser>> searches;
-    for (std::size_t index = first; index < first + count; ++index) {
-      RandomKey const key{static_cast<std::uint64_t>(parts.experiment.seed), static_cast<std::uint32_t>(index)};
-      searches.push_back(plan.make_optimiser(parts.box, key));
-    }
-    std::vector<Workspace> workspaces;
-    return optimise(searches, setting, team, workspaces);
-  };
   RunResults results;
   std::vector<double> PC, FC;
-  auto const commit = [&](std::size_t index, RunHistory&& history) {
-    write_history(study.writer, plan.label, index, history);
+  auto const commit = [&](std::size_t run, RunHistory const& history) {
+    write_history(study.writer, plan.label, run, history);
     Eigen::VectorXd const parameters =
         Eigen::Map<Eigen::VectorXd const>(history.parameters.data(), static_cast<Eigen::Index>(shape.parameters));
     keep_run(study, parameters, history.stop_reason, history.evaluations.back(), history.nonfinite, results);
     PC.insert(PC.end(), history.PC.begin(), history.PC.end());
     FC.insert(FC.end(), history.FC.begin(), history.FC.end());
-    progress.count_run();
   };
-  schedule_runs(shape.runs, study.options.threads.count, runs_side_by_side(*objective, plan.stop_rules, shape.members),
-                run, commit);
+  if (!study.merges) {
+    run_population({parts, plan, choice, study.floor, study.progress, study.attempt}, runs_of_shard(parts, {}), commit);
+  } else {
+    StageProgress progress(study.progress, plan.label, parts.experiment.runs, 0);
+    for (std::size_t run = 0; run < shape.runs; ++run) {
+      auto const part = study.attempt.saved.load(plan.label, shape, run);
+      commit(run, part && part->ended ? part->history : missing_history(shape));
+      progress.count_run();
+    }
+  }
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;
 }
 
-}  // namespace
+void tell(IdentifyOptions const& options, std::string const& topic, std::string const& text) {
+  if (options.tell) options.tell(topic, text);
+}
 
-IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
-  auto const start = Clock::now();
-  std::string const started = utc_now();
+void tell_what_was_done(Attempt const& attempt) {
+  for (auto const& warning : attempt.saved.warnings()) tell(attempt.options, "warning", warning);
+  if (attempt.saved.mixed())
+    tell(attempt.options, "warning", "segments of another program or job are taken: --allow-mixed");
+  if (!attempt.saved.empty())
+    tell(attempt.options, "resume",
+         fmt::format("{}: {} of {} runs were done", attempt.options.output.filename().string(), attempt.runs_before,
+                     attempt.runs_total));
+}
+
+// from an attempt that has, or makes, every run
+IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges, ProgressSink const& progress) {
+  Beginning const beginning;
+  auto const& options = attempt.options;
   auto const& parts = experiment.parts();
   ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
@@ -168,7 +116,7 @@ IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, P
 
   SquaredErrorFloor const floor(parts.train.regression);
   bool const revolute = parts.regressor->joint() == JointKind::revolute;
-  Study const study{parts, options, progress, writer, floor, revolute ? "N m" : "N"};
+  Study const study{parts, attempt, progress, writer, floor, revolute ? "N m" : "N", merges};
   IdentifyReport report;
   std::vector<std::string> order;
   for (auto const& plan : parts.estimators) {
@@ -180,10 +128,49 @@ IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, P
     for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;
   }
   writer.attribute("/runs", "order", order);
-  report.seconds = seconds_since(start);
-  write_provenance(writer, options.threads, started, report.seconds);
-  report.content_sha256 = writer.finish();
+  // whoever asks to stop now is served best by the result
+  if (options.saving) options.saving();
+  report.content_sha256 = finish_result(writer, options.output, options.threads, beginning, attempt.saved.origins());
+  report.seconds = beginning.seconds();
   report.bytes = std::filesystem::file_size(options.output);
+  return report;
+}
+
+}  // namespace
+
+IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
+  Attempt attempt(experiment, options);
+  tell_what_was_done(attempt);
+  IdentifyReport report;
+  try {
+    report = write_result(std::move(experiment), attempt, false, progress);
+  } catch (Error const& error) {
+    if (error.code() != ExitCode::stopped) throw;
+    stop_and_save(attempt);
+  }
+  remove_segments(options.output);
+  return report;
+}
+
+IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Completeness wanted,
+                     ProgressSink const& progress) {
+  Attempt attempt(experiment, options);
+  tell_what_was_done(attempt);
+  std::size_t count = 0;
+  std::string const missing = missing_runs(experiment.parts(), attempt.saved, count);
+  if (count > 0 && wanted == Completeness::whole) {
+    Problem problem;
+    problem.code = ExitCode::stopped;
+    problem.what = fmt::format("{} of {} runs are missing: nothing was merged", count, attempt.runs_total);
+    problem.notes = {missing};
+    problem.help = "run their shards again, or `torquescope run` the job to do all that is missing; or --partial";
+    throw Error(problem);
+  }
+  if (count > 0)
+    tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
+  IdentifyReport const report = write_result(std::move(experiment), attempt, true, progress);
+  // of a part of the runs, the segments are still wanted
+  if (count == 0) remove_segments(options.output);
   return report;
 }
 

@@ -62,11 +62,13 @@ std::size_t stored_generations(StopRules const& rules) { return static_cast<std:
 struct Run {
   Optimiser& search;
   RunHistory history{};
+  double spent_before_s = 0.0;
   std::size_t first = 0, rows = 0;  // its part of the present sweep
   std::optional<StopReason> reason{};
 };
 
 RunHistory finished(Run& run, SearchSetting const& setting) {
+  run.history.told = run.history.best.size();
   run.history.pad(stored_generations(setting.rules), run.search.batch_size(), run.search.dimension());
   run.history.parameters = run.search.progress().best;
   run.history.stop_reason = to_string(*run.reason);
@@ -74,32 +76,45 @@ RunHistory finished(Run& run, SearchSetting const& setting) {
   return std::move(run.history);
 }
 
-void stop_if_requested(SearchSetting const& setting) {
-  if (setting.stop_requested && setting.stop_requested())
-    throw Error(Problem{
-        ExitCode::stopped, "stopped by a signal: nothing was published", {}, {}, {}, {}, "run the same command again"});
+// runs that ended stay in their group until all of it has: kept here, they are not searched again
+void keep(std::vector<Run>& runs, SearchSetting const& setting) {
+  for (std::size_t index = 0; index < runs.size(); ++index)
+    setting.keep(index, runs[index].history, runs[index].search);
+}
+
+void stop_if_requested(std::vector<Run>& runs, SearchSetting const& setting) {
+  if (!setting.stop_requested || !setting.stop_requested()) return;
+  if (setting.keep) keep(runs, setting);
+  throw Error(
+      Problem{ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
 }
 
 }  // namespace
 
-std::vector<RunHistory> optimise(std::span<std::unique_ptr<Optimiser> const> searches, SearchSetting const& setting,
-                                 int team, std::vector<Workspace>& workspaces) {
+std::vector<RunHistory> optimise(std::vector<RunStart> starts, SearchSetting const& setting, int team,
+                                 std::vector<Workspace>& workspaces) {
   using Clock = std::chrono::steady_clock;
   auto const start = Clock::now();
   workspaces.resize(static_cast<std::size_t>(std::max(1, team)));
   std::vector<Run> runs;
   std::size_t most_rows = 0;
-  for (auto const& search : searches) {
-    runs.push_back({*search});
-    runs.back().history.reserve(stored_generations(setting.rules), search->batch_size(), search->dimension());
-    most_rows += search->batch_size();
+  for (auto& begun : starts) {
+    Optimiser& search = *begun.search;
+    runs.push_back({search, std::move(begun.history)});
+    Run& run = runs.back();
+    run.spent_before_s = run.history.elapsed_s;
+    run.history.reserve(stored_generations(setting.rules), search.batch_size(), search.dimension());
+    most_rows += search.batch_size();
+    // killed between its last generation and its end
+    if (!run.history.best.empty())
+      run.reason = reason_to_stop(setting.rules, search, setting.objective.bounds(), run.spent_before_s);
   }
   std::size_t const dimension = setting.objective.dimension();
   std::vector<double> candidates(most_rows * dimension), fitness(most_rows);
   MatrixView<double> const places(candidates.data(), most_rows, dimension);
 
   while (std::any_of(runs.begin(), runs.end(), [](Run const& run) { return !run.reason; })) {
-    stop_if_requested(setting);
+    stop_if_requested(runs, setting);
     std::size_t rows = 0;
     for (Run& run : runs) {
       if (run.reason) continue;
@@ -118,8 +133,10 @@ std::vector<RunHistory> optimise(std::span<std::unique_ptr<Optimiser> const> sea
       if (run.reason) continue;
       run.search.tell(places.rows(run.first, run.rows), std::span(fitness).subspan(run.first, run.rows));
       record(run.search, setting, run.history);
-      run.reason = reason_to_stop(setting.rules, run.search, setting.objective.bounds(), elapsed_s);
+      run.history.elapsed_s = run.spent_before_s + elapsed_s;
+      run.reason = reason_to_stop(setting.rules, run.search, setting.objective.bounds(), run.history.elapsed_s);
     }
+    if (setting.keep_now && setting.keep_now()) keep(runs, setting);
   }
   std::vector<RunHistory> histories;
   for (Run& run : runs) histories.push_back(finished(run, setting));

@@ -1,20 +1,48 @@
 #include "engine/run/provenance_writer.hpp"
 
-#include <unistd.h>
-
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
 
 #include "engine/base/version.hpp"
+#include "engine/run/code_identity.hpp"
 #include "engine/run/workflows.hpp"
+#include "engine/store/result_files.hpp"
+#include "engine/store/segment_folder.hpp"
+#include "engine/store/temp_file.hpp"
 
 namespace torquescope {
 
 namespace {
 
-std::string host_name() {
-  char name[256] = {};
-  return gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
+using Json = nlohmann::ordered_json;
+
+// what a batch system says of this process
+Json scheduler() {
+  Json facts = Json::object();
+  for (char const* name : {"SLURM_JOB_ID", "SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID", "SLURM_RESTART_COUNT",
+                           "SLURM_PROCID", "OMPI_COMM_WORLD_RANK"})
+    if (char const* value = std::getenv(name)) facts[name] = value;
+  return facts;
+}
+
+// one line per process that left segments
+Json attempts(std::vector<SegmentOrigin> const& segments) {
+  Json lines = Json::array();
+  std::set<std::tuple<std::string, std::int64_t, std::string>> told;
+  for (auto const& origin : segments)
+    if (told.insert({origin.host, origin.pid, origin.started}).second)
+      lines.push_back({{"host", origin.host},
+                       {"pid", origin.pid},
+                       {"started", origin.started},
+                       {"threads", origin.threads},
+                       {"shard", std::to_string(origin.shard_index) + "/" + std::to_string(origin.shard_count)},
+                       {"job_sha256", origin.job_sha256},
+                       {"numerics_sha256", origin.numerics_sha256}});
+  return lines;
 }
 
 }  // namespace
@@ -28,18 +56,36 @@ std::string utc_now() {
   return text;
 }
 
-void write_provenance(ResultWriter& writer, ThreadChoice const& threads, std::string const& started, double seconds) {
+double Beginning::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - at).count();
+}
+
+std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
+                          Beginning const& beginning, std::vector<SegmentOrigin> const& segments) {
   std::string const group = "/provenance";
-  writer.attribute(group, "started", started);
-  writer.attribute(group, "finished", utc_now());
-  writer.attribute(group, "seconds", seconds);
-  writer.attribute(group, "host", host_name());
-  writer.attribute(group, "threads", std::int64_t{threads.count});
-  writer.attribute(group, "threads_reason", threads.reason);
-  writer.attribute(group, "vector_target", vector_target());
   writer.attribute(group, "version", std::string(version));
   writer.attribute(group, "compiler", std::string(compiler));
   writer.attribute(group, "build_type", std::string(build_type));
+  writer.attribute(group, "numerics_sha256", numerics_sha256());
+  std::string content_sha256 = writer.finish();
+
+  Json const document = {{"schema", 1},
+                         {"content_sha256", content_sha256},
+                         {"started", beginning.started},
+                         {"finished", utc_now()},
+                         {"seconds", beginning.seconds()},
+                         {"host", host_name()},
+                         {"threads", threads.count},
+                         {"threads_reason", threads.reason},
+                         {"vector_target", vector_target()},
+                         {"commit", source_commit()},
+                         {"scheduler", scheduler()},
+                         {"attempts_before", attempts(segments)}};
+  std::string const text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  TempFile file(circumstances_file_of(result));
+  file.write_at(0, text.data(), text.size());
+  file.publish();
+  return content_sha256;
 }
 
 }  // namespace torquescope

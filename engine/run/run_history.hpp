@@ -25,6 +25,8 @@ struct RunHistory {
   std::vector<double> parameters;  // the best candidate
   std::string stop_reason;
   std::int64_t nonfinite = 0;  // candidates without finite fitness
+  double elapsed_s = 0.0;      // spent on it, by the clock that the rule wall_clock_s reads
+  std::size_t told = 0;        // generations that really were, once it has ended; behind them is padding
 
   // room for what pad() will fill: a run touches the part that its generations really need
   void reserve(std::size_t entries, std::size_t members, std::size_t dimension) {

@@ -16,6 +16,27 @@ std::vector<double> RunResults::each(std::vector<PredictionMetrics> const& metri
   return values;
 }
 
+std::vector<std::size_t> RunResults::present() const {
+  std::vector<std::size_t> indexes;
+  for (std::size_t run = 0; run < runs(); ++run)
+    if (stop_reason[run] != missing_run) indexes.push_back(run);
+  return indexes;
+}
+
+RunResults RunResults::only(std::vector<std::size_t> const& indexes) const {
+  RunResults some;
+  for (std::size_t const run : indexes) {
+    some.parameters.push_back(parameters[run]);
+    some.gap.push_back(gap[run]);
+    some.train.push_back(train[run]);
+    if (!validate.empty()) some.validate.push_back(validate[run]);
+    some.stop_reason.push_back(stop_reason[run]);
+    some.evaluations.push_back(evaluations[run]);
+    some.nonfinite.push_back(nonfinite[run]);
+  }
+  return some;
+}
+
 namespace {
 
 bool any_nan(std::vector<double> const& values) {

@@ -14,6 +14,9 @@
 
 namespace torquescope {
 
+// stop_reason of a run that is not there: a partial merge
+inline constexpr char missing_run[] = "missing";
+
 struct RunResults {
   std::vector<Eigen::VectorXd> parameters;
   std::vector<double> gap;  // MSE above the OLS floor
@@ -24,6 +27,8 @@ struct RunResults {
   std::vector<std::int64_t> nonfinite;
 
   std::size_t runs() const { return parameters.size(); }
+  std::vector<std::size_t> present() const;                        // indexes of runs that are not missing
+  RunResults only(std::vector<std::size_t> const& indexes) const;  // these runs
   // one member of the metrics over all runs
   static std::vector<double> each(std::vector<PredictionMetrics> const& metrics, double PredictionMetrics::*member);
 };

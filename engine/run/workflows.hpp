@@ -13,6 +13,7 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/diagnose/diagnosis.hpp"
+#include "engine/store/segment_folder.hpp"
 
 namespace torquescope {
 
@@ -72,7 +73,14 @@ using ProgressSink = std::function<void(ProgressUpdate const&)>;
 struct IdentifyOptions {
   ThreadChoice threads{};
   std::filesystem::path output{};
-  std::function<bool()> stop_requested{};  // polled once a generation; true: Error 75, nothing published
+  std::function<bool()> stop_requested{};     // polled once a generation; true: what is done is saved, Error 75
+  std::function<std::string()> stop_words{};  // by what: "SIGTERM", "time budget (3600 s)"
+  std::function<void()> saving{};             // called before what is done is saved: by a stop, or by the result itself
+  std::function<void(std::string const& topic, std::string const& text)> tell{};  // "resume", "warning"
+  ShardChoice shard{};                                                            // of run_shard()
+  double segment_seconds = 20.0;                                                  // between two segments, at least
+  bool allow_mixed = false;  // go on from segments of another program, or another text of the job
+  std::vector<std::filesystem::path> more_segments{};  // folders beside OUTPUT.parts: of merge
 };
 
 struct IdentifyReport {
@@ -83,9 +91,45 @@ struct IdentifyReport {
   std::string content_sha256;
 };
 
-// runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed
+// runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed.
+// Goes on from the segments of OUTPUT.parts, and leaves some there when it is stopped or killed (RESULT_FORMAT.md)
 IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
 
+// the share of the runs that options.shard says, into segments alone
+struct ShardReport {
+  std::size_t runs = 0, runs_before = 0;  // all of the shard; those that segments had already
+  double seconds = 0.0;
+};
+ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
+
+// the same file as identify() would have written, from segments alone. Error 75 when runs are missing, unless `partial`:
+// these are NaN then
+enum class Completeness { whole, partial };
+IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Completeness wanted,
+                     ProgressSink const& progress);
+
+// what the segments of a result say, read without a word to whoever writes them
+struct JobStatus {
+  struct Estimator {
+    std::string label;
+    std::int64_t runs = 0, ended = 0, begun = 0;
+    std::int64_t generations = 0, generations_done = 0;  // of all runs
+  };
+  struct Writer {
+    std::int64_t shard = 0, shards = 1;
+    std::string host;
+    std::int64_t pid = 0;
+    std::string started, last_written;
+    std::int64_t segments = 0;
+    bool is_alive = false;  // known on this host only
+  };
+  std::string job_name, job_sha256;
+  std::vector<Estimator> estimators;
+  std::vector<Writer> writers;
+  std::uintmax_t bytes = 0;
+  std::vector<std::string> damaged;  // names of segments that cannot be read
+};
+JobStatus read_status(std::filesystem::path const& segment_folder);
 struct DiagnoseRequest {
   ThreadChoice threads{};
   std::filesystem::path output{};

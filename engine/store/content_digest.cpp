@@ -14,8 +14,10 @@ bool is_about_the_file(std::string const& path, std::string const& attribute) {
   return path == "/" && (attribute == complete_key || attribute == content_digest_key);
 }
 
-// host, times, threads
-bool is_volatile(std::string const& path) { return path == "/provenance" || path.starts_with("/provenance/"); }
+// the program that wrote it
+bool is_volatile(std::string const& path) {
+  return path == provenance_path || path.starts_with(std::string(provenance_path) + "/");
+}
 
 std::size_t bytes_of_row(h5::Shape const& shape) {
   std::size_t bytes = sizeof(double);

@@ -73,6 +73,17 @@ Array read_array(h5::Handle const& file, std::string const& path, h5::Element el
   return array;
 }
 
+template <class Value>
+std::vector<Value> read_some_rows(h5::Handle const& file, std::string const& path, h5::Element element,
+                                  std::size_t first, std::size_t count) {
+  h5::Handle const dataset = h5::open_object(file, path);
+  h5::DatasetInfo const info = describe_as(element, dataset);
+  if (first > info.rows() || count > info.rows() - first) throw h5::Failure("it has fewer rows than it should");
+  std::vector<Value> values(count * info.values_per_row());
+  h5::read_rows(dataset, info, first, count, values.data());
+  return values;
+}
+
 }  // namespace
 
 template <class Read>
@@ -113,6 +124,16 @@ ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
 
 ResultReader::WholeNumbers ResultReader::whole_numbers(std::string const& path) const {
   return guarded(path, [&] { return read_array<WholeNumbers>(file_, path, h5::Element::whole_number); });
+}
+
+std::vector<double> ResultReader::number_rows(std::string const& path, std::size_t first, std::size_t count) const {
+  return guarded(path, [&] { return read_some_rows<double>(file_, path, h5::Element::number, first, count); });
+}
+
+std::vector<std::int64_t> ResultReader::whole_number_rows(std::string const& path, std::size_t first,
+                                                          std::size_t count) const {
+  return guarded(path,
+                 [&] { return read_some_rows<std::int64_t>(file_, path, h5::Element::whole_number, first, count); });
 }
 
 std::vector<std::string> ResultReader::texts(std::string const& path) const {

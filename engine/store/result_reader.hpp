@@ -40,6 +40,9 @@ class ResultReader {
 
   Numbers numbers(std::string const& path) const;
   WholeNumbers whole_numbers(std::string const& path) const;
+  // rows [first, first + count) of the first dimension alone; 65 when there are fewer
+  std::vector<double> number_rows(std::string const& path, std::size_t first, std::size_t count) const;
+  std::vector<std::int64_t> whole_number_rows(std::string const& path, std::size_t first, std::size_t count) const;
   std::vector<std::string> texts(std::string const& path) const;
 
   // Value: double (also from a whole number), std::int64_t, std::string, std::vector<double>, std::vector<std::string>

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -64,8 +65,10 @@ constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache
 constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
 
-// a rename is safe only when the folder that holds the name is
-int sync_folder(fs::path const& folder) {
+}  // namespace
+
+int sync_folder_of(fs::path const& name) {
+  fs::path const folder = name.has_parent_path() ? name.parent_path() : fs::path(".");
   int const descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -73,8 +76,6 @@ int sync_folder(fs::path const& folder) {
   // some network file systems have no fsync for folders: they keep names safe themselves
   return error_number == EINVAL ? 0 : error_number;
 }
-
-}  // namespace
 
 TempFile::TempFile(fs::path final_name)
     : final_name_(std::move(final_name)),
@@ -96,6 +97,8 @@ TempFile::TempFile(fs::path final_name)
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) throw cannot_write(final_name_, errno);
+  // where there are no locks, nothing is lost but a hint for whoever tidies up
+  static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
 }
 
 TempFile::~TempFile() {
@@ -246,7 +249,7 @@ void TempFile::publish() {
   check();
 
   ::close(std::exchange(descriptor_, -1));
-  error_number_ = sync_folder(final_name_.has_parent_path() ? final_name_.parent_path() : fs::path("."));
+  error_number_ = sync_folder_of(final_name_);
   check();
 }
 

@@ -5,6 +5,7 @@
     result = Result("R.h5")
     result.job.name                                    'crs_a465_joint'
     result.model.names                                 array(['inertia', 'viscous', ...])
+    result.provenance.finished                         from R.h5.made.json beside it
     result.train.torque                                a numpy array, read when first asked for
     fade = result.estimators["fade"]
     fade.mse_median, fade.cr_start                     attributes of the group
@@ -17,6 +18,7 @@ On the command line, `read_result.py R.h5` prints a summary; with --verify it fi
 """
 
 import argparse
+import json
 import sys
 
 import h5py
@@ -110,6 +112,33 @@ class Group:
             raise ResultError(f"{dataset.file.filename} is damaged in {dataset.name}: {error}") from error
 
 
+def _circumstances(name, content_sha256):
+    """What RESULT.made.json says of this very result: when, where, by whom. {} when it is not there."""
+    try:
+        with open(f"{name}.made.json", encoding="utf-8") as file:
+            told = json.load(file)
+    except (OSError, ValueError):
+        return {}
+    return told if isinstance(told, dict) and told.get("content_sha256") == content_sha256 else {}
+
+
+class Provenance(Group):
+    """How a result was made: the program, from the file; when and where, from RESULT.made.json (from the file, if it is old)."""
+
+    def __init__(self, group, told):
+        super().__init__(group)
+        self._told = told
+
+    def __getattr__(self, name):
+        return self._told[name] if not name.startswith("_") and name in self._told else super().__getattr__(name)
+
+    def __contains__(self, name):
+        return name in self._told or super().__contains__(name)
+
+    def _names(self):
+        return [*super()._names(), *self._told]
+
+
 class Result(Group):
     """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
 
@@ -130,6 +159,8 @@ class Result(Group):
         try:
             self._check(name)
             self.estimators = {key: Group(self._file["runs"][key]) for key in self._order()}
+            if "provenance" in self._file:
+                self.provenance = Provenance(self._file["provenance"], _circumstances(name, self.get("content_sha256")))
         except ResultError:
             self.close()
             raise

@@ -25,6 +25,9 @@ void add_run(CLI::App& app, ChosenCommand& chosen);
 // `diagnose` does the work: the program's is diagnose() of run/workflows.hpp, tests bring their own
 using DiagnoseWork = std::function<Diagnosis(Experiment const&, DiagnoseRequest const&, ProgressSink const&)>;
 void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose);
+void add_merge(CLI::App& app, ChosenCommand& chosen);
+void add_status(CLI::App& app, ChosenCommand& chosen);
+void add_submit(CLI::App& app, ChosenCommand& chosen);
 void add_simulate(CLI::App& app, ChosenCommand& chosen);
 void add_check(CLI::App& app, ChosenCommand& chosen);
 void add_show(CLI::App& app, ChosenCommand& chosen);
@@ -41,5 +44,9 @@ void add_progress_option(CLI::App& command, ChosenCommand& chosen);
 void add_result_option(CLI::App& command, std::string& out);
 // refuses everything but 1 .. 100 000, in our words; 0 stays for "not given"
 void add_threads_option(CLI::App& command, int& threads);
+// refuses what is no number above 0
+void add_seconds_option(CLI::App& command, std::string const& name, double& seconds, std::string const& meaning);
+// --allow-mixed of the commands that go on from segments
+void add_mixed_option(CLI::App& command, bool& allow_mixed);
 
 }  // namespace torquescope

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -6,11 +8,11 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
+#include "engine/app/commands/results.hpp"
+#include "engine/app/commands/shard_choice.hpp"
 #include "engine/app/result/finished_result.hpp"
-#include "engine/app/result/paper_tables.hpp"
-#include "engine/app/result/result_json.hpp"
-#include "engine/app/result/result_tables.hpp"
 #include "engine/app/session_progress.hpp"
+#include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/run/workflows.hpp"
 
@@ -22,16 +24,34 @@ struct RunArguments {
   std::string job;
   std::string out{};
   int threads = 0;  // 0: not given
+  std::string shard{};
+  double time_budget_s = 0.0;  // 0: none
+  double segment_seconds = 20.0;
+  bool allow_mixed = false;
 };
 
-void print_results(Session const& session, ResultSummary const& summary) {
-  session.note("\n");
-  session.result(result_table(summary, session.result_ink()));
-  session.result(paper_tables(summary, session.result_ink()));
-  session.document(result_json(summary));
+// a share of the runs, into segments
+ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::string const& job,
+                   Session const& session) {
+  ShardReport report;
+  {
+    ProgressPrinter print_progress(progress_settings(session));
+    report = run_shard(std::move(experiment), options,
+                       [&print_progress](ProgressUpdate const& update) { print_progress(update); });
+  }
+  std::string const folder = segment_folder_of(options.output).string();
+  session.note(session.topic_line(
+      "done", fmt::format("shard {}/{}: {} runs are safe in {} ({} were done before)", options.shard.index,
+                          options.shard.count, report.runs, folder, report.runs_before)));
+  session.note(session.topic_line("next", fmt::format("when all {} shards are done: torquescope merge {} --out {}",
+                                                      options.shard.count, job, options.output.string())));
+  return ExitCode::ok;
 }
 
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
+  ShardChoice const shard = choose_shard(arguments.shard, environment);
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);
   Experiment experiment = Experiment::load(arguments.job);
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
@@ -42,6 +62,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
     note_whereabouts(session, "kept", output);
+    remove_segments(output);  // of a process that was killed while it tidied up
     return ExitCode::ok;
   }
 
@@ -49,9 +70,22 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   options.threads = choose_threads(arguments.threads);
   options.output = output;
   options.stop_requested = stop_requested;
+  options.stop_words = stop_words;
+  options.saving = saving_begins;
+  options.tell = [&session](std::string const& topic, std::string const& text) {
+    session.note(session.topic_line(topic, text));
+  };
+  options.shard = shard;
+  options.segment_seconds = arguments.segment_seconds;
+  options.allow_mixed = arguments.allow_mixed;
   note_start(session, experiment.job_line(), experiment, options.threads);
   for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
-  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  if (shard.count > 1) {
+    session.note(
+        session.topic_line("shard", fmt::format("{}/{} ({}): every {}th run from {} on; --shard 0/1 for all",
+                                                shard.index, shard.count, shard.reason, shard.count, shard.index)));
+    return run_share(std::move(experiment), options, arguments.job, session);
+  }
   {
     ProgressPrinter print_progress(progress_settings(session));
     identify(std::move(experiment), options,
@@ -67,16 +101,28 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
 
 void add_run(CLI::App& app, ChosenCommand& chosen) {
   auto const arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      app.add_subcommand("run", "Identifies the parameters of a job's model; the same job is not run twice.");
+  CLI::App* command = app.add_subcommand(
+      "run", "Identifies the parameters of a job's model. Killed or stopped? The same command goes on.");
   command->footer(
       "  torquescope run jobs/crs_a465_joint.toml\n"
-      "  torquescope run lab.toml --threads 4 --out lab_4.h5\n"
-      "  torquescope run lab.toml --quiet --json - | jq .estimators\n");
+      "  torquescope run lab.toml --threads 4 --out lab_4.h5 --time-budget 3600\n"
+      "  torquescope run lab.toml --shard 0/2; torquescope run lab.toml --shard 1/2\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
   add_threads_option(*command, arguments->threads);
+  add_seconds_option(*command, "--time-budget", arguments->time_budget_s,
+                     "stop and save in time to be gone after S seconds (exit 75)");
+  add_seconds_option(*command, "--save-every", arguments->segment_seconds,
+                     "seconds between two segments in R.h5.parts [20]");
+  command
+      ->add_option("--shard", arguments->shard,
+                   "the share I of N of the runs, for torquescope merge [SLURM_ARRAY_TASK_ID, SLURM_PROCID, "
+                   "OMPI_COMM_WORLD_RANK]")
+      ->type_name("I/N")
+      ->check(no_shard)
+      ->group("machine");
+  add_mixed_option(*command, arguments->allow_mixed);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -35,6 +35,13 @@ std::string no_whole_number_from_one(std::string const& text) {
   return fits ? "" : fmt::format("\"{}\" is no whole number from 1 to 100000", text);
 }
 
+std::string no_seconds(std::string const& text) {
+  double value = 0.0;
+  auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  bool const fits = failure == std::errc{} && end == text.data() + text.size() && value > 0.0 && value < 1e9;
+  return fits ? "" : fmt::format("\"{}\" is no number of seconds above 0", text);
+}
+
 }  // namespace
 
 void add_colour_option(CLI::App& command, ChosenCommand& chosen) {
@@ -71,6 +78,15 @@ void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
       ->type_name("N")
       ->check(no_whole_number_from_one)
+      ->group("machine");
+}
+
+void add_seconds_option(CLI::App& command, std::string const& name, double& seconds, std::string const& meaning) {
+  command.add_option(name, seconds, meaning)->type_name("S")->check(no_seconds)->group("machine");
+}
+
+void add_mixed_option(CLI::App& command, bool& allow_mixed) {
+  command.add_flag("--allow-mixed", allow_mixed, "go on from segments of another program or job text, bits may differ")
       ->group("machine");
 }
 

@@ -84,7 +84,6 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
   CLI::App* command = app.add_subcommand("show", "Prints the tables of a result file and how it was made.");
   command->footer(
       "  torquescope show crs_a465_joint.h5\n"
-      "  torquescope show lab.h5 --json lab.json\n"
       "  torquescope show lab.h5 --verify && cp lab.h5 /archive\n"
       "  torquescope show lab.h5 --json - | jq .estimators[0].parameters\n");
   command->add_option("R.h5", arguments->file, "result file of torquescope run or diagnose, HDF5")->required();

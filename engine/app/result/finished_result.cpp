@@ -34,6 +34,7 @@ bool already_complete(std::filesystem::path const& output, std::string const& in
   }
   if (made.inputs_sha256 != inputs_sha256)
     throw output_exists(output, "was made by another job, or from other recordings (sha256 differs)");
+  if (made.is_partial()) return false;  // its segments are there to make it whole
   bool const wants_diagnosis = kind == ResultKind::diagnosis;
   if (wants_diagnosis != made.has_diagnosis)
     throw output_exists(output, made.has_diagnosis ? "holds the diagnosis of this job, not its runs"

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/store/result_files.hpp"
 
 namespace torquescope {
 
@@ -38,6 +41,7 @@ EstimatorSummary read_estimator(ResultReader const& reader, std::string const& n
   summary.kind = reader.attribute<std::string>(group, "kind");
   summary.title = text_or_empty(reader, group, "title");
   summary.runs = reader.attribute<std::int64_t>(group, "runs");
+  summary.missing_runs = reader.find_attribute<std::int64_t>(group, "missing_runs").value_or(0);
   summary.evaluations = reader.find_attribute<std::int64_t>(group, "evaluations_total").value_or(0);
 
   auto const median_run = static_cast<std::size_t>(
@@ -84,19 +88,38 @@ DataSummary read_data(ResultReader const& reader, std::string const& group) {
   return summary;
 }
 
-ProvenanceSummary read_provenance(ResultReader const& reader) {
+// when, where and by whom: beside the result, or in it when it is of an older version
+nlohmann::json read_circumstances(std::filesystem::path const& result, std::string const& content_sha256) {
+  std::ifstream file(circumstances_file_of(result));
+  auto const made = nlohmann::json::parse(file, nullptr, false);
+  // what another result of this name left behind says nothing of this one
+  bool const fits = made.is_object() && made.contains("content_sha256") && made["content_sha256"] == content_sha256;
+  return fits ? made : nlohmann::json();
+}
+
+ProvenanceSummary read_provenance(ResultReader const& reader, std::string const& content_sha256) {
   std::string const group = "/provenance";
+  auto const made = read_circumstances(reader.name(), content_sha256);
+  auto const text = [&](char const* key) {
+    bool const told = made.is_object() && made.contains(key) && made[key].is_string();
+    return told ? made[key].get<std::string>() : text_or_empty(reader, group, key);
+  };
+  auto const number = [&](char const* key) {
+    bool const told = made.is_object() && made.contains(key) && made[key].is_number();
+    return told ? made[key].get<double>() : number_or_nan(reader, group, key);
+  };
   ProvenanceSummary summary;
-  summary.started = text_or_empty(reader, group, "started");
-  summary.finished = text_or_empty(reader, group, "finished");
-  summary.host = text_or_empty(reader, group, "host");
-  summary.threads_reason = text_or_empty(reader, group, "threads_reason");
-  summary.vector_target = text_or_empty(reader, group, "vector_target");
-  summary.version = text_or_empty(reader, group, "version");
-  summary.compiler = text_or_empty(reader, group, "compiler");
-  summary.build_type = text_or_empty(reader, group, "build_type");
-  summary.seconds = number_or_nan(reader, group, "seconds");
-  summary.threads = reader.find_attribute<std::int64_t>(group, "threads").value_or(0);
+  summary.started = text("started");
+  summary.finished = text("finished");
+  summary.host = text("host");
+  summary.threads_reason = text("threads_reason");
+  summary.vector_target = text("vector_target");
+  summary.version = text("version");
+  summary.compiler = text("compiler");
+  summary.build_type = text("build_type");
+  summary.seconds = number("seconds");
+  double const threads = number("threads");
+  summary.threads = std::isnan(threads) ? 0 : static_cast<std::int64_t>(threads);
   return summary;
 }
 
@@ -112,6 +135,10 @@ std::int64_t ResultSummary::evaluations() const {
   std::int64_t sum = 0;
   for (auto const& estimator : estimators) sum += estimator.evaluations;
   return sum;
+}
+
+bool ResultSummary::is_partial() const {
+  return std::any_of(estimators.begin(), estimators.end(), [](auto const& e) { return e.missing_runs > 0; });
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -160,7 +187,7 @@ ResultSummary read_summary(std::filesystem::path const& file) {
   if (!summary.has_diagnosis || reader.exists("/runs"))
     for (auto const& name : reader.attribute<std::vector<std::string>>("/runs", "order"))
       summary.estimators.push_back(read_estimator(reader, name, summary.names.size()));
-  summary.provenance = read_provenance(reader);
+  summary.provenance = read_provenance(reader, summary.content_sha256);
   return summary;
 }
 

@@ -17,10 +17,10 @@ namespace torquescope {
 
 struct EstimatorSummary {
   std::string name, kind, title;
-  std::int64_t runs = 0;
-  std::vector<double> parameters;       // [R] of the median run
-  std::vector<double> parameters_mean;  // [R] over the runs, as a paper would average them
-  std::vector<double> standard_error;   // [R] least squares only: HAC; else empty
+  std::int64_t runs = 0, missing_runs = 0;  // missing: of a partial merge
+  std::vector<double> parameters;           // [R] of the median run
+  std::vector<double> parameters_mean;      // [R] over the runs, as a paper would average them
+  std::vector<double> standard_error;       // [R] least squares only: HAC; else empty
   double mse_median = 0.0, mse_best = 0.0, mse_worst = 0.0, mse_std = 0.0, mse_mean = 0.0;
   double mse_lower_quartile = 0.0, mse_upper_quartile = 0.0;
   // MSE above the OLS floor: what tells searches apart once their MSEs agree to every printed digit
@@ -62,6 +62,7 @@ struct ResultSummary {
 
   std::int64_t runs() const;  // of all estimators
   std::int64_t evaluations() const;
+  bool is_partial() const;  // some runs are missing
 };
 
 ResultSummary read_summary(std::filesystem::path const& file);

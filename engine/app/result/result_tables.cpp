@@ -198,12 +198,15 @@ std::string origin_lines(ResultSummary const& summary, Ink const& ink) {
   text += hanging("  data     ", data_text(summary.train));
   if (summary.has_validation) text += hanging("  unseen   ", data_text(summary.validation));
   if (!summary.equation.empty()) text += hanging("  model    ", printable(summary.equation));
-  text += hanging("  machine  ", fmt::format("{}; {} threads ({}), {}", printable(made.host), made.threads,
-                                             printable(made.threads_reason), printable(made.vector_target)));
+  bool const known = !made.host.empty();
+  text += hanging("  machine  ", known ? fmt::format("{}; {} threads ({}), {}", printable(made.host), made.threads,
+                                                     printable(made.threads_reason), printable(made.vector_target))
+                                       : "not known: the file that ends in .made.json is not beside the result");
   text += hanging("  program  ", fmt::format("torquescope {}, {}, {}", printable(made.version),
                                              printable(made.compiler), printable(made.build_type)));
-  text += hanging("  time     ", fmt::format("{} to {}, {}", printable(made.started), printable(made.finished),
-                                             seconds_text(made.seconds)));
+  if (known)
+    text += hanging("  time     ", fmt::format("{} to {}, {}", printable(made.started), printable(made.finished),
+                                               seconds_text(made.seconds)));
   text += hanging("  content  ", fmt::format("sha256 {:.16}, {}", summary.content_sha256, bytes_text(summary.bytes)));
   if (!summary.health_words.empty())
     text += hanging("  " + ink.warning("warn") + "     ", printable(summary.health_words));

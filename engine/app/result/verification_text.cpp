@@ -34,11 +34,11 @@ std::string verification_text(Verification const& facts) {
               fmt::format("{}, {}, {} of values: all read, every checksum holds; sha256 {:.16} as stored",
                           count_of(facts.content.datasets, "dataset"), count_of(facts.content.attributes, "attribute"),
                           bytes_text(static_cast<std::uintmax_t>(facts.content.value_bytes)), facts.content.sha256));
-  text += hanging("  job      ", fmt::format("its text has the sha256 stored, {:.16}", facts.job_sha256));
-  text += hanging("  apart    ",
-                  fmt::format("/provenance (host, times, threads: {}) is no part of that sha256: its checksums hold, "
-                              "changes made on purpose would not show",
-                              count_of(facts.provenance.attributes, "attribute")));
+  if (!facts.job_sha256.empty())
+    text += hanging("  job      ", fmt::format("its text has the sha256 stored, {:.16}", facts.job_sha256));
+  text += hanging("  apart    ", fmt::format("/provenance (which program: {}) is no part of that sha256: its checksums "
+                                             "hold, changes made on purpose would not show",
+                                             count_of(facts.provenance.attributes, "attribute")));
   return text;
 }
 

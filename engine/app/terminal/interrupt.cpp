@@ -1,29 +1,74 @@
 #include "engine/app/terminal/interrupt.hpp"
 
+#include <fmt/format.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): sigaction is POSIX, <csignal> does not promise it
+#include <time.h>    // NOLINT(modernize-deprecated-headers): clock_gettime is POSIX, <ctime> does not promise it
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <limits>
 #include <string_view>
 
 namespace torquescope {
 
 namespace {
 
+constexpr unsigned seconds_to_stop = 4;
+constexpr int stopped = 75;  // ExitCode::stopped
+
 // lock-free, so that a signal handler may touch them
-std::atomic<int> signals_seen{0};
+std::atomic<int> first_signal{0};
+std::atomic<int> interrupts_seen{0};
 std::atomic<bool> notice_spoken{false};
+std::atomic<bool> saving{false};
+std::atomic<double> budget_s{0.0};
+std::atomic<double> stop_at_s{std::numeric_limits<double>::infinity()};
 static_assert(std::atomic<int>::is_always_lock_free);
+
+double clock_s(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double const process_began_s = clock_s(CLOCK_MONOTONIC);
+
+void say(std::string_view text) {
+  if (!notice_spoken.load()) return;
+  [[maybe_unused]] auto const written = ::write(STDERR_FILENO, text.data(), text.size());
+}
 
 void on_stop_signal(int number) {
   int const saved_errno = errno;
-  if (signals_seen.fetch_add(1) > 0) ::_exit(128 + number);
-  if (notice_spoken.load()) {
-    constexpr std::string_view notice = "\nstopping after the running generation (again to stop at once)\n";
-    [[maybe_unused]] auto const written = ::write(STDERR_FILENO, notice.data(), notice.size());
+  if (number == SIGINT && interrupts_seen.fetch_add(1) > 0) ::_exit(128 + number);
+  int none = 0;
+  if (first_signal.compare_exchange_strong(none, number)) {
+    say("\nstopping after the running generation (Ctrl-C to stop at once)\n");
+    if (!saving.load()) ::alarm(seconds_to_stop);
   }
   errno = saved_errno;
+}
+
+void on_alarm(int) {
+  say("\nstopped in the middle of a generation that takes long; the same command goes on from its last segment\n");
+  ::_exit(stopped);
+}
+
+char const* name_of(int number) {
+  switch (number) {
+    case SIGINT:
+      return "Ctrl-C (SIGINT)";
+    case SIGTERM:
+      return "SIGTERM";
+    case SIGUSR1:
+      return "SIGUSR1";
+    case SIGXCPU:
+      return "SIGXCPU (limit of processor time)";
+    default:
+      return "SIGHUP (its terminal went away)";
+  }
 }
 
 }  // namespace
@@ -40,12 +85,33 @@ void install_stop_signals(StopNotice notice) {
     ::sigaction(number, nullptr, &inherited);
     if (inherited.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
   }
+  action.sa_handler = on_alarm;
+  ::sigaction(SIGALRM, &action, nullptr);
 }
 
 void ignore_write_signals() {
   for (int const number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_IGN);
 }
 
-bool stop_requested() { return signals_seen.load(std::memory_order_relaxed) > 0; }
+void stop_after(double seconds) {
+  constexpr double share_to_save = 0.1, most_to_save_s = 60.0;
+  budget_s.store(seconds);
+  stop_at_s.store(process_began_s + seconds - std::min(share_to_save * seconds, most_to_save_s));
+}
+
+bool stop_requested() {
+  return first_signal.load(std::memory_order_relaxed) != 0 ||
+         clock_s(CLOCK_MONOTONIC_COARSE) >= stop_at_s.load(std::memory_order_relaxed);
+}
+
+std::string stop_words() {
+  int const number = first_signal.load();
+  return number != 0 ? name_of(number) : fmt::format("time budget ({:g} s)", budget_s.load());
+}
+
+void saving_begins() {
+  saving.store(true);
+  ::alarm(0);
+}
 
 }  // namespace torquescope

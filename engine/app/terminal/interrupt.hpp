@@ -1,9 +1,16 @@
 #pragma once
-// Ctrl-C and friends: the first asks the run to stop after its generation, the second ends the process at once.
+// Ctrl-C and friends: the first asks the work to stop after its generation; a second Ctrl-C ends the process at once.
 //
-// Signals    SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGHUP; SIGPIPE and SIGXFSZ are ignored, so that writing reports them
-// Exit       75 by way of stop_requested(); 128 + signal number on the second one (130 for Ctrl-C)
+// Signals    SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGHUP; SIGPIPE and SIGXFSZ are ignored, so that writing reports them.
+//            SIGCONT is none: Slurm sends it along with SIGTERM. A batch system sends several signals in a row, so only
+//            Ctrl-C twice means "at once"
+// Exit       75 by way of stop_requested(); 75 at the latest after four seconds, whatever is being computed (segments on the
+//            disk are safe then, the rest is not), unless saving_begins() has said that the rest is on its way;
+//            130 on the second Ctrl-C
+// Budget     stop_after() makes a time budget one more reason to stop
 // Threads    stop_requested() from any thread
+
+#include <string>
 
 namespace torquescope {
 
@@ -11,6 +18,10 @@ enum class StopNotice { spoken, silent };  // silent: --quiet
 
 void install_stop_signals(StopNotice notice);
 void ignore_write_signals();  // SIGPIPE, SIGXFSZ: for every command
+// of the time since the process began; what is done is saved a tenth of it, but at most a minute, before its end
+void stop_after(double seconds);
 bool stop_requested();
+std::string stop_words();  // by what: "SIGTERM", "time budget (3600 s)"
+void saving_begins();
 
 }  // namespace torquescope

@@ -47,10 +47,10 @@ std::vector<RunHistory> run_bowls(StopRules const& rules, std::uint32_t first, s
                                   std::function<bool()> stop = {}) {
   Bowl const bowl;
   SearchSetting const setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}, std::move(stop)};
-  std::vector<std::unique_ptr<Optimiser>> searches;
-  for (std::uint32_t run = first; run < first + count; ++run) searches.push_back(make_fade(run));
+  std::vector<RunStart> starts;
+  for (std::uint32_t run = first; run < first + count; ++run) starts.push_back({make_fade(run)});
   std::vector<Workspace> workspaces;
-  return optimise(searches, setting, team, workspaces);
+  return optimise(std::move(starts), setting, team, workspaces);
 }
 
 RunHistory run_bowl(StopRules const& rules, int team, std::function<bool()> stop = {}) {
@@ -139,11 +139,11 @@ TEST(Optimise, AnExceptionOfOneRunIsToldNotSwallowed) {
   Bowl const bowl;
   StopRules const rules;
   SearchSetting const setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }};
-  std::vector<std::unique_ptr<Optimiser>> searches;
-  searches.push_back(make_fade(0));
-  searches.push_back(std::make_unique<Broken>());
+  std::vector<RunStart> starts;
+  starts.push_back({make_fade(0)});
+  starts.push_back({std::make_unique<Broken>()});
   std::vector<Workspace> workspaces;
-  EXPECT_THROW(optimise(searches, setting, 1, workspaces), std::runtime_error);
+  EXPECT_THROW(optimise(std::move(starts), setting, 1, workspaces), std::runtime_error);
 }
 
 TEST(Optimise, GoesSideBySideOnlyWhereTheRecordingIsReadAnewAndNoRuleCountsSeconds) {
@@ -165,6 +165,61 @@ TEST(Optimise, SpendsAnEvaluationBudgetExactly) {
   EXPECT_EQ(history.evaluations.back(), 137);
   EXPECT_EQ(history.stop_reason, "evaluations");
   EXPECT_TRUE(std::isnan(history.best.back()));  // generations that never were
+}
+
+TEST(Optimise, InterruptedAnywhereGoesOnToTheSameBits) {
+  Bowl const bowl;
+  StopRules rules;
+  rules.generations = 60;
+  rules.target = 2e-4;  // runs end before, each in a generation of its own
+  rules.evaluations = 1234;
+  auto const whole = run_bowls(rules, 0, 3);
+  for (int const interval : {1, 2, 7, 30}) {
+    // every `interval` generations all runs are stopped, and begun anew from what was kept of them
+    std::vector<RunStart> starts;
+    for (std::uint32_t run = 0; run < 3; ++run) starts.push_back({make_fade(run)});
+    std::vector<RunHistory> resumed;
+    for (int attempts = 0; resumed.empty() && attempts < 100; ++attempts) {
+      std::vector<RunStart> kept(3);
+      int polls = 0;
+      SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
+      setting.stop_requested = [&] { return polls++ == interval; };
+      setting.keep = [&](std::size_t index, RunHistory const& so_far, Optimiser const& search) {
+        kept[index] = {make_fade(static_cast<std::uint32_t>(index)), so_far};
+        kept[index].search->restore(search.save());
+      };
+      std::vector<Workspace> workspaces;
+      try {
+        resumed = optimise(std::move(starts), setting, 1, workspaces);
+      } catch (Error const& error) {
+        EXPECT_EQ(error.code(), ExitCode::stopped);
+      }
+      starts = std::move(kept);
+    }
+    ASSERT_EQ(resumed.size(), 3u) << interval;
+    for (std::size_t run = 0; run < 3; ++run) {
+      expect_same_bits(resumed[run], whole[run]);
+      EXPECT_EQ(resumed[run].told, whole[run].told);
+    }
+  }
+}
+
+TEST(Optimise, KeepsEveryRunWhenAsked) {
+  Bowl const bowl;
+  StopRules rules;
+  rules.generations = 10;
+  std::vector<std::size_t> generations;
+  SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
+  setting.keep_now = [asked = 0]() mutable { return ++asked == 4; };
+  setting.keep = [&](std::size_t, RunHistory const& so_far, Optimiser const&) {
+    generations.push_back(so_far.best.size());
+  };
+  std::vector<RunStart> starts;
+  starts.push_back({make_fade(0)});
+  starts.push_back({make_fade(1)});
+  std::vector<Workspace> workspaces;
+  EXPECT_EQ(optimise(std::move(starts), setting, 1, workspaces).front().told, 11u);
+  EXPECT_EQ(generations, (std::vector<std::size_t>{4, 4}));
 }
 
 TEST(Optimise, StopsAtOnceWhenAsked) {

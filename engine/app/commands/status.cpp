@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/result/result_summary.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/app/terminal/table.hpp"
+#include "engine/base/error.hpp"
+#include "engine/base/quantity_text.hpp"
+
+namespace torquescope {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// "lab.h5", whether the result or its folder of segments was named
+fs::path result_of(std::string name) {
+  while (name.size() > 1 && name.back() == '/') name.pop_back();
+  std::string const ending = ".parts";
+  return name.ends_with(ending) ? name.substr(0, name.size() - ending.size()) : name;
+}
+
+int percent(JobStatus::Estimator const& estimator) {
+  return estimator.generations > 0 ? static_cast<int>(100 * estimator.generations_done / estimator.generations) : 0;
+}
+
+std::string status_text(JobStatus const& status, fs::path const& result, Ink const& ink) {
+  using Align = TextTable::Align;
+  std::string text = fmt::format("{} is not finished: job {}, {} of segments\n", ink.name(printable(result.string())),
+                                 printable(status.job_name), bytes_text(status.bytes));
+  TextTable runs({Align::left, Align::right, Align::right, Align::right}, "  ");
+  runs.row({"runs", "done", "begun", "generations"});
+  for (auto const& estimator : status.estimators)
+    runs.row({printable(estimator.label), fmt::format("{} of {}", estimator.ended, estimator.runs),
+              std::to_string(estimator.begun), fmt::format("{} %", percent(estimator))});
+  text += runs.text(page_width);
+  TextTable writers({Align::left, Align::left, Align::right, Align::right, Align::left, Align::left}, "  ");
+  writers.row({"shard", "host", "process", "segments", "last written (UTC)", ""});
+  for (auto const& writer : status.writers)
+    writers.row({fmt::format("{}/{}", writer.shard, writer.shards), printable(writer.host), std::to_string(writer.pid),
+                 std::to_string(writer.segments), printable(writer.last_written), writer.is_alive ? "at work" : ""});
+  text += writers.text(page_width);
+  for (auto const& name : status.damaged)
+    text += hanging(ink.warning("warning") + "  ", printable(name) + " is damaged; its generations run again");
+  return text;
+}
+
+std::string status_json(JobStatus const& status, fs::path const& result, bool complete) {
+  Json estimators = Json::array(), writers = Json::array();
+  for (auto const& e : status.estimators)
+    estimators.push_back({{"name", e.label},
+                          {"runs", e.runs},
+                          {"done", e.ended},
+                          {"begun", e.begun},
+                          {"generations", e.generations},
+                          {"generations_done", e.generations_done}});
+  for (auto const& w : status.writers)
+    writers.push_back({{"shard", w.shard},
+                       {"shards", w.shards},
+                       {"host", w.host},
+                       {"pid", w.pid},
+                       {"started", w.started},
+                       {"last_written", w.last_written},
+                       {"segments", w.segments},
+                       {"alive_here", w.is_alive}});
+  Json const document = {{"schema", 1},
+                         {"file", result.string()},
+                         {"complete", complete},
+                         {"job", {{"name", status.job_name}, {"sha256", status.job_sha256}}},
+                         {"segment_bytes", status.bytes},
+                         {"estimators", estimators},
+                         {"writers", writers},
+                         {"damaged_segments", status.damaged}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitCode show_status(std::string const& name, Session const& session) {
+  fs::path const result = result_of(name), folder = segment_folder_of(result);
+  bool const has_segments = fs::is_directory(folder);
+  if (fs::exists(result)) {
+    ResultSummary const summary = read_summary(result);
+    if (!summary.is_partial() || !has_segments) {
+      JobStatus status;
+      status.job_name = summary.name;
+      status.job_sha256 = summary.job_sha256;
+      for (auto const& e : summary.estimators)
+        status.estimators.push_back({e.name, e.runs, e.runs - e.missing_runs, 0, 0, 0});
+      session.result(fmt::format("{} is {}: {} runs   (torquescope show {})\n", printable(result.string()),
+                                 summary.is_partial() ? "partial" : "complete", summary.runs(),
+                                 printable(result.string())));
+      session.document(status_json(status, result, !summary.is_partial()));
+      return ExitCode::ok;
+    }
+  }
+  JobStatus const status = has_segments ? read_status(folder) : JobStatus{};
+  validate(!status.writers.empty() || !status.damaged.empty(), [&] {
+    return Problem{
+        .code = ExitCode::no_input,
+        .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
+        .help = "a job writes its first segment after 20 s (run --save-every), a shorter one only its result"};
+  });
+  session.result(status_text(status, result, session.result_ink()));
+  session.document(status_json(status, result, false));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, ChosenCommand& chosen) {
+  auto const name = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("status", "Says how far a job is, living or dead, from its segments; changes nothing.");
+  command->footer(
+      "  torquescope status lab.h5\n"
+      "  torquescope status lab.h5.parts --json -\n"
+      "  watch -n 20 torquescope status lab.h5\n");
+  command->add_option("R.h5", *name, "the result file, there or not yet, or its folder R.h5.parts")->required();
+  add_json_option(*command, chosen);
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback(
+      [name, &chosen] { chosen.work = [name](Session const& session) { return show_status(*name, session); }; });
+}
+
+}  // namespace torquescope

@@ -1,0 +1,240 @@
+#include "engine/run/population_stage.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/problem/residual_objective.hpp"
+#include "engine/problem/statistics_objective.hpp"
+#include "engine/run/code_identity.hpp"
+#include "engine/run/optimise.hpp"
+#include "engine/run/provenance_writer.hpp"
+#include "engine/run/run_scheduler.hpp"
+#include "engine/run/search_identity.hpp"
+#include "engine/run/stage_progress.hpp"
+
+namespace torquescope {
+
+namespace {
+
+using History = std::shared_ptr<RunHistory const>;
+
+std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, EstimatorPlan const& plan,
+                                          FitnessChoice const& choice) {
+  auto const& rows = parts.train.regression;
+  auto const scale = fitness_scale(plan.objective);
+  if (choice.from_statistics)
+    return std::make_unique<StatisticsObjective>(*parts.statistics, static_cast<std::size_t>(rows.rows()), parts.box,
+                                                 scale);
+  if (choice.in_float32) return std::make_unique<SinglePrecisionObjective>(rows, parts.box, scale);
+  return std::make_unique<ResidualObjective>(rows, parts.box, make_loss(plan.objective, rows), scale);
+}
+
+SegmentOrigin origin_of(Experiment const& experiment, IdentifyOptions const& options) {
+  SegmentOrigin origin;
+  origin.job_sha256 = experiment.parts().job.sha256;
+  origin.inputs_sha256 = experiment.inputs_sha256();
+  origin.numerics_sha256 = numerics_sha256();
+  origin.job_name = experiment.name();
+  origin.shard_index = options.shard.index;
+  origin.shard_count = options.shard.count;
+  origin.pid = ::getpid();
+  origin.threads = options.threads.count;
+  origin.started = utc_now();
+  return origin;
+}
+
+SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& options) {
+  SavedRunsRequest request;
+  request.folders = {segment_folder_of(options.output)};
+  request.folders.insert(request.folders.end(), options.more_segments.begin(), options.more_segments.end());
+  request.expected = origin_of(experiment, options);
+  for (auto const& plan : experiment.parts().estimators)
+    if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
+  request.allow_mixed = options.allow_mixed;
+  if (options.shard.count > 1) request.wanted = [&](std::size_t run) { return options.shard.has(run); };
+  return SavedRuns(request);
+}
+
+// a new optimiser, or one that goes on from a part
+RunStart make_start(PopulationStage const& stage, std::size_t run, std::optional<RunPart> part) {
+  RandomKey const key{static_cast<std::uint64_t>(stage.parts.experiment.seed), static_cast<std::uint32_t>(run)};
+  RunStart start{stage.plan.make_optimiser(stage.parts.box, key)};
+  if (!part) return start;
+  try {
+    start.search->restore(part->state);
+  } catch (std::invalid_argument const& refusal) {
+    throw Error(
+        Problem{.code = ExitCode::bad_job,
+                .what = fmt::format("run {} of {} cannot go on: {}", run, stage.plan.label, refusal.what()),
+                .help = "delete " + segment_folder_of(stage.attempt.options.output).string() + " to begin again"});
+  }
+  start.history = std::move(part->history);
+  return start;
+}
+
+// one group of neighbouring runs
+class Group {
+ public:
+  Group(PopulationStage const& stage, HistoryShape const& shape, SearchSetting setting)
+      : stage_(stage), shape_(shape), setting_(std::move(setting)) {
+    auto& keeper = stage_.attempt.keeper;
+    setting_.keep_now = [&keeper, seen = keeper.due()]() mutable {
+      auto const due = keeper.due();
+      return due != std::exchange(seen, due);
+    };
+    setting_.keep = [this](std::size_t index, RunHistory const& so_far, Optimiser const& search) {
+      stage_.attempt.keeper.keep(begun_[index], so_far, search);
+    };
+  }
+
+  std::vector<History> run(std::span<std::size_t const> runs, int team) {
+    std::vector<History> histories(runs.size());
+    std::vector<RunStart> starts;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      auto part = load(runs[i]);
+      if (part && part->ended) {
+        histories[i] = std::make_shared<RunHistory const>(std::move(part->history));
+        continue;
+      }
+      starts.push_back(make_start(stage_, runs[i], std::move(part)));
+      places.push_back(i);
+      begun_.push_back(runs[i]);
+      stage_.attempt.keeper.begin(runs[i]);
+    }
+    if (starts.empty()) return histories;
+    std::vector<Workspace> workspaces;
+    auto found = optimise(std::move(starts), setting_, team, workspaces);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      auto const history = std::make_shared<RunHistory const>(std::move(found[k]));
+      histories[places[k]] = history;
+      stage_.attempt.keeper.ended(begun_[k], history);
+    }
+    return histories;
+  }
+
+ private:
+  std::optional<RunPart> load(std::size_t run) {
+    auto& saved = stage_.attempt.saved;
+    if (saved.empty()) return std::nullopt;
+    std::lock_guard const alone(stage_.attempt.hdf5);
+    return saved.load(stage_.plan.label, shape_, run);
+  }
+
+  PopulationStage const& stage_;
+  HistoryShape const& shape_;
+  SearchSetting setting_;
+  std::vector<std::size_t> begun_;
+};
+
+}  // namespace
+
+Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given)
+    : options(given),
+      saved(find_saved_runs(experiment, given)),
+      keeper({.folder = segment_folder_of(given.output),
+              .origin = origin_of(experiment, given),
+              .shard = given.shard,
+              .interval_s = given.segment_seconds,
+              .everything = given.shard.count > 1},
+             hdf5) {
+  auto const runs = runs_of_shard(experiment.parts(), options.shard);
+  for (auto const& plan : experiment.parts().estimators) {
+    if (plan.is_closed_form()) continue;
+    runs_total += runs.size();
+    runs_before += static_cast<std::size_t>(
+        std::count_if(runs.begin(), runs.end(), [&](std::size_t run) { return saved.has_ended(plan.label, run); }));
+  }
+}
+
+HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& plan) {
+  return {static_cast<std::size_t>(parts.experiment.runs), static_cast<std::size_t>(plan.stop_rules.generations),
+          plan.make_optimiser(parts.box, {})->batch_size(), parts.regressor->size()};
+}
+
+std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {
+  std::vector<std::size_t> runs;
+  for (std::size_t run = 0; run < static_cast<std::size_t>(parts.experiment.runs); ++run)
+    if (shard.has(run)) runs.push_back(run);
+  return runs;
+}
+
+void run_population(PopulationStage const& stage, std::vector<std::size_t> const& runs, CommitRun const& commit) {
+  auto const& [parts, plan, choice, floor, sink, attempt] = stage;
+  HistoryShape const shape = history_shape(parts, plan);
+  auto const objective = make_objective(parts, plan, choice);
+  std::map<std::size_t, std::size_t> safe;
+  for (std::size_t const run : runs)
+    if (auto const generations = attempt.saved.generations(plan.label, run)) safe[run] = generations;
+  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, std::move(safe));
+
+  StageProgress progress(sink, plan.label, static_cast<std::int64_t>(runs.size()),
+                         static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * shape.members));
+  SearchSetting const setting{
+      *objective,
+      plan.stop_rules,
+      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0
+                                                         : 1.0 / static_cast<double>(parts.train.regression.rows()),
+      [&](std::span<double const> candidate) { return stage.floor.gap(candidate); },
+      [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
+      attempt.options.stop_requested,
+  };
+  schedule_runs(
+      runs.size(), attempt.options.threads.count, runs_side_by_side(*objective, plan.stop_rules, shape.members),
+      [&](std::size_t first, std::size_t count, int team) {
+        return Group(stage, shape, setting).run(std::span(runs).subspan(first, count), team);
+      },
+      [&](std::size_t index, History history) {
+        {
+          std::lock_guard const alone(stage.attempt.hdf5);
+          commit(runs[index], *history);
+        }
+        progress.count_run();
+      });
+}
+
+void stop_and_save(Attempt& attempt) {
+  auto const& options = attempt.options;
+  if (options.saving) options.saving();
+  attempt.keeper.write_all();
+  std::size_t const safe = attempt.runs_before + attempt.keeper.runs_safe();
+  Problem problem;
+  problem.code = ExitCode::stopped;
+  problem.what = fmt::format("stopped by {}: {} of {} runs are safe",
+                             options.stop_words ? options.stop_words() : "request", safe, attempt.runs_total);
+  if (attempt.keeper.segments_written() > 0 || attempt.runs_before > 0)
+    problem.notes = {"and so is what others had begun, in " + segment_folder_of(options.output).string()};
+  problem.help = "run the same command again to continue";
+  throw Error(problem);
+}
+
+std::string missing_runs(Experiment::Parts const& parts, SavedRuns const& saved, std::size_t& count) {
+  std::vector<std::string> words;
+  count = 0;
+  for (auto const& plan : parts.estimators) {
+    if (plan.is_closed_form()) continue;
+    std::vector<std::string> ranges;
+    auto const runs = static_cast<std::size_t>(parts.experiment.runs);
+    for (std::size_t run = 0; run < runs; ++run) {
+      if (saved.has_ended(plan.label, run)) continue;
+      std::size_t const first = run;
+      while (run + 1 < runs && !saved.has_ended(plan.label, run + 1)) ++run;
+      count += run - first + 1;
+      ranges.push_back(first == run ? fmt::format("{}", first) : fmt::format("{} to {}", first, run));
+    }
+    constexpr std::size_t most_ranges = 12;
+    bool const cut = ranges.size() > most_ranges;
+    if (cut) ranges.resize(most_ranges);
+    if (!ranges.empty())
+      words.push_back(fmt::format("{} {}{}", plan.label, fmt::join(ranges, ", "), cut ? ", ..." : ""));
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+}  // namespace torquescope

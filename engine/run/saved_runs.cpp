@@ -1,0 +1,189 @@
+#include "engine/run/saved_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/error.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t most_open_files = 16;
+
+// the number of runs may grow
+bool same_lists(HistoryShape const& a, HistoryShape const& b) {
+  return a.generations == b.generations && a.members == b.members && a.parameters == b.parameters;
+}
+
+Error other_job(SegmentFile const& file, SegmentOrigin const& expected) {
+  bool const other_text = file.origin().job_sha256 != expected.job_sha256;
+  std::string const folder = file.name().parent_path().string();
+  Problem problem;
+  problem.code = ExitCode::bad_job;
+  problem.what = fmt::format(
+      "{} holds runs of {}", file.name().string(),
+      other_text ? fmt::format("another job, \"{}\" (the sha256 of its text differs)", file.origin().job_name)
+                 : "this job on other recordings (their sha256 differs)");
+  problem.help = fmt::format(
+      "--out another name, or delete {}; --allow-mixed goes on with those estimators whose numbers stay the same",
+      folder);
+  return Error(problem);
+}
+
+Error other_program(SegmentFile const& file) {
+  Problem problem;
+  problem.code = ExitCode::bad_job;
+  problem.what =
+      fmt::format("{} was written by another program (sources, compiler or build differ)", file.name().string());
+  problem.notes = {"its runs may differ in their last digits from those of this one"};
+  problem.help = fmt::format("go on with the program that began; or delete {} and begin again; or --allow-mixed",
+                             file.name().parent_path().string());
+  return Error(problem);
+}
+
+Error other_search(SegmentFile const& file, std::string const& label) {
+  return Error(Problem{.code = ExitCode::bad_job,
+                       .what = fmt::format("runs of {} in {} were made with other settings, or on other data", label,
+                                           file.name().string()),
+                       .notes = {"--allow-mixed takes what follows from the same numbers, and this does not"},
+                       .help = "--out another name, or delete " + file.name().parent_path().string()});
+}
+
+Error disagree(std::string const& label, std::size_t run, std::size_t generation, std::filesystem::path const& one,
+               std::filesystem::path const& other) {
+  Problem problem;
+  problem.code = ExitCode::bad_data;
+  problem.what = fmt::format("two segments disagree about generation {} of run {} of {}", generation, run, label);
+  problem.notes = {one.string(), other.string(),
+                   "equal jobs give equal bits: a machine or this program is at fault, or a file was changed"};
+  problem.help = "delete the one whose machine you trust less, and run the same command again";
+  return Error(problem);
+}
+
+}  // namespace
+
+SavedRuns::SavedRuns(SavedRunsRequest const& request) {
+  for (auto const& folder : request.folders)
+    for (auto const& name : segments_in(folder)) {
+      try {
+        SegmentFile const file(name);
+        if (!accept(file, request)) continue;
+        file.verify();
+        files_.push_back(name);
+        take(file, files_.size() - 1);
+      } catch (Error const& error) {
+        // removed meanwhile by a process that finished, or damaged: as if it had never been there
+        if (error.code() != ExitCode::bad_data && error.code() != ExitCode::no_input) throw;
+        warnings_.push_back(error.problems().front().what + "; its generations run again");
+      }
+    }
+  for (auto& [label, runs] : runs_)
+    for (auto& [run, pieces] : runs)
+      std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {
+        return a.first != b.first ? a.first < b.first : a.end > b.end;
+      });
+}
+
+// false: nothing in it is wanted
+bool SavedRuns::accept(SegmentFile const& file, SavedRunsRequest const& request) {
+  bool const same_inputs = file.origin().inputs_sha256 == request.expected.inputs_sha256;
+  bool const same_program = file.origin().numerics_sha256 == request.expected.numerics_sha256;
+  if (!same_inputs && !request.allow_mixed) throw other_job(file, request.expected);
+  if (!same_program && !request.allow_mixed) throw other_program(file);
+  bool wanted = false;
+  for (auto const& [label, index] : file.estimators()) {
+    auto const known = request.searches.find(label);
+    if (known == request.searches.end()) continue;
+    if (known->second != index.search_sha256) throw other_search(file, label);
+    wanted = wanted || !request.wanted ||
+             std::any_of(index.entries.begin(), index.entries.end(),
+                         [&](auto const& entry) { return request.wanted(entry.run); });
+  }
+  if (wanted) mixed_ = mixed_ || !same_program || !same_inputs;
+  return wanted;
+}
+
+void SavedRuns::take(SegmentFile const& file, std::size_t index) {
+  origins_.push_back(file.origin());
+  for (auto const& [label, estimator] : file.estimators())
+    for (std::size_t i = 0; i < estimator.entries.size(); ++i) {
+      auto const& entry = estimator.entries[i];
+      runs_[label][entry.run].push_back({index, i, entry.first, entry.first + entry.count, entry.ended});
+    }
+}
+
+SavedRuns::Pieces const* SavedRuns::find(std::string const& label, std::size_t run) const {
+  auto const runs = runs_.find(label);
+  if (runs == runs_.end()) return nullptr;
+  auto const pieces = runs->second.find(run);
+  return pieces == runs->second.end() ? nullptr : &pieces->second;
+}
+
+std::size_t SavedRuns::generations(std::string const& label, std::size_t run) const {
+  std::size_t end = 0;
+  if (Pieces const* pieces = find(label, run))
+    for (auto const& piece : *pieces)
+      if (piece.first <= end) end = std::max(end, piece.end);
+  return end;
+}
+
+bool SavedRuns::has_ended(std::string const& label, std::size_t run) const {
+  Pieces const* pieces = find(label, run);
+  if (!pieces) return false;
+  std::size_t const end = generations(label, run);
+  return std::any_of(pieces->begin(), pieces->end(), [&](Piece const& p) { return p.ended && p.end <= end; });
+}
+
+SegmentFile& SavedRuns::opened(std::size_t file) {
+  auto const known = open_.find(file);
+  if (known != open_.end()) return *known->second;
+  if (open_.size() >= most_open_files) open_.erase(open_.begin());
+  return *open_.emplace(file, std::make_unique<SegmentFile>(files_[file])).first->second;
+}
+
+std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape const& shape, std::size_t run) {
+  Pieces const* pieces = find(label, run);
+  if (!pieces) return std::nullopt;
+  RunPart whole{.run = run};
+  std::vector<std::pair<std::size_t, std::size_t>> sources;  // until which generation, from which file
+  auto const source_of = [&](std::size_t generation) {
+    for (auto const& [end, file] : sources)
+      if (generation < end) return files_[file];
+    return files_[sources.back().second];
+  };
+  for (Piece const& piece : *pieces) {
+    if (piece.first > whole.count) break;  // what lies between is lost: so is what follows
+    SegmentFile& file = opened(piece.file);
+    if (!same_lists(file.estimators().at(label).shape, shape)) throw other_search(file, label);
+    RunPart part = file.read(label, piece.entry);
+    std::size_t const difference = first_difference(whole.history, part, shape);
+    if (difference < part.end()) throw disagree(label, run, difference, source_of(difference), file.name());
+    // an end is an end: nothing comes behind it, and two ends are one
+    bool const both_end = whole.ended && part.ended;
+    bool const goes_on = (whole.ended && part.end() > whole.count) || (part.ended && part.end() < whole.count);
+    if (goes_on || (both_end && (part.end() != whole.count || part.history.stop_reason != whole.history.stop_reason)))
+      throw disagree(label, run, std::min(part.end(), whole.count), source_of(whole.count), file.name());
+    if (part.end() > whole.count) {
+      std::size_t const from = whole.count;
+      append(whole.history, part, shape, from);
+      whole.count = part.end();
+      whole.state = std::move(part.state);
+      sources.emplace_back(whole.count, piece.file);
+    }
+    if (part.ended) {
+      whole.ended = true;
+      whole.history.stop_reason = part.history.stop_reason;
+      whole.history.parameters = part.history.parameters;
+    }
+  }
+  if (whole.count == 0) return std::nullopt;
+  if (whole.ended) {
+    whole.history.told = whole.count;
+    whole.history.pad(shape.generations + 1, shape.members, shape.parameters);
+  }
+  return whole;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,70 @@
+#pragma once
+// What segments know of the runs of a job: what is done, and what each run goes on from.
+//
+// Trust      only segments that verify() whole: one that is damaged counts as absent, its generations run again
+// Twice      generations that two segments have must be equal, bit by bit: two attempts of one run disagree only when
+//            something is broken, a machine or this program
+// Errors     65 when two segments disagree (both are named); 78 when a segment belongs to another job, or to another
+//            program unless that is allowed
+// Threads    as HDF5: one of the process at a time
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/segment_file.hpp"
+
+namespace torquescope {
+
+struct SavedRunsRequest {
+  std::vector<std::filesystem::path> folders;
+  SegmentOrigin expected;                       // the job and the program that would go on
+  std::map<std::string, std::string> searches;  // search_sha256 of every population method, by label
+  bool allow_mixed =
+      false;  // take segments of another program, or of a job whose other text changes no number of these
+  std::function<bool(std::size_t run)> wanted{};  // segments without such runs are not read further; empty: all
+};
+
+class SavedRuns {
+ public:
+  SavedRuns() = default;
+  explicit SavedRuns(SavedRunsRequest const& request);
+
+  // run by run, by what the indexes say
+  bool has_ended(std::string const& label, std::size_t run) const;
+  std::size_t generations(std::string const& label, std::size_t run) const;  // without a gap, from 0 on
+
+  // its history so far, and the optimiser's state when it has not ended; nothing when no segment has its beginning
+  std::optional<RunPart> load(std::string const& label, HistoryShape const& shape, std::size_t run);
+
+  std::vector<SegmentOrigin> const& origins() const { return origins_; }  // of every segment taken
+  std::vector<std::string> const& warnings() const { return warnings_; }  // what was left aside, and why
+  bool empty() const { return files_.empty(); }
+  bool mixed() const { return mixed_; }
+
+ private:
+  struct Piece {
+    std::size_t file, entry, first, end;
+    bool ended;
+  };
+  using Pieces = std::vector<Piece>;
+
+  Pieces const* find(std::string const& label, std::size_t run) const;
+  bool accept(SegmentFile const& file, SavedRunsRequest const& request);
+  void take(SegmentFile const& file, std::size_t index);
+  SegmentFile& opened(std::size_t file);
+
+  std::vector<std::filesystem::path> files_;
+  std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;   // a few of them
+  std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation
+  std::vector<SegmentOrigin> origins_;
+  std::vector<std::string> warnings_;
+  bool mixed_ = false;
+};
+
+}  // namespace torquescope

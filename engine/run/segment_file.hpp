@@ -1,0 +1,73 @@
+#pragma once
+// One segment: parts of runs of one job in a small, complete, checksummed file (RESULT_FORMAT.md, "Segments").
+//
+// Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for
+// Trust      the index is believed after its own checksums; histories only after verify(), which reads everything
+// Errors     writing: those of ResultWriter (74); reading: those of ResultReader (65 for whatever is damaged or not ours)
+// Threads    as HDF5: one of the process at a time
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/run/run_part.hpp"
+#include "engine/store/result_reader.hpp"
+#include "engine/store/segment_folder.hpp"
+
+namespace torquescope {
+
+// who wrote it, for which job
+struct SegmentOrigin {
+  std::string job_sha256, inputs_sha256, numerics_sha256;
+  std::string job_name;
+  std::size_t shard_index = 0, shard_count = 1;
+  std::string host;
+  std::int64_t pid = 0, threads = 0;
+  std::string started, written;  // ISO 8601 UTC
+};
+
+struct EstimatorParts {
+  std::string label;
+  std::string search_sha256;  // of all that its numbers follow from, but the program: settings and training data
+  HistoryShape shape;
+  std::vector<RunPart> parts;
+};
+
+void write_segment(std::filesystem::path const& name, SegmentOrigin const& origin,
+                   std::vector<EstimatorParts> const& estimators);
+
+class SegmentFile {
+ public:
+  // of one part, without its numbers
+  struct Entry {
+    std::size_t run, first, count;
+    bool ended;
+    std::size_t row;                     // where its generations begin in the lists
+    std::size_t state_first, state_end;  // entries of its optimiser's state
+    std::string stop_reason;
+  };
+  struct Index {
+    std::string search_sha256;
+    HistoryShape shape;
+    std::vector<Entry> entries;
+  };
+
+  explicit SegmentFile(std::filesystem::path const& name);
+
+  std::filesystem::path const& name() const { return reader_.name(); }
+  SegmentOrigin const& origin() const { return origin_; }
+  std::map<std::string, Index> const& estimators() const { return estimators_; }  // by label
+  void verify() const { static_cast<void>(reader_.verify()); }
+  RunPart read(std::string const& label, std::size_t entry) const;
+
+ private:
+  void read_index(std::string const& label);
+
+  ResultReader reader_;
+  SegmentOrigin origin_;
+  std::map<std::string, Index> estimators_;
+};
+
+}  // namespace torquescope

@@ -1,0 +1,52 @@
+#pragma once
+// The folder RESULT.parts, where a long job leaves its segments until the result file is whole: names, listing, removal.
+//
+// Names      shard-<I>-of-<N>.<host>.<pid>.<began>.<number>.h5: one name per attempt and segment, so that no two processes
+//            ever write the same file, whatever else runs (an orphan of a dead Slurm daemon, the same command twice)
+// Segments   complete HDF5 files written by ResultWriter: temp file, fsync, rename, fsync of the folder. Never changed.
+// Errors     74 when the folder cannot be made; removal never fails loudly: what is left is stale, not wrong
+// Threads    free functions
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+struct ShardChoice {
+  std::size_t index = 0, count = 1;
+  std::string reason{};  // "--shard", "SLURM_ARRAY_TASK_ID"; "" when the job is not divided
+
+  bool has(std::size_t run) const { return run % count == index; }
+};
+
+std::filesystem::path segment_folder_of(std::filesystem::path const& result);
+
+// makes the folder, safe against power loss; nothing to do when it is there
+void make_segment_folder(std::filesystem::path const& folder);
+
+// of this process, since it began: different on every node and at every start
+class SegmentNames {
+ public:
+  SegmentNames(std::filesystem::path folder, ShardChoice const& shard);
+  std::filesystem::path next();
+  std::string const& host() const { return host_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::string host_, begin_;
+  std::size_t number_ = 0;
+};
+
+// finished segments, sorted by name; none when there is no folder
+std::vector<std::filesystem::path> segments_in(std::filesystem::path const& folder);
+
+// once the result is whole: all segments, what killed processes left of unfinished ones, and the folder unless it holds
+// something else; and what killed processes left of the result itself. A file that a living process writes stays.
+void remove_segments(std::filesystem::path const& result);
+
+std::string host_name();
+
+}  // namespace torquescope

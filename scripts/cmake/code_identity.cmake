@@ -1,0 +1,41 @@
+# Run at every build: what the numbers of a result depend on, as one sha256, and the commit for people. Writes OUTPUT only
+# when it changed, so that nothing is linked again for nothing.
+#
+#   cmake -D SOURCE=... -D OUTPUT=... -P code_identity.cmake
+set(layers kernels engine/base engine/data engine/robot engine/optim engine/effects engine/problem engine/simulate
+           engine/diagnose engine/job engine/store engine/run)
+set(all "")
+foreach(layer IN LISTS layers)
+  file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${layer}/*.cpp ${SOURCE}/${layer}/*.hpp)
+  list(APPEND all ${files})
+endforeach()
+list(SORT all)
+set(text "")
+foreach(file IN LISTS all)
+  file(SHA256 ${SOURCE}/${file} hash)
+  string(APPEND text "${file} ${hash}\n")
+endforeach()
+string(SHA256 sources "${text}")
+
+set(commit "")
+find_package(Git QUIET)
+if(GIT_FOUND AND EXISTS ${SOURCE}/.git)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty --abbrev=12 WORKING_DIRECTORY ${SOURCE}
+                  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+
+set(code "// written by scripts/cmake/code_identity.cmake
+#include \"engine/run/code_identity.hpp\"
+
+namespace torquescope {
+char const* sources_sha256() { return \"${sources}\"; }
+char const* source_commit() { return \"${commit}\"; }
+}  // namespace torquescope
+")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL code)
+  file(WRITE ${OUTPUT} "${code}")
+endif()

@@ -1,0 +1,179 @@
+"""A small job of several estimators, run in a folder of its own, interrupted in every way, and compared byte by byte."""
+
+import contextlib
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "report"))
+
+PROGRAM = os.environ["TORQUESCOPE"]
+SEED = int(os.environ.get("FAULT_SEED", time.time_ns() % 1_000_000))
+SECONDS = 60  # far beyond what any of these commands needs
+
+JOB = """
+[experiment]
+name = "fault"
+seed = 7
+runs = 7
+
+[filter]
+cutoff_hz = 20
+
+[model]
+joint = "revolute"
+terms = ["inertia", "viscous", "coulomb", "offset"]
+
+[model.bounds]
+every = [-1, 1]
+
+[[estimator]]
+name = "ols"
+
+[[estimator]]
+name = "de"
+population = 14
+generations = 250
+fitness = "direct"
+
+[[estimator]]
+name = "fade"
+population = 12
+generations = 120
+stagnation = 25
+fitness = "direct"
+
+[simulate]
+mode = "inverse_dynamics"
+rate_hz = 200
+duration_s = 15
+validate = true
+
+[simulate.plant]
+inertia = 0.5
+viscous = 0.2
+coulomb = 0.1
+
+[simulate.noise]
+torque_std = 0.02
+"""
+
+
+def environment(changes=None):
+    dropped = ("CI", "NO_COLOR", "CLICOLOR_FORCE", "OMP_NUM_THREADS")
+    kept = {key: value for key, value in os.environ.items()
+            if key not in dropped and not key.startswith(("SLURM_", "OMPI_"))}
+    kept["LC_ALL"] = "C.UTF-8"
+    kept.update(changes or {})
+    return kept
+
+
+class Ended:
+    """How one process ended: code (negative: by that signal), what it said, how long after `since` it took."""
+
+    def __init__(self, process, since=None):
+        out, err = process.communicate(timeout=SECONDS)
+        self.seconds = time.monotonic() - since if since is not None else None
+        self.code, self.out, self.err = process.returncode, out.decode(), err.decode()
+
+    @property
+    def said(self):
+        return " ".join(self.err.split())
+
+
+class Folder:
+    """One folder with the job in it."""
+
+    def __init__(self, path, job=JOB):
+        self.path = path
+        self.write("job.toml", job)
+
+    def __truediv__(self, name):
+        return os.path.join(self.path, name)
+
+    def write(self, name, text):
+        with open(self / name, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def start(self, *arguments, changes=None):
+        return subprocess.Popen([PROGRAM, *arguments], cwd=self.path, env=environment(changes), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def run(self, *arguments, changes=None):
+        return Ended(self.start(*arguments, changes=changes))
+
+    def stopped_after(self, seconds, number, *arguments):
+        """Starts, waits, sends the signal (nothing when it has ended by then), waits for its end."""
+        process = self.start(*arguments)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=seconds)
+        since = time.monotonic()
+        if process.poll() is None:
+            process.send_signal(number)
+        return Ended(process, since)
+
+    def segments(self, result="r.h5"):
+        folder = self / (result + ".parts")
+        try:
+            names = os.listdir(folder)
+        except FileNotFoundError:  # not yet, or no longer
+            return []
+        return sorted(os.path.join(folder, name) for name in names if name.endswith(".h5"))
+
+    def done(self, result="r.h5"):
+        """How many runs segments have to their end, and how many generations; None when the result is there."""
+        if os.path.exists(self / result):
+            return None
+        if not self.segments(result):
+            return 0, 0
+        told = json.loads(self.run("status", result, "--json", "-").out)
+        return (sum(e["done"] for e in told["estimators"]), sum(e["generations_done"] for e in told["estimators"]))
+
+
+class FaultTest(unittest.TestCase):
+    """Folders that go away, one result to compare with (made once, uninterrupted, by one thread), and the chance used."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.home = tempfile.mkdtemp(prefix="torquescope_fault_")
+        cls.addClassCleanup(shutil.rmtree, cls.home)
+        cls.whole = Folder(cls.new_path())
+        began = time.monotonic()
+        ended = cls.whole.run("run", "job.toml", "--out", "r.h5", "--threads", "1")
+        if ended.code != 0:
+            raise AssertionError(ended.err)
+        cls.seconds = time.monotonic() - began  # of one uninterrupted run
+        cls.chance = random.Random(SEED)
+        print(f"{cls.__name__}: FAULT_SEED={SEED}, one run takes {cls.seconds:.2f} s", file=sys.stderr)
+
+    @classmethod
+    def new_path(cls):
+        return tempfile.mkdtemp(dir=cls.home)
+
+    def folder(self, job=JOB):
+        return Folder(self.new_path(), job)
+
+    def options(self):
+        """Whatever may differ from one attempt to the next."""
+        return ("--threads", self.chance.choice("12"), "--save-every", self.chance.choice(("0.005", "0.02", "0.1")))
+
+    def assert_same(self, folder, result="r.h5"):
+        """`cmp` says nothing; nothing unfinished is left."""
+        with open(self.whole / "r.h5", "rb") as one, open(folder / result, "rb") as other:
+            self.assertTrue(one.read() == other.read(), f"{result} differs from the uninterrupted one")
+        left = set(os.listdir(folder.path)) - {"job.toml", result, result + ".made.json"}
+        self.assertFalse(left, "nothing else is left")
+
+    def assert_ended(self, ended, code):
+        self.assertEqual(ended.code, code, ended.err)
+
+
+SIGNALS = [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGXCPU, signal.SIGHUP]

@@ -1,0 +1,47 @@
+// The scripts of `submit`: jobs/slurm/*.sbatch with every line filled in, valid for bash whatever the names are.
+
+#include "engine/app/commands/slurm_scripts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/temporary_folder.hpp"
+
+namespace torquescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+SlurmPlan const plan{"/opt/torque scope", "it's a job.toml", "out/r.h5", "lab", 8, 4, "01:30:00", "long"};
+
+TEST(SlurmScripts, SayWhatWasAskedFor) {
+  std::string const script = array_script(plan);
+  for (auto const* line :
+       {"#!/bin/bash\n", "\n#SBATCH --array=0-7\n", "\n#SBATCH --cpus-per-task=4\n", "\n#SBATCH --time=01:30:00\n",
+        "\n#SBATCH --partition=long\n", "\n#SBATCH --requeue\n", "\n#SBATCH --open-mode=append\n",
+        "\n#SBATCH --signal=B:USR1@120\n", "\njob='it'\\''s a job.toml'\n", "\nresult='out/r.h5'\n", "\nshards=8\n",
+        "scontrol requeue"})
+    EXPECT_THAT(script, HasSubstr(line));
+  EXPECT_THAT(merge_script(plan), HasSubstr("merge \"$job\" --out \"$result\""));
+  EXPECT_THAT(array_script({"t", "j", "r", "n", 2, 1}), Not(HasSubstr("--partition")));
+}
+
+TEST(SlurmScripts, AreValidForBash) {
+  test::TemporaryFolder const folder;
+  for (auto const& text : {array_script(plan), merge_script(plan)}) {
+    auto const file = folder.write("script.sh", text);
+    EXPECT_EQ(std::system(("bash -n '" + file.string() + "'").c_str()), 0);
+  }
+}
+
+// the words a shell makes of it
+TEST(ShellWord, IsOneWordWhateverItHolds) {
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("$(rm -r x); 'y'"), "'$(rm -r x); '\\''y'\\'''");
+}
+
+}  // namespace
+}  // namespace torquescope

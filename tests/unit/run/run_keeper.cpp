@@ -1,0 +1,236 @@
+// What the keeper promises: nothing for short jobs, one segment an interval, everything at a stop or of a shard; and that what
+// it writes is read back to the bit, verified, by SavedRuns.
+
+#include "engine/run/run_keeper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "engine/base/error.hpp"
+#include "engine/run/saved_runs.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace torquescope {
+namespace {
+
+HistoryShape const shape{5, 9, 4, 2};  // runs, generations, members, parameters
+
+// numbers that name their place
+RunHistory history_of(std::size_t run, std::size_t generations) {
+  RunHistory history;
+  history.nonfinite = 3;
+  for (std::size_t g = 0; g < generations; ++g) {
+    double const base = 1000.0 * static_cast<double>(run) + static_cast<double>(g);
+    for (std::size_t i = 0; i < 8; ++i) history.population.push_back(base + 0.01 * static_cast<double>(i));
+    for (std::size_t i = 0; i < 4; ++i) history.fitness.push_back(base - 0.5);
+    for (auto* list : {&history.F, &history.CR, &history.PC, &history.FC}) list->push_back(g ? base : std::nan(""));
+    history.best.push_back(-base);
+    history.gap.push_back(base * base);
+    history.evaluations.push_back(static_cast<std::int64_t>(4 * g + 4));
+  }
+  return history;
+}
+
+std::shared_ptr<RunHistory const> ended(std::size_t run, std::size_t generations) {
+  auto history = history_of(run, generations);
+  history.told = generations;
+  history.pad(10, 4, 2);
+  history.parameters = {1.5, static_cast<double>(run)};
+  history.stop_reason = "target";
+  return std::make_shared<RunHistory const>(std::move(history));
+}
+
+std::unique_ptr<Optimiser> a_search() {
+  std::vector<Problem> problems;
+  auto search = find_optimiser("de")->prepare(Section{}, {}, problems)(Bounds{{0, 0}, {1, 1}}, RandomKey{5, 1});
+  std::vector<double> candidates(search->batch_size() * 2), fitness(search->batch_size(), 1.0);
+  // after one generation every number of its state is a number
+  for (int batch = 0; batch < 2; ++batch) {
+    search->ask({candidates.data(), search->batch_size(), 2});
+    search->tell({candidates.data(), search->batch_size(), 2}, fitness);
+  }
+  return search;
+}
+
+SegmentOrigin const origin{"job", "inputs", "program", "name", 0, 1, "", 1, 1, "now", ""};
+
+class Keeping : public ::testing::Test {
+ protected:
+  RunKeeper keeper(double interval_s, bool everything = false) {
+    return RunKeeper(
+        {.folder = folder_ / "r.h5.parts", .origin = origin, .interval_s = interval_s, .everything = everything},
+        hdf5_);
+  }
+  std::size_t segments() const { return segments_in(folder_ / "r.h5.parts").size(); }
+  SavedRunsRequest request() const {
+    return {.folders = {folder_ / "r.h5.parts"}, .expected = origin, .searches = {{"de", "search"}}};
+  }
+  SavedRuns saved() const { return SavedRuns(request()); }
+  static void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+
+  test::TemporaryFolder folder_;
+  std::mutex hdf5_;
+};
+
+void expect_same_bits(RunHistory const& a, RunHistory const& b) {
+  for (auto const& list : history_lists) {
+    auto const &x = a.*list.values, &y = b.*list.values;
+    ASSERT_EQ(x.size(), y.size()) << list.name;
+    EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << list.name;
+  }
+  EXPECT_EQ(a.evaluations, b.evaluations);
+  EXPECT_EQ(a.parameters, b.parameters);
+  EXPECT_EQ(a.stop_reason, b.stop_reason);
+  EXPECT_EQ(a.nonfinite, b.nonfinite);
+  EXPECT_EQ(a.told, b.told);
+}
+
+TEST_F(Keeping, AShortJobWritesNothing) {
+  auto keeper = this->keeper(20.0);
+  keeper.begin_estimator("de", "search", shape, {});
+  for (std::size_t run = 0; run < 5; ++run) {
+    keeper.begin(run);
+    keeper.ended(run, ended(run, 10));
+    EXPECT_EQ(keeper.due(), 0u);
+  }
+  keeper.write_all();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.h5.parts")) << "not even the folder";
+}
+
+TEST_F(Keeping, WhatEndsAtOnceIsLetGoAndWhatComesLaterIsNot) {
+  auto keeper = this->keeper(1.0);
+  keeper.begin_estimator("de", "search", shape, {});
+  keeper.ended(0, ended(0, 10));
+  wait(130);  // more than a tenth of the interval
+  keeper.ended(1, ended(1, 10));
+  keeper.write_all();
+  auto const runs = saved();
+  EXPECT_FALSE(runs.has_ended("de", 0));
+  EXPECT_TRUE(runs.has_ended("de", 1));
+}
+
+TEST_F(Keeping, AShardsRunsAreAllThere) {
+  auto keeper = this->keeper(20.0, true);
+  keeper.begin_estimator("de", "search", shape, {});
+  for (std::size_t run = 0; run < 5; ++run) keeper.ended(run, ended(run, 4 + run));
+  keeper.write_all();
+  EXPECT_EQ(segments(), 1u);
+  EXPECT_EQ(keeper.runs_safe(), 5u);
+  auto runs = saved();
+  for (std::size_t run = 0; run < 5; ++run) {
+    EXPECT_TRUE(runs.has_ended("de", run));
+    auto const part = runs.load("de", shape, run);
+    ASSERT_TRUE(part && part->ended);
+    expect_same_bits(part->history, *ended(run, 4 + run));
+  }
+  EXPECT_FALSE(runs.load("fade", shape, 0));
+}
+
+TEST_F(Keeping, ARunUnderWayIsWrittenPieceByPieceAndGoesOnFromItsLastState) {
+  auto keeper = this->keeper(0.01);
+  keeper.begin_estimator("de", "search", shape, {});
+  auto const search = a_search();
+  keeper.begin(3);
+  for (std::size_t generations : {2u, 5u, 6u}) {
+    auto const before = keeper.due();
+    while (keeper.due() == before) wait(2);
+    keeper.keep(3, history_of(3, generations), *search);
+  }
+  EXPECT_EQ(segments(), 3u);
+  auto runs = saved();
+  EXPECT_FALSE(runs.has_ended("de", 3));
+  EXPECT_EQ(runs.generations("de", 3), 6u);
+  auto const part = runs.load("de", shape, 3);
+  ASSERT_TRUE(part && !part->ended);
+  expect_same_bits(part->history, history_of(3, 6));
+  EXPECT_EQ(part->state, search->save());
+
+  keeper.ended(3, ended(3, 6));  // with no generation more
+  keeper.write_all();
+  auto whole = saved();
+  EXPECT_TRUE(whole.has_ended("de", 3));
+  expect_same_bits(whole.load("de", shape, 3)->history, *ended(3, 6));
+}
+
+TEST_F(Keeping, WaitsForEveryRunUnderWayBeforeItWrites) {
+  auto keeper = this->keeper(0.01);
+  keeper.begin_estimator("de", "search", shape, {});
+  auto const search = a_search();
+  keeper.begin(0);
+  keeper.begin(1);
+  while (keeper.due() == 0) wait(2);
+  keeper.keep(0, history_of(0, 3), *search);
+  EXPECT_EQ(segments(), 0u);
+  keeper.keep(1, history_of(1, 2), *search);
+  EXPECT_EQ(segments(), 1u);
+}
+
+TEST_F(Keeping, SegmentsOfAnotherJobProgramOrSearchAreRefused) {
+  auto keeper = this->keeper(20.0, true);
+  keeper.begin_estimator("de", "search", shape, {});
+  keeper.ended(0, ended(0, 3));
+  keeper.write_all();
+  auto const code = [](SavedRunsRequest const& request) {
+    try {
+      SavedRuns const runs(request);
+      return ExitCode::ok;
+    } catch (Error const& error) {
+      return error.code();
+    }
+  };
+  EXPECT_EQ(code(request()), ExitCode::ok);
+  for (auto const member : {&SegmentOrigin::inputs_sha256, &SegmentOrigin::numerics_sha256}) {
+    auto other = request();
+    other.expected.*member = "another";
+    EXPECT_EQ(code(other), ExitCode::bad_job);
+    other.allow_mixed = true;
+    EXPECT_EQ(code(other), ExitCode::ok);
+    EXPECT_TRUE(SavedRuns(other).mixed());
+    other.searches["de"] = "another";
+    EXPECT_EQ(code(other), ExitCode::bad_job) << "other numbers are never mixed in";
+  }
+}
+
+TEST_F(Keeping, WhatLiesBehindAGapIsNotTaken) {
+  auto keeper = this->keeper(20.0, true);
+  keeper.begin_estimator("de", "search", shape, {{2, 4}});  // generations 0 to 3 are in a segment that is lost
+  keeper.ended(2, ended(2, 8));
+  keeper.write_all();
+  auto runs = saved();
+  EXPECT_FALSE(runs.has_ended("de", 2));
+  EXPECT_EQ(runs.generations("de", 2), 0u);
+  EXPECT_FALSE(runs.load("de", shape, 2));
+}
+
+TEST_F(Keeping, TwoAccountsOfOneRunMustAgree) {
+  for (bool const agree : {true, false}) {
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      auto keeper = this->keeper(20.0, true);
+      keeper.begin_estimator("de", "search", shape, {});
+      auto history = *ended(1, 7);
+      if (!agree && attempt == 1) history.fitness[4 * 5] += 1e-9;
+      keeper.ended(1, std::make_shared<RunHistory const>(history));
+      keeper.write_all();
+    }
+    auto runs = saved();
+    if (agree) {
+      EXPECT_TRUE(runs.load("de", shape, 1));
+      continue;
+    }
+    try {
+      runs.load("de", shape, 1);
+      FAIL();
+    } catch (Error const& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_data);
+      EXPECT_NE(error.problems().front().what.find("generation 5 of run 1 of de"), std::string::npos);
+      EXPECT_GE(error.problems().front().notes.size(), 2u) << "both are named";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace torquescope
