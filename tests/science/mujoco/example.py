@@ -80,7 +80,7 @@ def diagnosis(torquescope, folder, concealed, out):
     verdict = verdicts / f"{CASE}.json"
     verdict.unlink(missing_ok=True)
     print(run(torquescope, "diagnose", "job.toml", "--json", verdict, "--out", out / "diagnosis.h5", cwd=folder))
-    print(run(sys.executable, "-B", pathlib.Path(concealed) / "score.py", out / "sealed", verdicts, "--all-right"))
+    print(run(sys.executable, "-B", pathlib.Path(concealed) / "score.py", out, "--all-right"))
 
 
 def main(what, torquescope, make_case, simulate, concealed, out):
