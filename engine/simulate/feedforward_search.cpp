@@ -79,13 +79,15 @@ ReferenceTerm refined(ReferenceTerm term, Projection const& projection) {
   return term;
 }
 
-bool is_beyond_chance(double gain, Projection const& projection, std::size_t tried) {
+bool is_worth_a_term(double gain, Projection const& projection, std::size_t tried, bool is_first) {
   constexpr double z = 3.29;
   Eigen::VectorXd const& residual = projection.residual();
   double const memory = std::clamp(autocorrelation(residual, 1), 0.0, 0.99);
   double const independent = static_cast<double>(residual.size()) * (1.0 - memory) / (1.0 + memory);
   double const left = std::max(residual.squaredNorm() - gain, 1e-300);
-  return independent * gain / left > z * z + 2.0 * std::log(static_cast<double>(tried));
+  double const least_share = is_first ? 0.1 : 0.0;
+  return gain > least_share * residual.squaredNorm() &&
+         independent * gain / left > z * z + 2.0 * std::log(static_cast<double>(tried));
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ std::vector<ReferenceTerm> find_feedforward(LoopSignals const& s, ControllerColu
         most = gain;
         best = &term;
       }
-    if (best == nullptr || !is_beyond_chance(most, projection, all.size())) break;
+    if (best == nullptr || !is_worth_a_term(most, projection, all.size(), columns.terms.empty())) break;
     columns.terms.push_back(best->shape == ReferenceShape::smooth_sign ? refined(*best, projection) : *best);
   }
   return columns.terms;

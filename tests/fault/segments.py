@@ -276,11 +276,11 @@ class Segments(study.FaultTest):
 
     def test_a_generation_that_takes_long_is_not_waited_for(self):
         folder = self.folder(study.JOB.replace("population = 14", "population = 100000")
-                             .replace("duration_s = 15", "duration_s = 2000").replace("validate = true", "validate = false"))
+                             .replace("duration_s = 15", "duration_s = 8000").replace("validate = true", "validate = false"))
         process = folder.start("run", "job.toml", "--out", "r.h5", "--threads", "1")
         while b"stage=de" not in process.stderr.readline():
             pass
-        time.sleep(1.0)  # into the first generation, which takes some ten seconds
+        time.sleep(1.0)  # into the first generation, which takes ten seconds and more
         process.terminate()
         ended = study.Ended(process, time.monotonic())
         self.assert_ended(ended, 75)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -57,5 +58,7 @@ TEST(RecordedLoop, OfEmpsWithPulsesIsNotTakenForALaw) {
   filter.cutoff_hz = 100.0;
   auto const found = recorded_loop(read(path), 95.0, filter);
   EXPECT_EQ(found.source, LoopSource::approximated);
-  EXPECT_GT(std::abs(found.controller->residual_acf[3]), 0.3);
+  auto const& acf = found.controller->residual_acf;
+  // a tanh of the reference's velocity imitates most of the pulses; five times beyond what white noise could be is left
+  EXPECT_GT(*std::max_element(acf.begin(), acf.end()), 5.0 * found.controller->white_bound);
 }
