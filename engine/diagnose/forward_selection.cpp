@@ -91,7 +91,7 @@ class Search {
     remaining_ = std::max(stage_.energy.excess, found);
     bool const is_clear = is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share;
     // later on, what an imperfect first name leaves is just as certain, and no physics
-    is_faint_ = is_first && !is_clear && *std::min_element(q.begin(), q.end()) <= faint_q &&
+    is_faint_ = is_first && found > 0.0 && !is_clear && *std::min_element(q.begin(), q.end()) <= faint_q &&
                 energy_share(stage_, found) > smallest_faint_share;
     bool const is_open = found > 0.0 && (is_clear || is_faint_);
     if (is_first) {
