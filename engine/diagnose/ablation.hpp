@@ -18,6 +18,7 @@ struct Ablation {
   bool indirect_inference = true;  // false: twins of the least-squares baseline, bias and all
   bool region_consistency = true;  // false: an effect need not help where it acts
   double twin_noise = 1.0;
+  bool whitening = true;  // false: rows count alike, whatever their noise
 
   bool changes_twins() const { return !indirect_inference || twin_noise != 1.0; }
 };

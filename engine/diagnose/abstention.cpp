@@ -23,7 +23,7 @@ bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
 Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   Remainder result;
   if (!selection.is_gate_open) return result;
-  double const first = selection.first_excess;
+  double const first = selection.whole();
   result.share = std::max(0.0, final.energy.excess) / first;
   result.is_significant =
       final.energy.z > smallest_z && mismatch_share(final) > smallest_mismatch_share && result.share > worth_a_word;

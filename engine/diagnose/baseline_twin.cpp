@@ -21,11 +21,12 @@ struct Attempt {
   }
 };
 
+TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
+
 Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
                 TwinOptions const& options, int threads) {
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
-  TwinAddress const wander_set{options.seed, options.recording, 2};
   Attempt result{std::move(loop)};
   for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
                                   &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
@@ -34,21 +35,32 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
     result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
                                        options.step_s, correction_set, options.twins, threads);
   };
+  TwinLoop& law = result.loop.loop;
+  auto const put_disturbance = [&](NoiseLevel const& level) {
+    result.disturbance = level;
+    law.disturbance_std = level.std;
+    law.disturbance_variance_error = level.variance_error;
+  };
+  auto const put_wander = [&](NoiseLevel const& level) {
+    result.friction_wander = level;
+    law.friction_wander = level.std;
+    law.friction_wander_variance_error = level.variance_error;
+  };
+  if (options.levels) {
+    put_disturbance(options.levels->disturbance);
+    put_wander(options.levels->friction_wander);
+    correct_from(options.levels->parameters);
+    return result;
+  }
   correct_from(record.parameters);
   if (result.baseline.ran_away) return result;
-  TwinLoop& law = result.loop.loop;
   auto const twin = [&] {
     return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
   };
-  result.disturbance = disturbance_level(record, twin(), pipeline, level_set, options.twins, threads);
+  put_disturbance(disturbance_level(record, twin(), pipeline, level_set, options.twins, threads));
   if (result.disturbance.ran_away) return result;
-  law.disturbance_std = result.disturbance.std;
-  law.disturbance_variance_error = result.disturbance.variance_error;
-  result.friction_wander =
-      friction_wander(record, twin(), pipeline, options.wander, wander_set, options.twins, threads);
+  put_wander(friction_wander(record, twin(), pipeline, options.wander, wander_set(options), options.twins, threads));
   if (result.friction_wander.ran_away) return result;
-  law.friction_wander = result.friction_wander.std;
-  law.friction_wander_variance_error = result.friction_wander.variance_error;
   if (law.disturbance_std > 0.0 || law.friction_wander > 0.0) correct_from(Eigen::VectorXd(result.baseline.parameters));
   return result;
 }
@@ -88,6 +100,12 @@ RecordedLoop loop_to_try(Recording const& in_loop, double inertia, JointModel co
 }
 
 }  // namespace
+
+NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
+                           TwinOptions const& options, int threads) {
+  return friction_wander(pipeline.process(recording), made.twin, pipeline, options.wander, wander_set(options),
+                         options.twins, threads);
+}
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, int threads) {

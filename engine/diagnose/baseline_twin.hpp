@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "engine/diagnose/baseline_correction.hpp"
 #include "engine/diagnose/disturbance_level.hpp"
@@ -23,6 +24,13 @@
 
 namespace torquescope {
 
+// what was measured on the same recording and model before
+struct TwinLevels {
+  Eigen::VectorXd parameters;  // to begin the correction with
+  NoiseLevel disturbance;
+  NoiseLevel friction_wander;
+};
+
 struct TwinOptions {
   double step_s = 1e-4;    // of the integrator, second order
   std::size_t twins = 16;  // per round of the correction and of the level
@@ -30,6 +38,7 @@ struct TwinOptions {
   std::uint32_t recording = 0;
   WanderReading wander = WanderReading::beside_motion;
   std::shared_ptr<RecordedLoop const> loop{};  // as decided before; none: decide
+  std::optional<TwinLevels> levels{};          // known: only the parameters are corrected; none: measure
 };
 
 struct BaselineTwin {
@@ -42,6 +51,10 @@ struct BaselineTwin {
 };
 
 inline constexpr std::uint32_t first_free_twin_set = 3;
+
+// the wander of dry friction once more, under the weights that the pipeline has now
+NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
+                           TwinOptions const& options, int threads);
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, int threads);

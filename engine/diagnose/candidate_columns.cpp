@@ -57,8 +57,8 @@ Eigen::MatrixXd CandidateColumns::with_tangents() const {
 }
 
 // the columns of all shapes, one shape after the other
-Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,
-                                             std::vector<std::vector<double>> const& shapes) const {
+Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
+                                                   std::vector<std::vector<double>> const& shapes) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
   auto const count = static_cast<Eigen::Index>(shapes.size());
   auto const& common = comparison_->common;
@@ -71,8 +71,19 @@ Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,
   return on_rows ? all : pipeline_->filtered_columns(all, common);
 }
 
+Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,
+                                             std::vector<std::vector<double>> const& shapes) const {
+  Eigen::MatrixXd columns = plain_columns_of(effect, shapes);
+  pipeline_->whiten(columns, comparison_->common.kept_rows);
+  return columns;
+}
+
 Eigen::MatrixXd CandidateColumns::columns(Effect const& effect, std::span<double const> shape) const {
   return columns_of(effect, {{shape.begin(), shape.end()}});
+}
+
+Eigen::MatrixXd CandidateColumns::plain_columns(Effect const& effect, std::span<double const> shape) const {
+  return plain_columns_of(effect, {{shape.begin(), shape.end()}});
 }
 
 std::vector<OrthonormalGroup> CandidateColumns::groups(Effect const& effect,

@@ -1,7 +1,7 @@
 #pragma once
 // The columns of effects on the common motion, as the fit would see them, and what is left of them beside the model.
 //
-// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows
+// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those are
 // Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
 //            wrong shape leaves must not take a second name (LESSONS item 11)
 // Shapes     n rows; L = effect.n_linear()
@@ -36,11 +36,13 @@ class CandidateColumns {
   Eigen::MatrixXd with_tangents() const;                         // both, side by side
 
   Eigen::MatrixXd columns(Effect const& effect, std::span<double const> shape) const;
+  Eigen::MatrixXd plain_columns(Effect const& effect, std::span<double const> shape) const;  // before whitening
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
   // of several shapes: their columns go through the filter side by side
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
 
  private:
+  Eigen::MatrixXd plain_columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const;
 

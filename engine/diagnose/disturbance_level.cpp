@@ -18,6 +18,7 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
   double sum = 0.0;
   std::size_t count = 0;
   auto const& rows = record.kept_rows;
+  Eigen::VectorXd const residual = record.residual_itself();
   for (std::size_t i = lag; i + lag < rows.size(); ++i) {
     if (rows[i + lag] - rows[i - lag] != static_cast<Eigen::Index>(2 * lag)) {
       sum = 0.0;
@@ -26,7 +27,7 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
     }
     auto const at = static_cast<Eigen::Index>(i);
     auto const step = static_cast<Eigen::Index>(lag);
-    double const bend = record.residual[at - step] - 2.0 * record.residual[at] + record.residual[at + step];
+    double const bend = residual[at - step] - 2.0 * residual[at] + residual[at + step];
     sum += bend * bend;
     if (++count < block) continue;
     energies.push_back(sum / static_cast<double>(block));
@@ -42,9 +43,10 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
 NoiseLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
                              TwinAddress const& address, std::size_t twins, int threads) {
   // first as if all of the twins' energy came from their torque noise
-  double const scale = twin.loop().torque_noise.std > 0.0
-                           ? twin.loop().torque_noise.std
-                           : std::sqrt(recording.energy() / static_cast<double>(recording.residual.size()));
+  double const scale =
+      twin.loop().torque_noise.std > 0.0
+          ? twin.loop().torque_noise.std
+          : std::sqrt(recording.residual_itself().squaredNorm() / static_cast<double>(recording.residual.size()));
   NoiseQuestion const question{[&](ProcessedRecord const& record) { return fast_energy(record, pipeline); },
                                [](TwinLoop& loop, double std, double variance_error) {
                                  loop.disturbance_std = std;

@@ -12,7 +12,7 @@ namespace {
 Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
   auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
-  return columns.columns(*effect, shape) *
+  return columns.plain_columns(*effect, shape) *
          stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
 }
 
@@ -80,7 +80,7 @@ std::optional<AxisInterval> wave_region(ShapedEffect const& shaped, SignatureAxi
 
 EffectAccount account_of(ModelStage const& stage, std::size_t i) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  auto const& rows = stage.comparison.rows;
+  MismatchRows const rows = in_torque_itself(stage.comparison.rows);
   auto const& shaped = stage.model().effects()[i];
   Eigen::VectorXd const torque = effect_torque(stage, columns, i);
   SignatureAxis const axis = shaped.effect->signature().front();
@@ -99,7 +99,7 @@ EffectAccount account_of(ModelStage const& stage, std::size_t i) {
     for (auto const& interval : found.intervals) account.places.push_back(on_axis(interval));
   }
   SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
-  account.curve = curve_on(drawn, rows, torque, stage.mismatch(), columns.joint());
+  account.curve = curve_on(drawn, rows, torque, rows.residual - rows.twin_mean, columns.joint());
   return account;
 }
 

@@ -13,12 +13,14 @@
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/multiple_testing.hpp"
 #include "engine/diagnose/region_consistency.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {
 
 constexpr double least_share_of_rest = 0.25;
 constexpr double nearly_all = 0.97;
+constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
 constexpr std::size_t n_refined = 5;
 
 std::vector<double> q_of(std::vector<EffectScan> const& scans) {
@@ -54,6 +56,7 @@ class Search {
     });
     stage_ = std::move(*first);
     setting_.loop = std::make_shared<RecordedLoop const>(stage_.twin->loop);
+    setting_.weights = stage_.pipeline->weights();
     while (take_one()) {
     }
     if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_, stage_);
@@ -90,10 +93,11 @@ class Search {
       if (q[i] <= options_.q) found = std::max(found, scans[i].gain);
     remaining_ = std::max(stage_.energy.excess, found);
     bool const is_clear = is_significant(stage_) || energy_share(stage_, found) > smallest_mismatch_share;
-    // later on, what an imperfect first name leaves is just as certain, and no physics
-    is_faint_ = is_first && found > 0.0 && !is_clear && *std::min_element(q.begin(), q.end()) <= faint_q &&
-                energy_share(stage_, found) > smallest_faint_share;
-    bool const is_open = found > 0.0 && (is_clear || is_faint_);
+    // what a first name leaves is as certain as the name: to be worth another it must be more than a word's worth of the whole
+    bool const may_be_faint = found > 0.0 && !is_clear && (is_first || found > worth_another * whole());
+    double const certain = may_be_faint ? largest_certain_share(columns, scans, q) : 0.0;
+    is_faint_ = is_first && !is_clear && certain <= smallest_mismatch_share;
+    bool const is_open = found > 0.0 && (is_clear || certain > smallest_faint_share);
     if (is_first) {
       selection_.first_energy = stage_.energy;
       selection_.first_scan = scans;
@@ -111,6 +115,21 @@ class Search {
     for (Trial const& trial : trials)
       if (accept(columns, trial)) return true;
     return false;
+  }
+
+  // Of the candidates that are certain, the largest torque beside the model's own, as a share of the whole torque. Of the
+  // torque itself, not of its weighed energy: a change of friction over time counts for little there, because friction may
+  // wander, and can be large
+  double largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                               std::vector<double> const& q) const {
+    Eigen::MatrixXd const& model = stage_.comparison.common.columns_themselves();
+    double largest = 0.0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (!scans[i].is_testable || q[i] > faint_q || scans[i].gain <= 0.0) continue;
+      Eigen::VectorXd const torque = columns.plain_columns(*scans[i].effect, scans[i].shape) * scans[i].parameters;
+      largest = std::max(largest, (torque - model * solve_scaled(model, torque)).squaredNorm());
+    }
+    return energy_share(stage_, largest);
   }
 
   // the candidates worth a closer look, best first
@@ -223,7 +242,11 @@ class Search {
       reject(effect, "twins with it leave as much as twins without it");
       return false;
     }
-    selection_.accepted.push_back({effect, trial.scan, trial.q, gain, trial.cv.gain, region.share});
+    double const unit = selection_.energy_unit;
+    selection_.accepted.push_back({effect, trial.scan, trial.q, gain / unit, trial.cv.gain / unit, region.share});
+    if (auto weighed = reweighed_stage(setting_, *next)) next = std::move(weighed);
+    selection_.energy_unit *= energy_unit_under(stage_, *next->pipeline);
+    setting_.weights = next->pipeline->weights();
     keep_baseline();
     stage_ = std::move(*next);
     return true;
@@ -243,6 +266,7 @@ class Search {
   bool begin_again_with_wander() {
     StageSetting wandering = setting_;
     wandering.wander = WanderReading::by_itself;
+    wandering.weights = nullptr;
     tell("twins", 0, setting_.twins);
     std::optional<ModelStage> first;
     try {
@@ -253,6 +277,7 @@ class Search {
     tell("twins", setting_.twins, setting_.twins);
     if (!first) return false;
     setting_.wander = WanderReading::by_itself;
+    setting_.weights = first->pipeline->weights();
     Selection fresh;
     fresh.evaluations = selection_.evaluations;
     selection_ = std::move(fresh);
@@ -281,7 +306,7 @@ class Search {
 
 }  // namespace
 
-double Selection::whole() const { return std::max(first_excess, std::numeric_limits<double>::min()); }
+double Selection::whole() const { return std::max(first_excess * energy_unit, std::numeric_limits<double>::min()); }
 
 bool Selection::has_accepted(Effect const* effect) const {
   return std::any_of(accepted.begin(), accepted.end(), [&](auto const& one) { return one.effect == effect; });

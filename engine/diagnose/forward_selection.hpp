@@ -6,8 +6,8 @@
 //            mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is there
 //            because a disturbance was fitted to the energy of the residual: where physics is missing it takes part of it
 //            for noise, so that the whole looks like noise while one direction of it does not
-//            Fainter than that, down to 0.05 %, only when a candidate's q is below 1e-4, and nothing that happens once
-//            gets a name there. Clean twins of well copied loops stay above 0.1 (tests/concealed, tier T0)
+//            Fainter than that, down to 0.02 %, only when a candidate's q is below 0.005, and nothing that happens once
+//            gets a name there
 // Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds; the
 //            largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, have a
@@ -43,8 +43,8 @@ struct AcceptedEffect {
   Effect const* effect = nullptr;
   EffectScan scan{};         // of the step at which it was accepted
   double q = 1.0;            // hierarchical, there
-  double gain = 0.0;         // energy of the mismatch it explained there
-  double cv_gain = 0.0;      // energy, on blocks it was not fitted to
+  double gain = 0.0;         // energy of the mismatch it explained there, in the unit of the first step
+  double cv_gain = 0.0;      // the same on blocks it was not fitted to
   double region_gain = 0.0;  // share of the gain where it acts
 };
 
@@ -60,6 +60,7 @@ struct Selection {
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
   double first_excess = 0.0;               // of it, or what one candidate explains if that is more; energy
+  double energy_unit = 1.0;                // what a unit of energy of the first step is under the weights of the last
   bool is_gate_open = false;               // something is missing
   std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
@@ -68,13 +69,13 @@ struct Selection {
   std::int64_t evaluations = 0;  // of shapes
 
   bool has_accepted(Effect const* effect) const;
-  double whole() const;  // first_excess, above 0
+  double whole() const;  // first_excess under the weights of the last step, above 0
 };
 
 inline constexpr double least_share_of_whole = 0.002;      // an effect's energy, of what was missing at first
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
 inline constexpr double smallest_omnibus_z = 4.0;
-inline constexpr double smallest_faint_share = 0.0005, faint_q = 1e-4;  // below smallest_mismatch_share
+inline constexpr double smallest_faint_share = 0.0002, faint_q = 0.005;  // below smallest_mismatch_share
 
 // share of the torque's rms that the mismatch makes up; of any energy
 double mismatch_share(ModelStage const& stage);

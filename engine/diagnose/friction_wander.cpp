@@ -52,7 +52,8 @@ Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& co
 }  // namespace
 
 FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint,
-                               WanderReading reading) {
+                               WanderReading reading)
+    : pipeline_(&pipeline) {
   if (joint.coulomb_forward == 0.0 && joint.coulomb_backward == 0.0) return;
   double const duration_s = static_cast<double>(pipeline.kept_samples()) / pipeline.kept_rate_hz();
   auto const blocks = std::min(most_blocks, static_cast<std::size_t>(duration_s / shortest_block_s));
@@ -70,12 +71,18 @@ FrictionWander::FrictionWander(ProcessedRecord const& recording, RecordPipeline 
 std::vector<double> FrictionWander::changes(ProcessedRecord const& record) const {
   constexpr double enough = 0.2;  // of the rows that a block would have if all had the same
   auto const& rows = record.kept_rows;
-  Eigen::VectorXd const left = left_of(record.residual, smooth_(rows, Eigen::all));
+  Eigen::MatrixXd smooth = smooth_(rows, Eigen::all);
+  Eigen::VectorXd level = friction_(rows);
+  Eigen::VectorXd residual = record.residual_itself();
+  pipeline_->whiten_rows(smooth, rows);
+  pipeline_->whiten_rows(level, rows);
+  pipeline_->whiten_rows(residual, rows);
+  Eigen::VectorXd const left = left_of(residual, smooth);
   std::vector<double> product(blocks_, 0.0), square(blocks_, 0.0);
   std::vector<std::size_t> count(blocks_, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::size_t const block = static_cast<std::size_t>(rows[i]) * blocks_ / static_cast<std::size_t>(friction_.size());
-    double const friction = friction_[rows[i]];
+    double const friction = level[static_cast<Eigen::Index>(i)];
     product[block] += friction * left[static_cast<Eigen::Index>(i)];
     square[block] += friction * friction;
     ++count[block];

@@ -8,6 +8,8 @@
 // By itself  the same with nothing but the parabola taken out: more, when something else is missing, seldom less. Where
 //            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever names a
 //            drift must do so against this reading
+// Rows       whitened as the pipeline whitens: the noise of the encoder hides slow changes, and an uncertain level makes
+//            twins that differ by it
 // Model      a random walk: from what the level does beside its parabola follows what chance may do to the parabola, so
 //            that a drift is named only where it is more than that
 // At most    3 % in a minute as an estimate (the twins draw about it): friction that changes by more does so for a reason,
@@ -28,7 +30,7 @@ inline constexpr double most_wander_in_a_minute = 0.03;
 
 enum class WanderReading { beside_motion, by_itself };
 
-// the statistic of any record that went through this pipeline; functions of the motion are those of `recording`
+// the statistic of any record that went through this pipeline, which outlives it; functions of the motion are those of `recording`
 class FrictionWander {
  public:
   FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint,
@@ -36,11 +38,13 @@ class FrictionWander {
 
   bool is_measurable() const { return blocks_ > 0; }
   double duration_s() const { return duration_s_; }
+  Eigen::VectorXd const& friction() const { return friction_; }  // torque of dry friction at every kept sample
   // change of the level in each block, as a share; NaN where too few rows are left
   std::vector<double> changes(ProcessedRecord const& record) const;
   double operator()(ProcessedRecord const& record) const;
 
  private:
+  RecordPipeline const* pipeline_;
   std::size_t blocks_ = 0;  // 0: not measurable
   double duration_s_ = 0.0;
   Eigen::MatrixXd smooth_;    // kept samples x functions

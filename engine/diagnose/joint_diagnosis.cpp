@@ -23,7 +23,9 @@
 namespace torquescope {
 namespace {
 
-double relative_error(ProcessedRecord const& record) { return record.residual.norm() / record.torque.norm(); }
+double relative_error(ProcessedRecord const& record) {
+  return record.residual_itself().norm() / record.torque_itself().norm();
+}
 
 std::string source_word(LoopSource source) {
   switch (source) {
@@ -145,7 +147,9 @@ class JointWork {
     for (Eigen::Index t = 0; t < rows.n_twins(); ++t)
       joint_.twin_energy.push_back(rows.twins.col(t).squaredNorm() / stage.energy.residual);
     auto const floor_of = [](ModelStage const& of) {
-      return std::sqrt(of.comparison.rows.twins.colwise().squaredNorm().mean()) / of.comparison.rows.torque.norm();
+      auto const& own = of.comparison.rows;
+      auto const& twins = own.plain_twins.size() > 0 ? own.plain_twins : own.twins;
+      return std::sqrt(twins.colwise().squaredNorm().mean()) / own.torque.norm();
     };
     joint_.train_floor_relerr = floor_of(final_stage());
     joint_.floor_relerr = joint_.train_floor_relerr;
@@ -157,8 +161,9 @@ class JointWork {
 
   double cv_relerr(ModelStage const& stage) const {
     auto const& record = stage.comparison.recording;
-    return std::sqrt(blocked_residual_energy(record.torque, record.columns, guard_rows(*stage.pipeline)) /
-                     record.torque.squaredNorm());
+    Eigen::VectorXd const& torque = record.torque_itself();
+    return std::sqrt(blocked_residual_energy(torque, record.columns_themselves(), guard_rows(*stage.pipeline)) /
+                     torque.squaredNorm());
   }
 
   void account_for_effects() {
@@ -187,7 +192,7 @@ class JointWork {
     if (input_.validate.empty()) {
       auto const& record = baseline().comparison.recording;
       joint_.traces.push_back(
-          torque_trace(setting.recording, *baseline().pipeline, record, record.residual, residual_after()));
+          torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
     joint_.validation_relerr = std::sqrt(before / torque);
@@ -203,11 +208,12 @@ class JointWork {
   Eigen::VectorXd residual_after() const {
     auto const& rows = baseline().comparison.recording.kept_rows;
     auto const& after = final_stage().comparison.recording;
+    Eigen::VectorXd const residual = after.residual_itself();
     Eigen::VectorXd left = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(rows.size()), unknown);
     for (std::size_t i = 0, k = 0; i < rows.size(); ++i) {
       while (k < after.kept_rows.size() && after.kept_rows[k] < rows[i]) ++k;
       if (k < after.kept_rows.size() && after.kept_rows[k] == rows[i])
-        left[static_cast<Eigen::Index>(i)] = after.residual[static_cast<Eigen::Index>(k)];
+        left[static_cast<Eigen::Index>(i)] = residual[static_cast<Eigen::Index>(k)];
     }
     return left;
   }

@@ -64,6 +64,14 @@ void fill_axes(MismatchRows& rows, RecordPipeline const& pipeline, ProcessedReco
 
 }  // namespace
 
+MismatchRows in_torque_itself(MismatchRows rows) {
+  if (rows.plain_residual.size() == 0) return rows;
+  rows.residual = std::move(rows.plain_residual);
+  rows.twins = std::move(rows.plain_twins);
+  rows.twin_mean = rows.twins.rowwise().mean();
+  return rows;
+}
+
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
                                   TwinAddress const& address, std::size_t twins, int threads) {
   TwinComparison result;
@@ -80,8 +88,8 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   std::vector<char> ran_away(twins, 0);
   for_each_twin(twin, pipeline, address, n_pilots, threads, [&](VisitedTwin const& visited) {
     ran_away[visited.index] = visited.ran_away;
-    auto const& [motion, kept_rows, columns, torque, parameters, residual] = visited.record;
-    pilots[visited.index] = {{}, kept_rows, columns, torque, {}, {}};
+    auto const& record = visited.record;
+    pilots[visited.index] = {{}, record.kept_rows, record.columns_themselves(), record.torque_itself(), {}, {}};
   });
   result.recording = pipeline.process(recording);
   std::vector<Eigen::Index> safe = common(result.recording.kept_rows, result.common.kept_rows);
@@ -97,14 +105,19 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   rows.kept_rows = safe;
   rows.motion = result.common.motion;
   fill_axes(rows, pipeline, result.common, result.common.parameters);
-  rows.torque = result.recording.torque;
+  rows.torque = result.recording.torque_itself();
   rows.residual = result.recording.residual;
 
   auto const n = static_cast<Eigen::Index>(safe.size());
   rows.twins.resize(n, static_cast<Eigen::Index>(twins));
+  if (pipeline.whitens()) {
+    rows.plain_residual = result.recording.residual_itself();
+    rows.plain_twins.resize(n, static_cast<Eigen::Index>(twins));
+  }
   result.twin_fits.resize(static_cast<Eigen::Index>(twins), static_cast<Eigen::Index>(pipeline.model().size()));
   auto const take = [&](std::size_t index, ProcessedRecord const& record) {
     rows.twins.col(static_cast<Eigen::Index>(index)) = record.residual;
+    if (pipeline.whitens()) rows.plain_twins.col(static_cast<Eigen::Index>(index)) = record.residual_itself();
     result.twin_fits.row(static_cast<Eigen::Index>(index)) = record.parameters;
   };
   for (std::size_t i = 0; i < n_pilots; ++i)

@@ -4,7 +4,8 @@
 // Common motion  of a twin without noise and encoder: candidate columns and axes are computed from it, once, for data and
 //                twins alike. Columns of each one's own measured motion would carry its own noise into the statistic
 // Rows           kept samples at which the recording, the common motion and the pilot twins all surely move one way
-// Residual       torque - own columns * own least squares, everything filtered alike; data and twins in the same way
+// Residual       torque - own columns * own least squares, everything filtered and whitened alike; data and twins in the same
+//                way. The plain ones are the same before whitening, empty where nothing was whitened
 // Shapes         n rows in time order, M twins
 // Memory         8 n M bytes; nothing at the full rate but the common motion
 // Units          SI
@@ -28,14 +29,19 @@ struct MismatchRows {
   Eigen::VectorXd model_torque{};              // per row: all terms
   Eigen::VectorXd since_velocity_reversal{};   // distance travelled, rad or m
   Eigen::VectorXd since_torque_reversal{};     // distance travelled since the model's torque changed its sign
-  Eigen::VectorXd torque{};                    // of the recording, filtered
+  Eigen::VectorXd torque{};                    // of the recording, filtered, never whitened
   Eigen::VectorXd residual{};                  // of the recording
   Eigen::VectorXd twin_mean{};                 // mean residual of the twins
   Eigen::MatrixXd twins{};                     // n x M: residual of each twin
+  Eigen::VectorXd plain_residual{};
+  Eigen::MatrixXd plain_twins{};
 
   Eigen::Index size() const { return residual.size(); }
   Eigen::Index n_twins() const { return twins.cols(); }
 };
+
+// the same rows with residuals as they are in the torque itself
+MismatchRows in_torque_itself(MismatchRows rows);
 
 // the recording, its noiseless twin and M noisy ones on common rows
 struct TwinComparison {

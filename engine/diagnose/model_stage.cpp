@@ -3,9 +3,19 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
+#include "engine/diagnose/twin_whitening.hpp"
 
 namespace torquescope {
 namespace {
+
+constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have something to do
+
+TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
+
+TwinLevels levels_of(BaselineTwin const& made) {
+  return {made.baseline.parameters, made.disturbance, made.friction_wander};
+}
 
 ModelStage made_stage(StageSetting const& setting, JointModel model) {
   auto pipeline = std::make_unique<RecordPipeline>(std::move(model), setting.filter, setting.recording.rate_hz,
@@ -14,8 +24,25 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   options.seed = setting.seed;
   options.wander = setting.wander;
   options.loop = setting.loop;
-  options.twins = 2 * twin_lanes;  // two threads have something to do
-  BaselineTwin made = make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.threads);
+  options.twins = twins_per_round;
+  auto const make_twin = [&] {
+    return make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.threads);
+  };
+  if (setting.weights) pipeline->weigh_with(setting.weights);
+  options.levels = setting.levels;
+  BaselineTwin made = make_twin();
+  if (!setting.weights && setting.ablation.whitening) {
+    NoiseWeights const rows(
+        twin_whitening(made.twin, *pipeline, spectrum_set(setting), twins_per_round, setting.threads));
+    pipeline->weigh_with(std::make_shared<NoiseWeights const>(rows));
+    if (pipeline->whitens()) {
+      made.friction_wander = measured_wander(setting.recording, made, *pipeline, options, setting.threads);
+      pipeline->weigh_with(std::make_shared<NoiseWeights const>(with_wander_of(made, rows, *pipeline)));
+      options.loop = std::make_shared<RecordedLoop const>(made.loop);
+      options.levels = levels_of(made);
+      made = make_twin();
+    }
+  }
   ablate_twin(made, *pipeline, setting.ablation);
   TwinAddress const null_set{setting.seed, options.recording, first_free_twin_set};
   TwinComparison comparison =
@@ -49,6 +76,32 @@ std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel mod
     if (is_baseline) throw;
     return std::nullopt;
   }
+}
+
+std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage) {
+  if (!stage.pipeline->whitens()) return std::nullopt;
+  RecordPipeline const plain(stage.model(), setting.filter, setting.recording.rate_hz,
+                             setting.recording.position.size(), setting.filter_section);
+  StageSetting own = setting;
+  NoiseWeights const rows(
+      twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.threads));
+  own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));
+  own.levels = levels_of(*stage.twin);
+  return make_stage(own, stage.model());
+}
+
+double energy_unit_under(ModelStage const& stage, RecordPipeline const& other) {
+  auto const& rows = stage.comparison.rows;
+  auto const& record = stage.comparison.recording;
+  if (!other.whitens() || !record.is_whitened()) return 1.0;
+  Eigen::MatrixXd signals(rows.size(), record.plain_columns.cols() + 1);
+  signals << record.plain_columns, rows.plain_residual - rows.plain_twins.rowwise().mean();
+  other.whiten(signals, rows.kept_rows);
+  Eigen::VectorXd const mismatch = signals.rightCols(1);
+  Eigen::MatrixXd const columns = signals.leftCols(record.plain_columns.cols());
+  double const before = stage.mismatch().squaredNorm();
+  double const after = (mismatch - columns * solve_scaled(columns, mismatch)).squaredNorm();
+  return before > 0.0 && after > 0.0 ? after / before : 1.0;
 }
 
 }  // namespace torquescope

@@ -28,7 +28,9 @@ struct StageSetting {
   int threads = 1;
   WanderReading wander = WanderReading::beside_motion;
   Ablation ablation{};
-  std::shared_ptr<RecordedLoop const> loop{};  // as the first stage decided; none: decide
+  std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
+  std::shared_ptr<NoiseWeights const> weights{};  // the same
+  std::optional<TwinLevels> levels{};             // of this very model; none: measure
 };
 
 struct ModelStage {
@@ -48,5 +50,12 @@ struct ModelStage {
 // nothing when the twins run away: such a model is none of this joint
 // Errors     Error 65 as the pipeline and the twins, for a model without effects only
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);
+
+// The same model with rows weighed by the noise that its own twins have. What is missing at first passes for noise in part, so
+// that the weights of one stage are too coarse for the next
+std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
+
+// energy of a stage's mismatch under another one's weights, over that under its own: what a unit of energy has become
+double energy_unit_under(ModelStage const& stage, RecordPipeline const& other);
 
 }  // namespace torquescope

@@ -14,12 +14,13 @@ struct TwinStatistic {
   bool ran_away = false;
 };
 
+double square(double x) { return x * x; }
+
 }  // namespace
 
 NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
                        RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads) {
   TORQUESCOPE_EXPECT(twins >= 8);
-  constexpr int rounds = 2;  // the statistic grows nearly linearly: the second is about the level
   auto const of_twins = [&](double variance) {
     TwinLoop loop = twin.loop();
     question.put(loop, std::sqrt(variance), 0.0);
@@ -48,21 +49,36 @@ NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& rec
   if (result.z <= question.least_z) return result;
 
   double const most = question.most_std * question.most_std;
-  // also what is not there is tried, at the size of its own error: that error is asked for
-  double variance = std::min(most, question.first_guess(std::max(wanted, none.mean + spread), none.mean));
-  for (int round = 0; round < rounds; ++round) {
-    TwinStatistic const some = of_twins(variance);
-    result.ran_away = some.ran_away;
-    if (some.ran_away || some.mean <= none.mean) return result;
-    double const slope = (some.mean - none.mean) / variance;
-    // of the recording's own statistic and of the twins' mean
-    result.variance_error = some.std * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
-    double const next = std::clamp((wanted - none.mean) / slope, 0.0, most);
-    // nothing, or more than may be: a second look says the same
-    bool const is_at_its_end = next == 0.0 || next == most;
-    variance = next;
-    if (is_at_its_end) break;
+  // a step that the statistic sees: the slope of a smaller one is chance, and so would be the error of the level
+  constexpr double seen = 2.0, larger = 4.0;
+  double tried = std::min(most, question.first_guess(std::max(wanted, none.mean + seen * spread), none.mean));
+  TwinStatistic some = of_twins(tried);
+  while (!some.ran_away && some.mean - none.mean < seen * spread && tried < most) {
+    tried = std::min(most, larger * tried);
+    some = of_twins(tried);
   }
+  result.ran_away = some.ran_away;
+  if (some.ran_away || some.mean <= none.mean) return result;
+  double slope = (some.mean - none.mean) / tried;
+  double variance = std::clamp((wanted - none.mean) / slope, 0.0, most);
+  // also of a level that is not there the error is asked for: at the size of that error
+  double const level = std::max(variance, none.std / slope);
+  double const share = level / tried;
+  double spread_there =
+      std::sqrt(none.std * none.std + share * share * std::max(0.0, square(some.std) - square(none.std)));
+  // nothing, or more than may be: a look at the level itself says the same
+  if (variance > 0.0 && variance < most) {
+    TwinStatistic const there = of_twins(variance);
+    result.ran_away = there.ran_away;
+    if (there.ran_away) return result;
+    if (there.mean - none.mean > spread) {
+      slope = (there.mean - none.mean) / variance;
+      spread_there = there.std;
+      variance = std::clamp((wanted - none.mean) / slope, 0.0, most);
+    }
+  }
+  // of the recording's own statistic and of the twins' mean
+  result.variance_error = spread_there * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
   result.std = std::sqrt(variance);
   return result;
 }

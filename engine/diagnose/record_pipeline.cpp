@@ -49,7 +49,37 @@ std::vector<Eigen::Index> RecordPipeline::present_columns(Eigen::MatrixXd const&
   return present;
 }
 
+void RecordPipeline::restrict_to(std::vector<Eigen::Index> kept_rows) {
+  fixed_rows_ = std::move(kept_rows);
+  if (whitens()) fixed_wander_ = weights_->wander_on(fixed_rows_);
+}
+
+void RecordPipeline::weigh_with(std::shared_ptr<NoiseWeights const> weights) {
+  weights_ = std::move(weights);
+  if (whitens() && !fixed_rows_.empty()) fixed_wander_ = weights_->wander_on(fixed_rows_);
+}
+
+void RecordPipeline::whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const {
+  if (!whitens()) return;
+  if (kept_rows == fixed_rows_) return weights_->apply(signals, kept_rows, fixed_wander_);
+  weights_->apply(signals, kept_rows, weights_->wander_on(kept_rows));
+}
+
+void RecordPipeline::whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals,
+                                 std::vector<Eigen::Index> const& kept_rows) const {
+  if (whitens()) weights_->rows().apply(signals, kept_rows);
+}
+
 void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const {
+  if (whitens()) {
+    record.plain_columns = record.columns;
+    record.plain_torque = record.torque;
+    Eigen::MatrixXd signals(record.columns.rows(), record.columns.cols() + 1);
+    signals << record.columns, record.torque;
+    whiten(signals, record.kept_rows);
+    record.columns = signals.leftCols(record.columns.cols());
+    record.torque = signals.col(record.columns.cols());
+  }
   std::vector<RegressorColumn> const owners = model_.column_owners();
   std::vector<Eigen::Index> const present = present_columns(record.columns);
   RegressionData data;
@@ -74,8 +104,8 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
     TORQUESCOPE_EXPECT(at < record.kept_rows.size() && record.kept_rows[at] == row);
     places.push_back(static_cast<Eigen::Index>(at));
   }
-  record.columns = record.columns(places, Eigen::all).eval();
-  record.torque = record.torque(places).eval();
+  record.columns = record.columns_themselves()(places, Eigen::all).eval();
+  record.torque = record.torque_itself()(places).eval();
   record.kept_rows = kept_rows;
   fit(record, name);
   return record;

@@ -1,7 +1,8 @@
 #pragma once
 // What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot differ.
 //
-// Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, least squares
+// Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, weights of the
+//            rows by their noise (noise_weights.hpp) where they were set, least squares
 // Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
@@ -11,6 +12,7 @@
 // Source     LESSONS item 3; parallel filtering: Gautier 1997
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
 #include "engine/diagnose/joint_model.hpp"
+#include "engine/diagnose/noise_weights.hpp"
 
 namespace torquescope {
 
@@ -28,8 +31,18 @@ struct ProcessedRecord {
   Eigen::VectorXd torque;
   Eigen::VectorXd parameters;  // least squares on these rows
   Eigen::VectorXd residual;
+  // before whitening, in torque units throughout; empty where nothing was whitened
+  Eigen::MatrixXd plain_columns{};
+  Eigen::VectorXd plain_torque{};
 
   double energy() const { return residual.squaredNorm(); }
+  bool is_whitened() const { return plain_torque.size() > 0; }
+  Eigen::VectorXd const& torque_itself() const { return is_whitened() ? plain_torque : torque; }
+  Eigen::MatrixXd const& columns_themselves() const { return is_whitened() ? plain_columns : columns; }
+  // what the same parameters leave of the torque itself
+  Eigen::VectorXd residual_itself() const {
+    return is_whitened() ? Eigen::VectorXd(plain_torque - plain_columns * parameters) : residual;
+  }
 };
 
 class RecordPipeline {
@@ -46,10 +59,19 @@ class RecordPipeline {
   double cutoff_hz() const { return cutoff_hz_; }  // of the parallel filter; 0: none
 
   // from now on process() keeps exactly these rows, whatever its own mask would be
-  void restrict_to(std::vector<Eigen::Index> kept_rows) { fixed_rows_ = std::move(kept_rows); }
+  void restrict_to(std::vector<Eigen::Index> kept_rows);
+
+  // from now on process() weighs rows by what their noise leaves of them; none: every row alike
+  void weigh_with(std::shared_ptr<NoiseWeights const> weights);
+  std::shared_ptr<NoiseWeights const> const& weights() const { return weights_; }
+  bool whitens() const { return weights_ && !weights_->are_equal(); }
+  // signals on rows, in place
+  void whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
+  // the same without a thought of friction that wanders: what that wander is measured on
+  void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;
-  // all but the least squares: of a recording that need not excite every column; parameters and residual stay empty
+  // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay empty
   ProcessedRecord prepare(Recording const& recording) const;
   // the same record on fewer of its rows, fitted again; name: of the recording, for the message when that fails
   ProcessedRecord restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,
@@ -66,7 +88,7 @@ class RecordPipeline {
 
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
-  void fit(ProcessedRecord& record, std::string const& name) const;
+  void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
 
   JointModel model_;
   FilterOptions options_;
@@ -76,6 +98,8 @@ class RecordPipeline {
   double cutoff_hz_;
   ParallelFilter filter_;
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
+  std::shared_ptr<NoiseWeights const> weights_{};
+  WanderOnRows fixed_wander_{};  // on fixed_rows_
 };
 
 // rows that the filter may couple: three periods of its cut-off

@@ -17,7 +17,7 @@ namespace {
 
 // the training parameters, those of events taken out
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
-  Eigen::VectorXd parameters = stage.comparison.recording.parameters;
+  Eigen::VectorXd parameters = stage.parameters();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (!effects[i].effect->is_event()) continue;
@@ -199,7 +199,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
   turn_waves(augmented, after, parameters, result.nuisances);
-  Eigen::VectorXd left_before = before.torque - before.columns * baseline.comparison.recording.parameters;
+  Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
   if (augmented.model().effects().empty()) {
     left_after = left_before;  // one model: nothing to compare, nothing to refit
@@ -222,7 +222,8 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
       if (k < first || k >= first + width) others.push_back(k);
     Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
-    Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque);
+    Eigen::VectorXd const bias = augmented.parameters() - trained.parameters;
+    Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
     result.without.push_back((after.torque - after.columns(Eigen::all, others) * refitted).squaredNorm());
   }
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
@@ -230,7 +231,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
-    result.floor = floor_of(recording, setting, augmented, *loop, augmented.comparison.recording.parameters);
+    result.floor = floor_of(recording, setting, augmented, *loop, augmented.parameters());
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }

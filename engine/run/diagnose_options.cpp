@@ -70,7 +70,9 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"region_consistency", &DiagnoseOptions::region_consistency,
         "ablation, not for use: false takes effects that do not help where they act"},
        {"twin_noise", &DiagnoseOptions::twin_noise, "1", 0.05, 20.0,
-        "ablation, not for use: factor on all noise of the twins, as if it were stated wrongly"}});
+        "ablation, not for use: factor on all noise of the twins, as if it were stated wrongly"},
+       {"whitening", &DiagnoseOptions::whitening,
+        "ablation, not for use: false lets all rows count alike, however much of them is noise of the encoder"}});
   return table;
 }
 
@@ -84,6 +86,7 @@ std::vector<std::string> DiagnoseOptions::ablations() const {
   note("indirect_inference", indirect_inference, whole.indirect_inference);
   note("region_consistency", region_consistency, whole.region_consistency);
   note("twin_noise", twin_noise, whole.twin_noise);
+  note("whitening", whitening, whole.whitening);
   return found;
 }
 

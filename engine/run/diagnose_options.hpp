@@ -23,6 +23,7 @@ struct DiagnoseOptions {
   bool indirect_inference = true;
   bool region_consistency = true;
   double twin_noise = 1.0;
+  bool whitening = true;
 
   // in the words of a job file, those that differ from the method: "null = \"iid\""; empty: it is whole
   std::vector<std::string> ablations() const;

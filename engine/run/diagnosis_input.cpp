@@ -32,7 +32,7 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads)
   input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input_.threads = threads;
   input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.region_consistency,
-                     parts.diagnose.twin_noise};
+                     parts.diagnose.twin_noise, parts.diagnose.whitening};
 }
 
 }  // namespace torquescope

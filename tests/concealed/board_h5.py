@@ -23,7 +23,7 @@ LONG = {"snr_eff": "smallest effect: rms of the residual after baseline refit ov
         "wanted_snr": "size each effect was made with",
         "low": "one-sided 95 % lower bound", "high": "one-sided 95 % upper bound",
         "iou": "shared over joint occupancy of reported and true region",
-        "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data",
+        "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data; oracle: true laws, recorded motion",
         "loop_ratio": "closed-loop position error of the unseen recording, after over before",
         "seal": "SHA-256 of the sealed truth", "level": "how the first true effect was found",
         "parameter_error": "relative error of the main parameter", "train": "motion of the training recording"}

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "concealed/low_pass.hpp"
+#include "concealed/recorded_motion.hpp"
 #include "concealed/sensors.hpp"
 
 namespace concealed {
@@ -10,6 +12,28 @@ namespace {
 std::vector<double> difference(std::vector<double> a, std::vector<double> const& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
   return a;
+}
+
+// The true laws along the recorded motion: where that differs from the true one, inertia and viscous friction of the rig are
+// asked for another torque
+double oracle_of_recording(Rig const& rig, LoopRun const& noisy) {
+  RecordedMotion const recorded = recorded_motion(noisy.recording);
+  Truth const& truth = noisy.truth;
+  std::vector<char> const counts = far_from_reversals(truth, parallel_cutoff_hz);
+  Baseline const& joint = rig.joint.baseline;
+  std::vector<double> left(truth.t.size());
+  for (std::size_t k = 0; k < left.size(); ++k)
+    left[k] = noisy.recording.torque[k] - truth.seen_motor[k] - joint.inertia * (recorded.a[k] - truth.seen_a[k]) -
+              joint.viscous * (recorded.v[k] - truth.seen_v[k]);
+  auto const filtered_left = low_passed(left, parallel_cutoff_hz, 1.0 / tick_s);
+  auto const filtered_torque = low_passed(noisy.recording.torque, parallel_cutoff_hz, 1.0 / tick_s);
+  double error = 0.0, whole = 0.0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (!counts[k]) continue;
+    error += filtered_left[k] * filtered_left[k];
+    whole += filtered_torque[k] * filtered_torque[k];
+  }
+  return whole > 0.0 ? std::sqrt(error / whole) : 0.0;
 }
 
 Relerr relerr(Rig const& rig, LoopRun const& noisy, Baseline const& fitted) {
@@ -23,7 +47,7 @@ Relerr relerr(Rig const& rig, LoopRun const& noisy, Baseline const& fitted) {
     torque[k] = noisy.recording.torque[k];
   }
   double const whole = in_band_rms(torque);
-  return {in_band_rms(from_baseline) / whole, in_band_rms(from_truth) / whole};
+  return {in_band_rms(from_baseline) / whole, in_band_rms(from_truth) / whole, oracle_of_recording(rig, noisy)};
 }
 
 // where each effect's torque stands in Truth::added: laws first, then the rig's own instruments, then concealed faults

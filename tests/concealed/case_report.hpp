@@ -18,9 +18,10 @@ struct StepError {
   double position = 0.0;  // of the rms of the encoder's rounding
 };
 
-// relative errors of the low-passed torque at the true motion: the baseline fitted without noise, and the true model
+// relative errors of the low-passed torque at the true motion: the baseline fitted without noise, and the true model; and the
+// true model at the motion as recorded (recorded_motion.hpp), away from reversals
 struct Relerr {
-  double baseline = 0.0, oracle = 0.0;
+  double baseline = 0.0, oracle = 0.0, oracle_of_recording = 0.0;
 };
 
 struct CaseReport {

@@ -15,7 +15,7 @@ def true_effect(name="stribeck", families=("reversal", "velocity_law"), catalogu
 def truth(expected="named", effects=None, snr=3.0):
     effects = [true_effect(snr=snr)] if effects is None else effects
     return {"case": "x", "expected": expected, "size": size(snr), "effects": effects,
-            "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01}}, "step_error": {"torque": 1e-6, "position": 1e-6}}
+            "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01, "oracle_of_recording": 0.01}}, "step_error": {"torque": 1e-6, "position": 1e-6}}
 
 
 def clean():

@@ -46,7 +46,8 @@ class Judgement:
     n_named: int = 0
     false_names: tuple = ()
     found: tuple = ()
-    gap_closed: float | None = None
+    gap_closed: float | None = None  # to the true laws along the recorded motion
+    gap_to_exact: float | None = None  # to the true laws along the exact motion, which nobody knows
     tier: str = ""
     drawn: str = ""                    # the name a drawn case was made from
     wanted_snr: float = 0.0            # size each of its effects was made with
@@ -216,7 +217,9 @@ def judge(truth, verdict):
         found, false_names = match(reported, truth["effects"])
         if truth["expected"] == "measurement":
             false_names = _claims(reported, truth["may_name"])
-        gap = _gap_closed(record["unseen"], truth["relerr"]["validate"]["oracle"]) if truth["effects"] else None
+        oracles = truth["relerr"]["validate"]
+        gap, exact = (_gap_closed(record["unseen"], oracles[key]) if truth["effects"] else None
+                      for key in ("oracle_of_recording", "oracle"))
         families = guesses(record)
         names = tuple((r["name"], r["family"], verdict_record.confidence_of(r), r["name"] not in false_names) for r in reported)
         loop = _loop_ratio(record["loop"])
@@ -227,7 +230,7 @@ def judge(truth, verdict):
         f.rank = next((i for i, family in enumerate(families, 1) if family in t["families"]), None)
         f.blind = blind_chance(len(families), sum(family in t["families"] for family in families))
     out.verdict, out.n_named, out.names = record["verdict"], len(reported), names
-    out.found, out.false_names, out.gap_closed, out.loop_ratio = tuple(found), false_names, gap, loop
+    out.found, out.false_names, out.gap_closed, out.gap_to_exact, out.loop_ratio = tuple(found), false_names, gap, exact, loop
     out.reason, out.seconds = record["reason"], record["seconds"]
     out.right = _is_right(out, truth)
     return out

@@ -86,6 +86,10 @@ def gaps(js):
     return [j.gap_closed for j in _of(js, ("T1", "T2", "T3"), 1.0) if j.gap_closed is not None]
 
 
+def exact_gaps(js):
+    return [j.gap_to_exact for j in _of(js, ("T1", "T2", "T3"), 1.0) if j.gap_to_exact is not None]
+
+
 def overlaps(js):
     return [f.iou for f in _found(js) if f.iou is not None]
 
@@ -150,6 +154,8 @@ ROWS = (
     Row("gap_closed", "Gap to the oracle closed on unseen data, SNR ≥ 1, median", "percent",
         lambda js: measures.quantile(gaps(js)),
         Level("≥ 80 %", low=0.80), Level("≥ 92 %", low=0.92)),
+    Row("gap_to_exact", "The same, to an oracle that knows the exact motion", "percent",
+        lambda js: measures.quantile(exact_gaps(js))),
     Row("loop_ratio", "Closed-loop position error, after over before, median", "number",
         lambda js: measures.quantile([j.loop_ratio for j in _of(js, ("T1", "T2", "T3"), 1.0)])),
     Row("outside", "Physics outside the catalogue: unexplained", "percent", _share(("T4",), lambda j: j.right),

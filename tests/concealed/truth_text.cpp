@@ -79,6 +79,14 @@ std::string words_text() {
   return Json{{"effects", effects}, {"may_name", measurement_names()}, {"axes", truth_axes()}}.dump(1) + "\n";
 }
 
+namespace {
+
+Json relerr_json(Relerr const& relerr) {
+  return {{"baseline", relerr.baseline}, {"oracle", relerr.oracle}, {"oracle_of_recording", relerr.oracle_of_recording}};
+}
+
+}  // namespace
+
 std::string truth_text(Case const& one_case, CaseReport const& report) {
   Rig const& rig = one_case.rig;
   Json truth = {
@@ -98,8 +106,7 @@ std::string truth_text(Case const& one_case, CaseReport const& report) {
       {"absorbed_baseline", baseline_json(report.fit.parameters)},
       {"size", size_json(report.together)},
       {"relerr",
-       {{"train", {{"baseline", report.train_relerr.baseline}, {"oracle", report.train_relerr.oracle}}},
-        {"validate", {{"baseline", report.validate_relerr.baseline}, {"oracle", report.validate_relerr.oracle}}}}},
+       {{"train", relerr_json(report.train_relerr)}, {"validate", relerr_json(report.validate_relerr)}}},
       {"step_error", {{"torque", report.step_error.torque}, {"position", report.step_error.position}}},
       {"effects", Json::array()}};
   if (!one_case.drawn.empty()) {

@@ -44,12 +44,13 @@ class FrictionWanders : public testing::Test {
     return recording;
   }
 
-  static Selection selected_from(Recording const& recording, std::vector<Effect const*> candidates) {
+  static Selection selected_from(Recording const& recording, std::vector<Effect const*> candidates,
+                                 std::size_t twins = 48) {
     Section const no_section;
     FilterOptions const filter = clean_filter();
     SelectionOptions options;
     options.candidates = std::move(candidates);
-    StageSetting const setting{recording, clean_regressor(), filter, no_section, 48, 1, 2};
+    StageSetting const setting{recording, clean_regressor(), filter, no_section, twins, 1, 2};
     return select_effects(setting, options, {});
   }
 
@@ -134,7 +135,8 @@ TEST_F(FrictionWanders, NotSoMuchThatADriftIsHidden) {
   auto const& dq = made.record.motion.dq;
   for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
     recording.torque[k] += coulomb * std::tanh(dq[k] / 0.01) * 0.3 * recording.time_s[k] / duration_s;
-  Selection const selection = selected_from(recording, {find_effect("friction_drift"), find_effect("stribeck")});
+  // beside friction that wanders a drift holds little weighed energy: the least p of few twins would not open the gate
+  Selection const selection = selected_from(recording, {find_effect("friction_drift"), find_effect("stribeck")}, 200);
   ASSERT_EQ(selection.accepted.size(), 1U);
   EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
 }

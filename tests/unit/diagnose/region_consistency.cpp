@@ -45,7 +45,8 @@ Eigen::VectorXd fitted(Eigen::VectorXd const& column, Eigen::VectorXd const& mis
 TEST(RegionConsistency, IsTheRegionsShareOfItsEnergyWhenTheMismatchIsTheEffect) {
   RegionConsistency const found = region_consistency(hump(), hump(), Eigen::MatrixXd::Zero(n, 1));
   EXPECT_GE(found.share, region_energy);
-  EXPECT_LE(found.share, region_energy + hump().array().square().maxCoeff() / hump().squaredNorm());  // one row more at most
+  EXPECT_LE(found.share,
+            region_energy + hump().array().square().maxCoeff() / hump().squaredNorm());  // one row more at most
   EXPECT_DOUBLE_EQ(found.asked_for, 0.7);
   EXPECT_TRUE(found.holds());
 }

@@ -1,0 +1,137 @@
+#include "engine/diagnose/row_whitening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t longest_lag = 48;
+constexpr std::size_t frequencies = 512;  // from 0 to half the row rate
+
+// visit(first, end) for every unbroken stretch
+template <typename Visit>
+void for_each_stretch(std::span<Eigen::Index const> kept_rows, Visit const& visit) {
+  std::size_t first = 0;
+  for (std::size_t k = 1; k <= kept_rows.size(); ++k) {
+    if (k < kept_rows.size() && kept_rows[k] == kept_rows[k - 1] + 1) continue;
+    visit(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(k));
+    first = k;
+  }
+}
+
+// mean product of rows `lag` apart in one stretch; as far as there are pairs enough
+std::vector<double> covariance_of(Eigen::MatrixXd const& noise, std::span<Eigen::Index const> kept_rows) {
+  constexpr Eigen::Index fewest_pairs = 100;
+  std::vector<double> covariance;
+  for (std::size_t lag = 0; lag <= longest_lag; ++lag) {
+    double sum = 0.0;
+    Eigen::Index pairs = 0;
+    for_each_stretch(kept_rows, [&](Eigen::Index first, Eigen::Index end) {
+      Eigen::Index const n = end - first - static_cast<Eigen::Index>(lag);
+      if (n <= 0) return;
+      sum += noise.middleRows(first, n).cwiseProduct(noise.middleRows(end - n, n)).sum();
+      pairs += n;
+    });
+    if (pairs < fewest_pairs) break;
+    covariance.push_back(sum / static_cast<double>(pairs * noise.cols()));
+  }
+  return covariance;
+}
+
+// Parzen's: its spectrum is nowhere negative, so what it makes of a covariance is one
+double lag_window(double share) {
+  double const rest = 1.0 - share;
+  return share <= 0.5 ? 1.0 - 6.0 * share * share * rest : 2.0 * rest * rest * rest;
+}
+
+std::vector<double> spectrum_of(std::vector<double> const& covariance) {
+  std::vector<double> density(frequencies + 1);
+  for (std::size_t j = 0; j <= frequencies; ++j) {
+    double sum = covariance[0];
+    for (std::size_t lag = 1; lag < covariance.size(); ++lag)
+      sum += 2.0 * lag_window(static_cast<double>(lag) / static_cast<double>(covariance.size())) * covariance[lag] *
+             std::cos(std::numbers::pi * static_cast<double>(lag * j % (2 * frequencies)) / frequencies);
+    density[j] = sum;
+  }
+  return density;
+}
+
+// the same in reverse, by the trapezoid rule
+std::vector<double> covariance_from(std::vector<double> const& density, std::size_t lags) {
+  std::vector<double> covariance(lags);
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    double sum = 0.5 * (density.front() + density.back() * (lag % 2 == 0 ? 1.0 : -1.0));
+    for (std::size_t j = 1; j < frequencies; ++j)
+      sum += density[j] * std::cos(std::numbers::pi * static_cast<double>(lag * j % (2 * frequencies)) / frequencies);
+    covariance[lag] = sum / frequencies;
+  }
+  return covariance;
+}
+
+// sum of past_i x_(-i), in four sums that need not wait for one another; always the same four
+double backward_product(std::vector<double> const& past, double const* x) {
+  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  std::size_t i = 0;
+  for (; i + 4 <= past.size(); i += 4)
+    for (std::size_t part = 0; part < 4; ++part) sums[part] += past[i + part] * *(x - (i + part));
+  for (; i < past.size(); ++i) sums[0] += past[i] * *(x - i);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+}  // namespace
+
+RowWhitening::RowWhitening(std::span<double const> covariance, double quietest) {
+  TORQUESCOPE_EXPECT(!covariance.empty() && covariance[0] > 0.0 && quietest > 0.0);
+  noise_std_ = std::sqrt(quietest);
+  double variance = covariance[0];
+  past_.emplace_back();
+  gain_.push_back(std::sqrt(quietest / variance));
+  for (std::size_t m = 1; m < covariance.size(); ++m) {
+    std::vector<double> const& before = past_.back();
+    double product = covariance[m];
+    for (std::size_t i = 1; i < m; ++i) product -= before[i - 1] * covariance[m - i];
+    double const reflection = product / variance;
+    double const left = variance * (1.0 - reflection * reflection);
+    if (!(left > 0.0)) break;  // rounding: as far as the past tells anything
+    std::vector<double> past(m);
+    for (std::size_t i = 1; i < m; ++i) past[i - 1] = before[i - 1] - reflection * before[m - i - 1];
+    past[m - 1] = reflection;
+    variance = left;
+    past_.push_back(std::move(past));
+    gain_.push_back(std::sqrt(quietest / variance));
+  }
+}
+
+void RowWhitening::apply(Eigen::Ref<Eigen::MatrixXd> signals, std::span<Eigen::Index const> kept_rows) const {
+  TORQUESCOPE_EXPECT(static_cast<std::size_t>(signals.rows()) == kept_rows.size());
+  if (is_identity()) return;
+  auto const order = static_cast<Eigen::Index>(gain_.size()) - 1;
+  for_each_stretch(kept_rows, [&](Eigen::Index first, Eigen::Index end) {
+    for (Eigen::Index column = 0; column < signals.cols(); ++column) {
+      double* const x = &signals.coeffRef(0, column);
+      // from the end, for what stands before a row is still wanted as it was
+      for (Eigen::Index k = end - 1; k >= first; --k) {
+        auto const m = static_cast<std::size_t>(std::min(k - first, order));
+        x[k] = gain_[m] * (x[k] - backward_product(past_[m], x + k - 1));
+      }
+    }
+  });
+}
+
+RowWhitening whitening_of(Eigen::MatrixXd const& noise, std::span<Eigen::Index const> kept_rows, double cutoff) {
+  std::vector<double> covariance = covariance_of(noise, kept_rows);
+  if (covariance.empty() || !(covariance[0] > 0.0)) return {};
+  std::vector<double> density = spectrum_of(covariance);
+  auto const last = std::clamp<std::size_t>(static_cast<std::size_t>(2.0 * cutoff * frequencies), 1, frequencies);
+  double const quietest = *std::min_element(density.begin(), density.begin() + static_cast<std::ptrdiff_t>(last));
+  // pairs of rows are another few at every lag, so a density may come out below 0
+  double const least = std::max(quietest, 1e-9 * covariance[0]);
+  for (double& one : density) one = std::max(one, least);
+  return {covariance_from(density, covariance.size()), least};
+}
+
+}  // namespace torquescope

@@ -1,0 +1,40 @@
+#pragma once
+// Makes rows whose noise is not white count for what they know: the noise of inverse dynamics grows with the fourth power
+// of frequency (an encoder's steps, differentiated twice), and least squares on such rows looks at the noise alone.
+//
+// Noise      stationary along an unbroken stretch of rows; every stretch begins anew, so nothing crosses a masked reversal
+// Equation   row k of a stretch: gain_m (x_k - sum_i a_mi x_(k-i)), m = min(k, order): the inverse Cholesky factor of the
+//            stretch's covariance; the same on torque and columns, so that torque = columns * parameters goes on holding
+// Gain       the quietest frequency below the cut-off keeps its size, louder ones shrink: results stay in torque units.
+//            Nothing is enlarged, whatever the filter left of it
+// Shapes     signals: rows x any number, in time order; kept_rows: of each row, consecutive numbers are neighbours
+// Threads    const object, any number of threads
+// Source     generalised least squares: Aitken 1935; Levinson, Durbin as in Brockwell, Davis 1991, section 5.2
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace torquescope {
+
+class RowWhitening {
+ public:
+  RowWhitening() = default;  // leaves rows as they are
+  // covariance: of the noise at lags 0, 1, ...; quietest: least spectral density that counts, so that white noise of
+  // variance `quietest` passes as it is.  Requires covariance of a stationary noise, quietest > 0
+  RowWhitening(std::span<double const> covariance, double quietest);
+
+  bool is_identity() const { return gain_.empty(); }
+  double noise_std() const { return noise_std_; }  // of a whitened row; not for an identity
+  void apply(Eigen::Ref<Eigen::MatrixXd> signals, std::span<Eigen::Index const> kept_rows) const;
+
+ private:
+  std::vector<std::vector<double>> past_{};  // a_m of every order m
+  std::vector<double> gain_{};               // of every order m
+  double noise_std_ = 0.0;
+};
+
+// noise: draws of it, one per column, mean zero.  cutoff: share of the row rate up to which the filter lets signals through
+RowWhitening whitening_of(Eigen::MatrixXd const& noise, std::span<Eigen::Index const> kept_rows, double cutoff);
+
+}  // namespace torquescope
