@@ -101,6 +101,10 @@ RecordedLoop loop_to_try(Recording const& in_loop, double inertia, JointModel co
 
 }  // namespace
 
+TwinLevels levels_of(BaselineTwin const& made) {
+  return {made.baseline.parameters, made.disturbance, made.friction_wander};
+}
+
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
                            TwinOptions const& options, int threads) {
   return friction_wander(pipeline.process(recording), made.twin, pipeline, options.wander, wander_set(options),

@@ -52,6 +52,8 @@ struct BaselineTwin {
 
 inline constexpr std::uint32_t first_free_twin_set = 3;
 
+TwinLevels levels_of(BaselineTwin const& made);
+
 // the wander of dry friction once more, under the weights that the pipeline has now
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
                            TwinOptions const& options, int threads);

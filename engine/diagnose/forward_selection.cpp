@@ -40,6 +40,11 @@ bool helps_elsewhere(BlockedGain const& cv, double gain) {
   return cv.t >= least_t || cv.gain >= most * gain;
 }
 
+// of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
+double energy_about_true_mean(ModelStage const& stage) {
+  return stage.mismatch().squaredNorm() - stage.energy.noise / static_cast<double>(stage.comparison.rows.n_twins() + 1);
+}
+
 class Search {
  public:
   Search(StageSetting setting, SelectionOptions const& options, StageSink const& progress)
@@ -229,22 +234,28 @@ class Search {
     }
     std::vector<ShapedEffect> effects = stage_.model().effects();
     effects.push_back({effect, trial.refined.shape});
-    tell("twins", 0, setting_.twins);
-    auto next = refined_stage(setting_, stage_.reference(), std::move(effects));
-    tell("twins", setting_.twins, setting_.twins);
+    auto next = refined_draft(setting_, stage_.reference(), std::move(effects));
     if (!next) {
       reject(effect, "twins with it do not follow the reference");
       return false;
     }
-    // the twins must confirm at least half of what the projection promised
-    constexpr double confirmed = 0.5;
-    if (next->mismatch().squaredNorm() > stage_.mismatch().squaredNorm() - confirmed * gain) {
+    // the twins must confirm at least a third of what the projection promised: where parts knock against each other twins
+    // that are right in all but a little repeat no more of it
+    constexpr double confirmed = 1.0 / 3.0;
+    if (energy_about_true_mean(*next) > energy_about_true_mean(stage_) - confirmed * gain) {
       reject(effect, "twins with it leave as much as twins without it");
+      return false;
+    }
+    tell("twins", 0, setting_.twins);
+    auto whole = reweighed_stage(setting_, *next);
+    tell("twins", setting_.twins, setting_.twins);
+    if (!whole) {
+      reject(effect, "twins with it do not follow the reference");
       return false;
     }
     double const unit = selection_.energy_unit;
     selection_.accepted.push_back({effect, trial.scan, trial.q, gain / unit, trial.cv.gain / unit, region.share});
-    if (auto weighed = reweighed_stage(setting_, *next)) next = std::move(weighed);
+    next = std::move(whole);
     selection_.energy_unit *= energy_unit_under(stage_, *next->pipeline);
     setting_.weights = next->pipeline->weights();
     keep_baseline();

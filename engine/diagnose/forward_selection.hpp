@@ -16,7 +16,7 @@
 //            do that, and must explain a quarter of the whole. As soon as an effect of
 //            the family `time` would be accepted, the search begins again among twins whose friction wanders as much as
 //            it may at most (friction_wander.hpp, by itself)
-// Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least half of what
+// Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least a third of what
 //            the projection promised
 // End        backward and swap (backward_selection.hpp)
 // Threads    as the stages

@@ -44,18 +44,31 @@ ShapeSteps stepped(ModelStage const& stage) {
 
 }  // namespace
 
-std::optional<ModelStage> refined_stage(StageSetting const& setting, BaselineReference const& reference,
+std::optional<ModelStage> refined_draft(StageSetting const& setting, BaselineReference const& reference,
                                         std::vector<ShapedEffect> effects) {
-  constexpr int most_rounds = 2;
-  auto best = make_stage(setting, JointModel(setting.regressor, reference, std::move(effects)));
+  constexpr int most_rounds = 4;
+  StageSetting draft = setting;
+  draft.twins = std::min(setting.twins, draft_twins);
+  auto best = make_stage(draft, JointModel(setting.regressor, reference, std::move(effects)));
   for (int round = 0; best && round < most_rounds; ++round) {
     ShapeSteps steps = stepped(*best);
     if (steps.is_small) break;
-    auto next = make_stage(setting, JointModel(setting.regressor, best->reference(), std::move(steps.effects)));
+    // a step in shape changes no noise
+    draft.levels = levels_of(*best->twin);
+    auto next = make_stage(draft, JointModel(setting.regressor, best->reference(), std::move(steps.effects)));
     if (!next || next->mismatch().squaredNorm() >= best->mismatch().squaredNorm()) break;
     best = std::move(next);
   }
   return best;
+}
+
+std::optional<ModelStage> refined_stage(StageSetting const& setting, BaselineReference const& reference,
+                                        std::vector<ShapedEffect> effects) {
+  auto const draft = refined_draft(setting, reference, std::move(effects));
+  if (!draft) return std::nullopt;
+  StageSetting whole = setting;
+  whole.levels = levels_of(*draft->twin);
+  return make_stage(whole, draft->model());
 }
 
 }  // namespace torquescope

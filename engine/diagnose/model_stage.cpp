@@ -13,10 +13,6 @@ constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have som
 
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
 
-TwinLevels levels_of(BaselineTwin const& made) {
-  return {made.baseline.parameters, made.disturbance, made.friction_wander};
-}
-
 ModelStage made_stage(StageSetting const& setting, JointModel model) {
   auto pipeline = std::make_unique<RecordPipeline>(std::move(model), setting.filter, setting.recording.rate_hz,
                                                    setting.recording.position.size(), setting.filter_section);
@@ -79,14 +75,15 @@ std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel mod
 }
 
 std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage) {
-  if (!stage.pipeline->whitens()) return std::nullopt;
-  RecordPipeline const plain(stage.model(), setting.filter, setting.recording.rate_hz,
-                             setting.recording.position.size(), setting.filter_section);
   StageSetting own = setting;
-  NoiseWeights const rows(
-      twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.threads));
-  own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));
   own.levels = levels_of(*stage.twin);
+  if (stage.pipeline->whitens()) {
+    RecordPipeline const plain(stage.model(), setting.filter, setting.recording.rate_hz,
+                               setting.recording.position.size(), setting.filter_section);
+    NoiseWeights const rows(
+        twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.threads));
+    own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));
+  }
   return make_stage(own, stage.model());
 }
 

@@ -51,7 +51,7 @@ struct ModelStage {
 // Errors     Error 65 as the pipeline and the twins, for a model without effects only
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);
 
-// The same model with rows weighed by the noise that its own twins have. What is missing at first passes for noise in part, so
+// The same model with all its twins, its levels known and rows weighed by the noise that its own twins have. What is missing at first passes for noise in part, so
 // that the weights of one stage are too coarse for the next
 std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
 
