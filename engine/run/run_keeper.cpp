@@ -174,6 +174,7 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
   for (auto const& [id, end] : ends) safe_[id] = std::max(safe_[id], end);
   runs_safe_ += ended;
   ++segments_;
+  if (setting_.safe) setting_.safe(runs_safe_);
 }
 
 std::size_t RunKeeper::runs_safe() const {

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -34,6 +35,8 @@ class RunKeeper {
     double interval_s = 20.0;
     std::size_t most_bytes = std::size_t{64} << 20;
     bool everything = false;  // of a shard, whose segments are all that it leaves
+    // told by the thread that wrote a segment, once it is safe: runs that ended and were written by this process
+    std::function<void(std::size_t runs_safe)> safe{};
   };
   RunKeeper(Setting setting, std::mutex& hdf5);
 

@@ -38,6 +38,10 @@ Verification verify_everything(std::filesystem::path const& file) {
   facts.bytes = std::filesystem::file_size(file, unknown);
   facts.content = reader.verified_content();
   facts.provenance = reader.read_everything(FilePart::provenance);
+  auto const stored = reader.find_attribute<std::string>("/", provenance_digest_key);
+  facts.provenance_is_stored = stored.has_value();
+  if (stored && *stored != facts.provenance.sha256)
+    throw contradicts(file, provenance_path, "what it says of the program does not match its sha256");
   bool const is_segment = reader.exists("/segment");  // it names its job, but does not hold it
   if (!is_segment) facts.job_sha256 = job_digest(reader);
   return facts;

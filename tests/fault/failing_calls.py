@@ -1,0 +1,131 @@
+"""Every system call of a three-run job fails once, in every way it can: the exit code says so, what is published is whole, and
+the same command again makes the file that nobody disturbed.
+
+Counts: every call of every phase each time the tests run; with TORQUESCOPE_FAULTS above 60 also of a job of 20 runs.
+"""
+
+import os
+import re
+import sys
+import unittest
+
+import shimmed
+import study
+
+MANY = int(os.environ.get("TORQUESCOPE_FAULTS", "60")) > 60
+
+NEEDS_ROOM, CAN_BE_INTERRUPTED, CAN_BE_SHORT = 1, 2, 4
+# what makes a file safe: where such a call fails, the exit code must say so
+VITAL = ("write", "pwrite", "writev", "fsync", "fdatasync", "ftruncate", "rename")
+
+
+class Call:
+    def __init__(self, line):
+        self.hit = line.startswith("!")
+        number, self.name, can, self.path = line.lstrip("!").rstrip("\n").split(" ", 3)
+        self.number, self.can = int(number), int(can)
+
+    @property
+    def is_vital(self):
+        return self.name in VITAL and not self.path.endswith(".lock")
+
+    def errors(self):
+        yield "EIO"
+        if self.can & NEEDS_ROOM:
+            yield from ("ENOSPC", "EDQUOT")
+        if self.can & CAN_BE_INTERRUPTED:
+            yield "EINTR"
+        if self.can & CAN_BE_SHORT:
+            yield "short"
+
+
+class FailingCalls(shimmed.ShimmedTest):
+    def shimmed(self, folder, command, **settings):
+        log = os.path.join(self.home, "calls." + os.path.basename(folder.path))
+        ended = folder.run(*command, changes=shimmed.changes(folder, calls=log, **settings))
+        with open(log, encoding="utf-8") as file:
+            calls = [Call(line) for line in file]
+        os.remove(log)
+        return ended, calls
+
+    def assert_failed_well(self, ended, call, error, folder):
+        """Exit 74 and words that help; or the call did not matter, and everything is as it should be."""
+        said = f"{call.name} {call.path} {error}: {ended.code}\n{ended.err}"
+        if ended.code == 0:
+            self.assertFalse(call.is_vital, said)
+            return
+        self.assertEqual(ended.code, 74, said)
+        words = {"EIO": "input/output error", "ENOSPC": "no space left on device", "EDQUOT": "disk quota exceeded"}[error]
+        self.assertIn(words, ended.said, said)
+        self.assertRegex(ended.said, r"(cannot write|cannot read) \S*(r\.h5|job\.toml)", said)
+        if error != "EIO":
+            self.assertRegex(ended.said, r"\d+ bytes are free there", said)
+            if "r.h5.parts:" not in ended.said:
+                self.assertRegex(ended.said, r"\d+ bytes or more are needed", said)
+        self.assertRegex(ended.said, "the same command again", said)
+        if os.path.exists(folder / "r.h5"):
+            self.assertTrue(self.same_bytes(folder), "what is published is whole")
+
+    def same_bytes(self, folder):
+        with open(self.whole / "r.h5", "rb") as one, open(folder / "r.h5", "rb") as other:
+            return one.read() == other.read()
+
+    def assert_finishes(self, folder, command, finish):
+        for again in (command, finish):
+            if again is None:
+                continue
+            ended = folder.run(*again)
+            self.assert_ended(ended, 0)
+            self.assertNotIn("damaged", ended.said)
+        self.assert_same(folder)
+
+    def check_every_call(self, prepared, command, finish=None, errors=None):
+        """finish: what makes the result, when the command does not."""
+        ended, calls = self.shimmed(self.copy_of(prepared), command)
+        self.assert_ended(ended, 0)
+        tried = failed = 0
+        for call in calls:
+            for error in call.errors():
+                folder = self.copy_of(prepared)
+                ended, made = self.shimmed(folder, command, nth=call.number, error=error)
+                hit = [c for c in made if c.hit]
+                self.assertEqual(len(hit), 1, f"call {call.number} of {call.name}")
+                with self.subTest(call=call.number, name=hit[0].name, path=os.path.basename(hit[0].path), error=error):
+                    tried += 1
+                    if error in ("EINTR", "short"):
+                        self.assert_ended(ended, 0)
+                        self.assert_finishes(folder, finish or command, None)
+                        continue
+                    failed += ended.code != 0
+                    self.assert_failed_well(ended, hit[0], error, folder)
+                    self.assert_finishes(folder, command, finish)
+        for call in calls:  # and a disk that stays as it is from there on
+            for error in ("ENOSPC", "EIO"):
+                if error == "ENOSPC" and not call.can & NEEDS_ROOM:
+                    continue
+                folder = self.copy_of(prepared)
+                ended, made = self.shimmed(folder, command, nth=call.number, error=error, on=1)
+                hit = [c for c in made if c.hit]
+                with self.subTest(from_call=call.number, name=hit[0].name, error=error):
+                    tried += 1
+                    failed += ended.code != 0
+                    self.assert_failed_well(ended, hit[0], error, folder)
+                    self.assert_finishes(folder, command, finish)
+        print(f"{' '.join(command)}: {len(calls)} calls, {tried} failures, {failed} times exit 74, none differs",
+              file=sys.stderr)
+
+    def test_run(self):
+        self.check_every_call(self.prepared(), shimmed.RUN)
+
+    def test_run_that_goes_on_from_segments(self):
+        self.check_every_call(self.prepared(shimmed.shard(0, 2)), shimmed.RUN)
+
+    def test_shard(self):
+        self.check_every_call(self.prepared(shimmed.shard(1, 2)), shimmed.shard(0, 2), finish=shimmed.MERGE)
+
+    def test_merge(self):
+        self.check_every_call(self.prepared(shimmed.shard(0, 2), shimmed.shard(1, 2)), shimmed.MERGE)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
