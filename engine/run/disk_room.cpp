@@ -23,20 +23,28 @@ std::uintmax_t sample_bytes(DataSet const& set) {
   return rows * (channels + static_cast<std::uintmax_t>(set.regression.parameters())) * sizeof(double);
 }
 
+constexpr std::uintmax_t bytes_of_names = std::uintmax_t{16} << 10;
+
 }  // namespace
 
 std::uintmax_t result_bytes(Experiment::Parts const& parts) {
-  constexpr std::uintmax_t names = std::uintmax_t{16} << 10, gzip_shrinks_to_less_than_a = 10;
+  constexpr std::uintmax_t gzip_shrinks_to_less_than_a = 10;
+  constexpr std::uintmax_t curves_and_surfaces = std::uintmax_t{64} << 10, path_numbers = 4;
+  auto const runs = static_cast<std::size_t>(parts.experiment.runs);
   std::uintmax_t bytes = 0;
-  for (auto const& plan : parts.estimators)
-    if (!plan.is_closed_form())
-      bytes += history_bytes(history_shape(parts, plan), static_cast<std::size_t>(parts.experiment.runs));
+  for (auto const& plan : parts.estimators) {
+    if (plan.is_closed_form()) continue;
+    HistoryShape const shape = history_shape(parts, plan);
+    bytes += history_bytes(shape, runs);
+    if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
+  }
   if (parts.output.samples) bytes += sample_bytes(parts.train) + (parts.validate ? sample_bytes(*parts.validate) : 0);
-  return names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
+  return bytes_of_names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
 }
 
 std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
-  std::uintmax_t bytes = 0;
+  if (runs == 0) return 0;
+  std::uintmax_t bytes = bytes_of_names;
   for (auto const& plan : parts.estimators)
     if (!plan.is_closed_form()) bytes += history_bytes(history_shape(parts, plan), runs);
   return bytes;

@@ -11,9 +11,11 @@
 namespace torquescope::h5 {
 namespace {
 
-// once per process: nothing printed, no filters loaded from folders that a file could name
+// once per process: nothing printed, no filters loaded from folders that a file could name, and no tidying up at the exit: after
+// a call to the disk has failed, HDF5 1.10 crashes there (handles close themselves, so there is nothing to tidy)
 void prepare_library() {
   static bool const prepared = [] {
+    H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);

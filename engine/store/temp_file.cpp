@@ -16,6 +16,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/interrupted_call.hpp"
 #include "engine/store/disk_failure.hpp"
 
 namespace torquescope {
@@ -28,14 +29,6 @@ constexpr std::size_t most_waiting_blocks = 4;
 constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache
 constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
-
-// a signal may come in the middle of any of these calls: then nothing was done and nothing is lost
-template <class Call>
-auto unless_interrupted(Call&& call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
 
 int open_file(char const* name, int flags, mode_t mode = 0) {
   return unless_interrupted([&] { return ::open(name, flags, mode); });

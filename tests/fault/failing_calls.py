@@ -56,13 +56,14 @@ class FailingCalls(shimmed.ShimmedTest):
             return
         self.assertEqual(ended.code, 74, said)
         words = {"EIO": "input/output error", "ENOSPC": "no space left on device", "EDQUOT": "disk quota exceeded"}[error]
-        self.assertIn(words, ended.said, said)
-        self.assertRegex(ended.said, r"(cannot write|cannot read) \S*(r\.h5|job\.toml)", said)
+        told = ended.said.replace("[74] ", "")
+        self.assertIn(words, told.lower(), said)
+        self.assertRegex(told, r"(cannot write|cannot read) \S*(r\.h5|job\.toml)", said)
         if error != "EIO":
-            self.assertRegex(ended.said, r"\d+ bytes are free there", said)
-            if "r.h5.parts:" not in ended.said:
-                self.assertRegex(ended.said, r"\d+ bytes or more are needed", said)
-        self.assertRegex(ended.said, "the same command again", said)
+            self.assertRegex(told, r"\d+ bytes are free there", said)
+            if "r.h5.parts:" not in told:  # a folder needs what it needs
+                self.assertRegex(told, r"\d+ bytes or more are needed", said)
+        self.assertIn("the same command again", told, said)
         if os.path.exists(folder / "r.h5"):
             self.assertTrue(self.same_bytes(folder), "what is published is whole")
 

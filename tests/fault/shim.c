@@ -63,24 +63,6 @@ static int open_record(char const* name) {
   return file < 0 ? -1 : fcntl(file, F_DUPFD_CLOEXEC, 900);
 }
 
-__attribute__((constructor)) static void prepare(void) {
-  char const* const name = getenv("SHIM_FOLDER");
-  if (!name) return;
-  snprintf(folder, sizeof folder, "%s", name);
-  folder_length = strlen(folder);
-  calls_file = open_record(getenv("SHIM_CALLS"));
-  log_file = open_record(getenv("SHIM_LOG"));
-  char const* const text = getenv("SHIM_NTH");
-  nth = text ? atol(text) : 0;
-  on = getenv("SHIM_ON") != NULL;
-  char const* const kind = getenv("SHIM_ERROR");
-  shorten = kind && strcmp(kind, "short") == 0;
-  error_number = number_of(kind);
-  flock_error = number_of(getenv("SHIM_FLOCK"));
-  real_sync = getenv("SHIM_DISK") != NULL;
-  if (getenv("SHIM_FREE")) free_bytes = atoll(getenv("SHIM_FREE"));
-}
-
 static void* next(char const* name) {
   void* const found = dlsym(RTLD_NEXT, name);
   if (!found) abort();
@@ -114,6 +96,25 @@ static void record(void const* bytes, size_t size, char const* format, ...) {
   if (size > 0) memcpy(whole + length, bytes, size);
   put(log_file, whole, (size_t)length + size);
   free(whole);
+}
+
+__attribute__((constructor)) static void prepare(void) {
+  char const* const name = getenv("SHIM_FOLDER");
+  if (!name) return;
+  snprintf(folder, sizeof folder, "%s", name);
+  folder_length = strlen(folder);
+  calls_file = open_record(getenv("SHIM_CALLS"));
+  log_file = open_record(getenv("SHIM_LOG"));
+  char const* const text = getenv("SHIM_NTH");
+  nth = text ? atol(text) : 0;
+  on = getenv("SHIM_ON") != NULL;
+  char const* const kind = getenv("SHIM_ERROR");
+  shorten = kind && strcmp(kind, "short") == 0;
+  error_number = number_of(kind);
+  flock_error = number_of(getenv("SHIM_FLOCK"));
+  real_sync = getenv("SHIM_DISK") != NULL;
+  if (log_file >= 0) record(NULL, 0, "begin %ld\n", (long)getpid());
+  if (getenv("SHIM_FREE")) free_bytes = atoll(getenv("SHIM_FREE"));
 }
 
 // below the folder, as an absolute path without links; NULL: not ours
