@@ -60,8 +60,7 @@ std::string kind_of(mode_t mode) {
 
 int open_regular(std::filesystem::path const& path) {
   // without O_NONBLOCK opening a FIFO nobody writes to would wait for ever
-  int const descriptor =
-      unless_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
+  int const descriptor = unless_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
   if (descriptor < 0) throw Error(cannot_open(path, errno));
   struct stat status {};
   bool const known = ::fstat(descriptor, &status) == 0;

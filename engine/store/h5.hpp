@@ -100,7 +100,7 @@ bool exists(Handle const& file, std::string const& path);
 Handle open_object(Handle const& file, std::string const& path);
 Handle make_groups(Handle const& file, std::string const& path);
 bool is_group(Handle const& object);
-std::uint64_t address(Handle const& object);  // in the file: the same for every name of one object
+std::uint64_t address(Handle const& object);                // in the file: the same for every name of one object
 std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 
 // h5_dataset.cpp

@@ -21,10 +21,10 @@ struct Verification {
   std::uintmax_t bytes = 0;
   std::int64_t format = 0;
   std::string creator{};
-  ReadFacts content{};       // its digest is the stored one
+  ReadFacts content{};  // its digest is the stored one
   ReadFacts provenance{};
   bool provenance_is_stored = false;  // its digest, and it was compared
-  std::string job_sha256{};  // "" for a segment, which does not hold its job
+  std::string job_sha256{};           // "" for a segment, which does not hold its job
 };
 
 Verification verify_everything(std::filesystem::path const& file);

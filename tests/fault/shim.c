@@ -49,7 +49,7 @@ static int number_of(char const* name) {
   static struct {
     char const* name;
     int number;
-  } const known[] = {{"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT},         {"EIO", EIO},       {"EINTR", EINTR},
+  } const known[] = {{"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT},         {"EIO", EIO},      {"EINTR", EINTR},
                      {"ENOLCK", ENOLCK}, {"EOPNOTSUPP", EOPNOTSUPP}, {"ENOSYS", ENOSYS}};
   for (size_t i = 0; name && i < sizeof(known) / sizeof(*known); ++i)
     if (strcmp(name, known[i].name) == 0) return known[i].number;
@@ -146,10 +146,10 @@ enum { needs_room = 1, can_be_interrupted = 2, can_be_short = 4 };
 // counts a call; 1: it fails here, errno is set; 2: it is cut short
 static int fails(char const* name, char const* path, int can) {
   long const number = ++counted;
-  int const possible = shorten                                             ? can & can_be_short
-                       : error_number == EINTR                             ? can & can_be_interrupted
+  int const possible = shorten                                            ? can & can_be_short
+                       : error_number == EINTR                            ? can & can_be_interrupted
                        : error_number == ENOSPC || error_number == EDQUOT ? can & needs_room
-                                                                           : error_number != 0;
+                                                                          : error_number != 0;
   int const hit = nth > 0 && possible && (number == nth || (on && number > nth));
   if (calls_file >= 0) {
     char line[PATH_MAX + 64];
@@ -176,8 +176,10 @@ static int open_any(int at, char const* path, int flags, mode_t mode) {
   pthread_mutex_lock(&guard);
   int file = -1;
   int const creates = (flags & O_CREAT) != 0;
-  if (!fails(creates ? "create" : flags & O_DIRECTORY ? "open_folder" : "open", name,
-             can_be_interrupted | (creates ? needs_room : 0))) {
+  if (!fails(creates               ? "create"
+             : flags & O_DIRECTORY ? "open_folder"
+                                   : "open",
+             name, can_be_interrupted | (creates ? needs_room : 0))) {
     struct stat before;
     int const is_new = creates && lstat(name, &before) != 0;
     file = real(at, path, flags, mode);
@@ -195,17 +197,15 @@ static int open_any(int at, char const* path, int flags, mode_t mode) {
   return file;
 }
 
-static mode_t mode_of(int flags, va_list more) {
-  return flags & (O_CREAT | O_TMPFILE) ? (mode_t)va_arg(more, int) : 0;
-}
+static mode_t mode_of(int flags, va_list more) { return flags & (O_CREAT | O_TMPFILE) ? (mode_t)va_arg(more, int) : 0; }
 
-#define OPEN(name)                                     \
-  int name(char const* path, int flags, ...) {         \
-    va_list more;                                      \
-    va_start(more, flags);                             \
-    mode_t const mode = mode_of(flags, more);          \
-    va_end(more);                                      \
-    return open_any(AT_FDCWD, path, flags, mode);      \
+#define OPEN(name)                                \
+  int name(char const* path, int flags, ...) {    \
+    va_list more;                                 \
+    va_start(more, flags);                        \
+    mode_t const mode = mode_of(flags, more);     \
+    va_end(more);                                 \
+    return open_any(AT_FDCWD, path, flags, mode); \
   }
 #define OPENAT(name)                                   \
   int name(int at, char const* path, int flags, ...) { \
@@ -239,7 +239,8 @@ static ssize_t write_any(char const* name, int file, void const* bytes, size_t s
     off_t const place = offset < 0 ? lseek(file, 0, SEEK_CUR) : offset;
     done = offset < 0 ? real_write(file, bytes, part) : real(file, bytes, part, offset);
     if (done > 0)
-      record(bytes, (size_t)done, "write %ld.%ld %lld %zd\n", (long)getpid(), files[file].serial, (long long)place, done);
+      record(bytes, (size_t)done, "write %ld.%ld %lld %zd\n", (long)getpid(), files[file].serial, (long long)place,
+             done);
   }
   int const problem = errno;
   pthread_mutex_unlock(&guard);
@@ -320,8 +321,7 @@ static int rename_any(int from_at, char const* from, int to_at, char const* to, 
   char one[PATH_MAX], other[PATH_MAX];
   char const* const old_name = ours(from_at, from, one);
   char const* const new_name = ours(to_at, to, other);
-  if (!old_name || !new_name)
-    return is_link ? real_link(from_at, from, to_at, to, 0) : real(from_at, from, to_at, to);
+  if (!old_name || !new_name) return is_link ? real_link(from_at, from, to_at, to, 0) : real(from_at, from, to_at, to);
   pthread_mutex_lock(&guard);
   int result = -1;
   if (!fails(is_link ? "link" : "rename", new_name, needs_room)) {
@@ -334,7 +334,9 @@ static int rename_any(int from_at, char const* from, int to_at, char const* to, 
   return result;
 }
 int rename(char const* from, char const* to) { return rename_any(AT_FDCWD, from, AT_FDCWD, to, 0); }
-int renameat(int from_at, char const* from, int to_at, char const* to) { return rename_any(from_at, from, to_at, to, 0); }
+int renameat(int from_at, char const* from, int to_at, char const* to) {
+  return rename_any(from_at, from, to_at, to, 0);
+}
 int link(char const* from, char const* to) { return rename_any(AT_FDCWD, from, AT_FDCWD, to, 1); }
 int linkat(int from_at, char const* from, int to_at, char const* to, int flags) {
   REAL(linkat);

@@ -37,10 +37,11 @@ std::string verification_text(Verification const& facts) {
   if (!facts.job_sha256.empty())
     text += hanging("  job      ", fmt::format("its text has the sha256 stored, {:.16}", facts.job_sha256));
   if (facts.provenance.attributes > 0)
-    text += hanging("  program  ", fmt::format("{} of /provenance: {}", count_of(facts.provenance.attributes, "attribute"),
-                                               facts.provenance_is_stored
-                                                   ? fmt::format("sha256 {:.16} as stored", facts.provenance.sha256)
-                                                   : "their checksums hold; this file stores no sha256 of them"));
+    text +=
+        hanging("  program  ",
+                fmt::format("{} of /provenance: {}", count_of(facts.provenance.attributes, "attribute"),
+                            facts.provenance_is_stored ? fmt::format("sha256 {:.16} as stored", facts.provenance.sha256)
+                                                       : "their checksums hold; this file stores no sha256 of them"));
   return text;
 }
 
