@@ -18,7 +18,7 @@ FLIPS = int(os.environ.get("TORQUESCOPE_FAULTS", "60"))
 class Damage(shimmed.ShimmedTest):
     def check(self, folder):
         """True when the damage was noticed; where it was not, it must not matter."""
-        ended = folder.run(*shimmed.RUN)
+        ended = self.run_in(folder, shimmed.RUN)
         self.assert_ended(ended, 0)
         self.assert_same(folder)
         return "its generations run again" in ended.said

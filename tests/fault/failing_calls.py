@@ -1,7 +1,7 @@
 """Every system call of a three-run job fails once, in every way it can: the exit code says so, what is published is whole, and
 the same command again makes the file that nobody disturbed.
 
-Counts: every call of every phase each time the tests run; with TORQUESCOPE_FAULTS above 60 also of a job of 20 runs.
+Counts: every call of every phase each time the tests run; with TORQUESCOPE_FAULTS above 60 the job has 20 runs, and seven shards too.
 """
 
 import os
@@ -40,6 +40,8 @@ class Call:
 
 
 class FailingCalls(shimmed.ShimmedTest):
+    JOB = shimmed.JOB.replace("runs = 3", "runs = 20") if MANY else shimmed.JOB
+
     def shimmed(self, folder, command, **settings):
         log = os.path.join(self.home, "calls." + os.path.basename(folder.path))
         ended = folder.run(*command, changes=shimmed.changes(folder, calls=log, **settings))
@@ -75,7 +77,7 @@ class FailingCalls(shimmed.ShimmedTest):
         for again in (command, finish):
             if again is None:
                 continue
-            ended = folder.run(*again)
+            ended = self.run_in(folder, again)
             self.assert_ended(ended, 0)
             self.assertNotIn("damaged", ended.said)
         self.assert_same(folder)
@@ -123,6 +125,12 @@ class FailingCalls(shimmed.ShimmedTest):
 
     def test_shard(self):
         self.check_every_call(self.prepared(shimmed.shard(1, 2)), shimmed.shard(0, 2), finish=shimmed.MERGE)
+
+    @unittest.skipUnless(MANY, "at night: TORQUESCOPE_FAULTS=2000")
+    def test_shards_of_many(self):
+        before = [shimmed.shard(index, 7) for index in range(1, 7)]
+        self.check_every_call(self.prepared(*before), shimmed.shard(0, 7), finish=shimmed.MERGE)
+        self.check_every_call(self.prepared(shimmed.shard(0, 7), *before), shimmed.MERGE)
 
     def test_merge(self):
         self.check_every_call(self.prepared(shimmed.shard(0, 2), shimmed.shard(1, 2)), shimmed.MERGE)

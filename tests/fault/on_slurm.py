@@ -25,7 +25,7 @@ class OnSlurm(study.FaultTest):
     # a second and a half of work for each shard, and not much to store
     JOB = (shimmed.JOB.replace("runs = 3", "runs = 40").replace('name = "tiny"', 'name = "forty"')
            .replace("population = 10", 'population = 14\nfitness = "direct"').replace("generations = 20", "generations = 500")
-           .replace("duration_s = 3\n", "duration_s = 500\n") + "[output]\nsamples = false\n")
+           .replace("duration_s = 1\n", "duration_s = 500\n") + "[output]\nsamples = false\n")
 
     @classmethod
     def setUpClass(cls):

@@ -102,7 +102,7 @@ class PowerLoss(shimmed.ShimmedTest):
         runs, complete = story.claims_on(disk)
         if complete:
             self.assertIn("r.h5", image, "a result that was announced")
-        ended = folder.run(*shimmed.RUN)
+        ended = self.run_in(folder, shimmed.RUN)
         self.assert_ended(ended, 0)
         self.assertNotIn("damaged", ended.said)
         if "already complete" not in ended.said:
