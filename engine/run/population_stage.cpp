@@ -177,7 +177,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   std::map<std::size_t, std::size_t> safe;
   for (std::size_t const run : runs)
     if (auto const generations = attempt.saved.generations(plan.label, run)) safe[run] = generations;
-  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, std::move(safe));
+  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, safe);
 
   StageProgress progress(sink, plan.label, static_cast<std::int64_t>(runs.size()),
                          static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * shape.members));

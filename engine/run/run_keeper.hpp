@@ -42,7 +42,7 @@ class RunKeeper {
 
   // of the runs that follow, until the next call; already_safe: generations that segments have, by run
   void begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
-                       std::map<std::size_t, std::size_t> already_safe);
+                       std::map<std::size_t, std::size_t> const& already_safe);
 
   // between begin() and ended() a run is waited for before a segment is written
   void begin(std::size_t run);

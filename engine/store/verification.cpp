@@ -21,7 +21,7 @@ std::string job_digest(ResultReader const& reader) {
   auto const texts = reader.texts("/job/text");
   if (texts.size() != 1)
     throw contradicts(reader.name(), "/job/text", fmt::format("{} texts instead of one", texts.size()));
-  auto const found = sha256_hex(texts[0]);
+  auto found = sha256_hex(texts[0]);
   if (found != reader.attribute<std::string>("/job", "sha256"))
     throw contradicts(reader.name(), "/job/text", "the job text does not match its sha256");
   return found;
