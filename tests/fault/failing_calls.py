@@ -5,6 +5,7 @@ Counts: every call of every phase each time the tests run, of a larger result so
 all blocks, and a job of 20 runs in seven shards too.
 """
 
+import json
 import os
 import re
 import sys
@@ -72,7 +73,25 @@ class Failing(shimmed.ShimmedTest):
         with open(self.whole / "r.h5", "rb") as one, open(folder / "r.h5", "rb") as other:
             return one.read() == other.read()
 
+    def left_in(self, folder):
+        """Names (without numbers of processes) and bytes."""
+        found = []
+        for path, _, names in os.walk(folder.path):
+            found.append(re.sub(r"\d+", "#", os.path.relpath(path, folder.path)))
+            for name in names:
+                with open(os.path.join(path, name), "rb") as file:
+                    content = file.read()
+                if name.endswith(".made.json"):
+                    content = sorted(json.loads(content))  # when and by whom is never the same
+                found.append((re.sub(r"\d+", "#", name), b"" if name.endswith(".lock") else content))
+        return hash(tuple(sorted(map(repr, found))))
+
     def assert_finishes(self, folder, command, finish):
+        # most failures leave the same behind: what ended well once ends well again
+        left = (self.left_in(folder), command)
+        if left in self.finished:
+            return
+        self.finished.add(left)
         for again in (command, finish):
             if again is None:
                 continue
@@ -88,6 +107,7 @@ class Failing(shimmed.ShimmedTest):
         calls = [call for call in calls if not names or call.name in names]
         if names and not MANY:  # the first, the last, and some between
             calls = calls[:2] + self.chance.sample(calls[2:-2], 2) + calls[-2:]
+        self.finished = set()
         tried = failed = 0
         for call in calls:
             for error in call.errors():
@@ -116,8 +136,8 @@ class Failing(shimmed.ShimmedTest):
                     failed += ended.code != 0
                     self.assert_failed_well(ended, hit[0], error, folder)
                     self.assert_finishes(folder, command, finish)
-        print(f"{' '.join(command)}: {len(calls)} calls, {tried} failures, {failed} times exit 74, none differs",
-              file=sys.stderr)
+        print(f"{' '.join(command)}: {len(calls)} calls, {tried} failures, {failed} times exit 74, "
+              f"{len(self.finished)} different folders, none differs", file=sys.stderr)
 
 
 class FailingCalls(Failing):
