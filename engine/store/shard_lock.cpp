@@ -42,9 +42,9 @@ ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard) {
   fs::path const folder = segment_folder_of(result);
   file_ = folder / fmt::format("shard-{:04}-of-{:04}.lock", shard.index, shard.count);
   // a disk that fails is told of by those who must write
-  constexpr mode_t anybody_as_umask_allows = 0777;
-  static_cast<void>(::mkdir(folder.c_str(), anybody_as_umask_allows));
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, anybody_as_umask_allows & 0666);
+  constexpr mode_t folder_as_umask_allows = 0777, file_as_umask_allows = 0666;
+  static_cast<void>(::mkdir(folder.c_str(), folder_as_umask_allows));
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, file_as_umask_allows);
   if (descriptor_ < 0) return;
   Held const held = take(descriptor_);
   if (held == Held::by_another) {
