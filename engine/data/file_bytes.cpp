@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/interrupted_call.hpp"
 #include "engine/data/data_problem.hpp"
 
 namespace torquescope {
@@ -42,7 +43,8 @@ std::string closest_file(std::filesystem::path const& path) {
 }
 
 Problem cannot_open(std::filesystem::path const& path, int error) {
-  Problem problem{ExitCode::no_input, fmt::format("cannot open {}: {}", path.string(), std::strerror(error))};
+  Problem problem{error == EIO ? ExitCode::io : ExitCode::no_input,
+                  fmt::format("cannot open {}: {}", path.string(), std::strerror(error))};
   if (error != ENOENT) return problem;
   problem.what = fmt::format("no file {}", path.string());
   auto const similar = closest_file(path);
@@ -58,7 +60,7 @@ std::string kind_of(mode_t mode) {
 
 int open_regular(std::filesystem::path const& path) {
   // without O_NONBLOCK opening a FIFO nobody writes to would wait for ever
-  int const descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  int const descriptor = unless_interrupted([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
   if (descriptor < 0) throw Error(cannot_open(path, errno));
   struct stat status {};
   bool const known = ::fstat(descriptor, &status) == 0;

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "engine/base/digest.hpp"
+#include "engine/base/interrupted_call.hpp"
 #include "engine/job/job_parser.hpp"
 
 namespace torquescope {
@@ -37,6 +38,14 @@ Error no_input(std::string what, std::string help = "") {
   return Error(problem);
 }
 
+Error cannot_read(std::string const& file, int error_number) {
+  Problem problem;
+  problem.code = error_number == EIO ? ExitCode::io : ExitCode::no_input;
+  problem.what = fmt::format("cannot read {}: {}", file, std::strerror(error_number));
+  if (error_number == EIO) problem.help = "check the disk, then run the same command again";
+  return Error(problem);
+}
+
 Error too_large(std::string const& file) {
   Problem problem;
   problem.what = fmt::format("{} is larger than 1 MiB", file);
@@ -59,10 +68,11 @@ std::string similar_job(std::filesystem::path const& path) {
 
 std::string read_text(std::filesystem::path const& path) {
   std::string const file = path.string();
-  Descriptor const descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  Descriptor const descriptor(
+      unless_interrupted([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); }));
   if (descriptor.number < 0) {
     if (errno == ENOENT || errno == ENOTDIR) throw no_input("no such file: " + file, similar_job(path));
-    throw no_input(fmt::format("cannot read {}: {}", file, std::strerror(errno)));
+    throw cannot_read(file, errno);
   }
   struct stat status {};
   if (::fstat(descriptor.number, &status) != 0 || !S_ISREG(status.st_mode))
@@ -73,7 +83,7 @@ std::string read_text(std::filesystem::path const& path) {
   while (size < text.size()) {
     ssize_t const got = ::read(descriptor.number, text.data() + size, text.size() - size);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw no_input(fmt::format("cannot read {}: {}", file, std::strerror(errno)));
+    if (got < 0) throw cannot_read(file, errno);
     if (got == 0) break;
     size += static_cast<std::size_t>(got);
   }

@@ -7,11 +7,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/effects/joint_form.hpp"
+#include "engine/run/disk_room.hpp"
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/stage_progress.hpp"
 #include "engine/run/study_writer.hpp"
+#include "engine/store/shard_lock.hpp"
 
 namespace torquescope {
 
@@ -110,7 +112,8 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   Beginning const beginning;
   auto const& options = attempt.options;
   auto const& parts = experiment.parts();
-  ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip"});
+  ResultWriter writer(options.output,
+                      {.gzip = parts.output.compression == "gzip", .expected_bytes = result_bytes(parts)});
   write_study(writer, experiment);
   experiment.forget_motion();
 
@@ -139,14 +142,18 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
 }  // namespace
 
 IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
-  Attempt attempt(experiment, options);
-  tell_what_was_done(attempt);
   IdentifyReport report;
-  try {
-    report = write_result(std::move(experiment), attempt, false, progress);
-  } catch (Error const& error) {
-    if (error.code() != ExitCode::stopped) throw;
-    stop_and_save(attempt);
+  {
+    ShardLock const lock(options.output, {});
+    Attempt attempt(experiment, options);
+    tell_what_was_done(attempt);
+    check_room(options, result_bytes(experiment.parts()), options.output);
+    try {
+      report = write_result(std::move(experiment), attempt, false, progress);
+    } catch (Error const& error) {
+      if (error.code() != ExitCode::stopped) throw;
+      stop_and_save(attempt);
+    }
   }
   remove_segments(options.output);
   return report;
@@ -168,6 +175,7 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
   }
   if (count > 0)
     tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
+  check_room(options, result_bytes(experiment.parts()), options.output);
   IdentifyReport const report = write_result(std::move(experiment), attempt, true, progress);
   // of a part of the runs, the segments are still wanted
   if (count == 0) remove_segments(options.output);

@@ -142,11 +142,16 @@ Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given)
               .origin = origin_of(experiment, given),
               .shard = given.shard,
               .interval_s = given.segment_seconds,
-              .everything = given.shard.count > 1},
+              .everything = given.shard.count > 1,
+              .safe =
+                  [this](std::size_t runs) {
+                    if (options.safe) options.safe(runs_before + runs, runs_total);
+                  }},
              hdf5) {
   auto const runs = runs_of_shard(experiment.parts(), options.shard);
   for (auto const& plan : experiment.parts().estimators) {
     if (plan.is_closed_form()) continue;
+    ++methods;
     runs_total += runs.size();
     runs_before += static_cast<std::size_t>(
         std::count_if(runs.begin(), runs.end(), [&](std::size_t run) { return saved.has_ended(plan.label, run); }));
@@ -172,7 +177,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   std::map<std::size_t, std::size_t> safe;
   for (std::size_t const run : runs)
     if (auto const generations = attempt.saved.generations(plan.label, run)) safe[run] = generations;
-  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, std::move(safe));
+  attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, safe);
 
   StageProgress progress(sink, plan.label, static_cast<std::int64_t>(runs.size()),
                          static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * shape.members));

@@ -29,6 +29,9 @@ struct Attempt {
   SavedRuns saved;
   RunKeeper keeper;
   std::size_t runs_total = 0, runs_before = 0;  // of population methods, of this shard: all, and those segments have
+  std::size_t methods = 0;                      // population methods
+  // of every method, on average and rounded up
+  std::size_t runs_left() const { return methods > 0 ? (runs_total - runs_before + methods - 1) / methods : 0; }
 };
 
 HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& plan);

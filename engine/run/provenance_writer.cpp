@@ -82,7 +82,7 @@ std::string finish_result(ResultWriter& writer, std::filesystem::path const& res
                          {"scheduler", scheduler()},
                          {"attempts_before", attempts(segments)}};
   std::string const text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  TempFile file(circumstances_file_of(result));
+  TempFile file(circumstances_file_of(result), text.size());
   file.write_at(0, text.data(), text.size());
   file.publish();
   return content_sha256;

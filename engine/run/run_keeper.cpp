@@ -38,7 +38,7 @@ double RunKeeper::share_of_first_interval() const {
 }
 
 void RunKeeper::begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
-                                std::map<std::size_t, std::size_t> already_safe) {
+                                std::map<std::size_t, std::size_t> const& already_safe) {
   std::lock_guard const lock(guard_);
   estimators_.push_back({label, search_sha256, shape});
   for (auto const& [run, generations] : already_safe) safe_[{estimators_.size() - 1, run}] = generations;
@@ -174,6 +174,7 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
   for (auto const& [id, end] : ends) safe_[id] = std::max(safe_[id], end);
   runs_safe_ += ended;
   ++segments_;
+  if (setting_.safe) setting_.safe(runs_safe_);
 }
 
 std::size_t RunKeeper::runs_safe() const {

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -34,12 +35,14 @@ class RunKeeper {
     double interval_s = 20.0;
     std::size_t most_bytes = std::size_t{64} << 20;
     bool everything = false;  // of a shard, whose segments are all that it leaves
+    // told by the thread that wrote a segment, once it is safe: runs that ended and were written by this process
+    std::function<void(std::size_t runs_safe)> safe{};
   };
   RunKeeper(Setting setting, std::mutex& hdf5);
 
   // of the runs that follow, until the next call; already_safe: generations that segments have, by run
   void begin_estimator(std::string const& label, std::string const& search_sha256, HistoryShape const& shape,
-                       std::map<std::size_t, std::size_t> already_safe);
+                       std::map<std::size_t, std::size_t> const& already_safe);
 
   // between begin() and ended() a run is waited for before a segment is written
   void begin(std::size_t run);

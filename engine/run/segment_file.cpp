@@ -104,6 +104,15 @@ void write_estimator(ResultWriter& writer, EstimatorParts const& estimator) {
   write_states(writer, group, estimator.parts);
 }
 
+// of their lists: most of a segment
+std::uintmax_t bytes_of(std::vector<EstimatorParts> const& estimators) {
+  std::uintmax_t numbers = 0;
+  for (auto const& estimator : estimators)
+    for (auto const& part : estimator.parts)
+      for (auto const& list : history_lists) numbers += (part.history.*list.values).size();
+  return numbers * sizeof(double);
+}
+
 void write_origin(ResultWriter& writer, SegmentOrigin const& origin) {
   std::string const group = "/segment";
   writer.attribute(group, "job_sha256", origin.job_sha256);
@@ -158,7 +167,7 @@ std::vector<std::size_t> counts(ResultReader const& reader, std::string const& p
 
 void write_segment(std::filesystem::path const& name, SegmentOrigin const& origin,
                    std::vector<EstimatorParts> const& estimators) {
-  ResultWriter writer(name);
+  ResultWriter writer(name, {.expected_bytes = bytes_of(estimators)});
   write_origin(writer, origin);
   std::vector<std::string> labels;
   for (auto const& estimator : estimators) {

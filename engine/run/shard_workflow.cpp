@@ -11,17 +11,21 @@
 #include <tuple>
 
 #include "engine/base/error.hpp"
+#include "engine/run/disk_room.hpp"
 #include "engine/run/population_stage.hpp"
+#include "engine/store/shard_lock.hpp"
 
 namespace torquescope {
 
 ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
   auto const start = std::chrono::steady_clock::now();
+  ShardLock const lock(options.output, options.shard);
   Attempt attempt(experiment, options);
   for (auto const& warning : attempt.saved.warnings())
     if (options.tell) options.tell("warning", warning);
   experiment.forget_motion();
   auto const& parts = experiment.parts();
+  check_room(options, segment_bytes(parts, attempt.runs_left()), segment_folder_of(options.output));
   SquaredErrorFloor const floor(parts.train.regression);
   try {
     for (auto const& plan : parts.estimators) {

@@ -79,7 +79,10 @@ struct IdentifyOptions {
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "resume", "warning"
   ShardChoice shard{};                                                            // of run_shard()
   double segment_seconds = 20.0;                                                  // between two segments, at least
-  bool allow_mixed = false;  // go on from segments of another program, or another text of the job
+  bool allow_mixed = false;      // go on from segments of another program, or another text of the job
+  bool allow_full_disk = false;  // begin although the result does not seem to fit
+  std::function<void(std::size_t, std::size_t)>
+      safe{};  // runs that a power cut cannot take any more, of all: after a segment
   std::vector<std::filesystem::path> more_segments{};  // folders beside OUTPUT.parts: of merge
 };
 
@@ -92,7 +95,8 @@ struct IdentifyReport {
 };
 
 // runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed.
-// Goes on from the segments of OUTPUT.parts, and leaves some there when it is stopped or killed (RESULT_FORMAT.md)
+// Goes on from the segments of OUTPUT.parts, and leaves some there when it is stopped or killed (RESULT_FORMAT.md). Error 73
+// when a living process is at it, 74 when there is no room for the result
 IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
 
 // the share of the runs that options.shard says, into segments alone

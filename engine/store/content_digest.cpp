@@ -8,10 +8,9 @@
 namespace torquescope {
 namespace {
 
-constexpr char provenance_path[] = "/provenance";
-
 bool is_about_the_file(std::string const& path, std::string const& attribute) {
-  return path == "/" && (attribute == complete_key || attribute == content_digest_key);
+  return path == "/" &&
+         (attribute == complete_key || attribute == content_digest_key || attribute == provenance_digest_key);
 }
 
 // the program that wrote it
@@ -92,7 +91,7 @@ class FileWalk {
         add_dataset(object, path);
       }
     } catch (h5::Failure const& failure) {
-      throw h5::Failure(failure.what(), path);
+      throw h5::Failure(failure.what(), path, failure.error_number());
     }
     for (auto const& child : children) add_object((path == "/" ? path : path + "/") + child);
   }

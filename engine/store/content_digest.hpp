@@ -27,6 +27,8 @@ namespace torquescope {
 // root attributes that say something about the file rather than about its content
 inline constexpr char complete_key[] = "complete";
 inline constexpr char content_digest_key[] = "content_sha256";
+inline constexpr char provenance_digest_key[] = "provenance_sha256";  // of files that have the group
+inline constexpr char provenance_path[] = "/provenance";
 
 // rows of a dataset that are digested together: as many as fit into these bytes, at least one; texts: all of them
 inline constexpr std::size_t digest_block_bytes = std::size_t{64} << 10;

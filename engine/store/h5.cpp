@@ -2,15 +2,20 @@
 
 #include <hdf5.h>
 
+#include <cerrno>
+#include <cstdlib>
+
 #include "engine/store/chunking.hpp"
 #include "engine/store/h5_output_driver.hpp"
 
 namespace torquescope::h5 {
 namespace {
 
-// once per process: nothing printed, no filters loaded from folders that a file could name
+// once per process: nothing printed, no filters loaded from folders that a file could name, and no tidying up at the exit: after
+// a call to the disk has failed, HDF5 1.10 crashes there (handles close themselves, so there is nothing to tidy)
 void prepare_library() {
   static bool const prepared = [] {
+    H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);
@@ -33,6 +38,17 @@ Handle access_list() {
 
 }  // namespace
 
+namespace {
+
+// HDF5 tells errno in words alone: "file read failed: ..., errno = 5, error message = ..."
+int error_number_in(std::string const& words) {
+  std::string const lead = "errno = ";
+  std::size_t const place = words.find(lead);
+  return place == std::string::npos ? 0 : std::atoi(words.c_str() + place + lead.size());
+}
+
+}  // namespace
+
 void fail(std::string const& doing) {
   std::string reason;
   auto const keep_innermost = [](unsigned depth, H5E_error2_t const* error, void* text) -> herr_t {
@@ -40,7 +56,7 @@ void fail(std::string const& doing) {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
-  throw Failure(reason.empty() ? "HDF5 could not " + doing : reason);
+  throw Failure(reason.empty() ? "HDF5 could not " + doing : reason, "", error_number_in(reason));
 }
 
 std::int64_t checked(std::int64_t result, char const* doing) {
@@ -79,7 +95,13 @@ Handle create_file(TempFile& file) {
 Handle open_file(std::filesystem::path const& name) {
   prepare_library();
   Handle const access = access_list();
-  return Handle(checked(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()), "open the file"));
+  constexpr int attempts = 100;
+  for (int i = 1;; ++i) try {
+      return Handle(checked(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()), "open the file"));
+    } catch (Failure const& failure) {
+      // a signal came in between, as it may on network file systems
+      if (failure.error_number() != EINTR || i == attempts) throw;
+    }
 }
 
 bool is_hdf5(std::filesystem::path const& name) {

@@ -30,12 +30,14 @@ using Shape = std::vector<std::size_t>;
 
 class Failure : public std::runtime_error {
  public:
-  explicit Failure(std::string const& reason, std::string object = "")
-      : std::runtime_error(reason), object_(std::move(object)) {}
+  explicit Failure(std::string const& reason, std::string object = "", int error_number = 0)
+      : std::runtime_error(reason), object_(std::move(object)), error_number_(error_number) {}
   std::string const& object() const { return object_; }  // path inside the file; "" when the caller knows it
+  int error_number() const { return error_number_; }     // errno of the disk; 0 when it was not the disk
 
  private:
   std::string object_;
+  int error_number_;
 };
 
 // owns one HDF5 identifier of whatever kind
@@ -98,7 +100,7 @@ bool exists(Handle const& file, std::string const& path);
 Handle open_object(Handle const& file, std::string const& path);
 Handle make_groups(Handle const& file, std::string const& path);
 bool is_group(Handle const& object);
-std::uint64_t address(Handle const& object);  // in the file: the same for every name of one object
+std::uint64_t address(Handle const& object);                // in the file: the same for every name of one object
 std::vector<std::string> child_names(Handle const& group);  // sorted by bytes
 
 // h5_dataset.cpp

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/store/disk_failure.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
@@ -40,6 +41,7 @@ h5::Handle open_checked(fs::path const& name) {
   try {
     return h5::open_file(name);
   } catch (h5::Failure const& failure) {
+    if (failure.error_number() != 0) throw cannot_read(name, failure.error_number());
     if (h5::is_hdf5(name)) throw damaged(name, "", failure.what());
     throw refused(name.string() + " is not an HDF5 file",
                   "name a result file of torquescope run (or delete a damaged one)");
@@ -91,6 +93,7 @@ auto ResultReader::guarded(std::string const& object, Read&& read) const {
   try {
     return read();
   } catch (h5::Failure const& failure) {
+    if (failure.error_number() != 0) throw cannot_read(name_, failure.error_number());
     throw damaged(name_, failure.object().empty() ? object : failure.object(), failure.what());
   }
 }

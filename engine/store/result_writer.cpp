@@ -64,7 +64,7 @@ void ResultWriter::guarded(std::string const& path, Write&& write) {
 }
 
 ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
-    : options_(options), chunks_(options.gzip), temp_(final_name) {
+    : options_(options), chunks_(options.gzip), temp_(final_name, options.expected_bytes) {
   try {
     file_ = h5::create_file(temp_);
   } catch (h5::Failure const& failure) {
@@ -246,6 +246,7 @@ std::string ResultWriter::finish() {
   runs_.clear();
   std::string const sha256 = digest_.hex();
   attribute("/", content_digest_key, sha256);
+  if (h5::exists(file_, provenance_path)) attribute("/", provenance_digest_key, digest_.hex(FilePart::provenance));
   attribute("/", complete_key, std::int64_t{1});
 
   bool const closed = file_.close();

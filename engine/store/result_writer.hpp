@@ -35,7 +35,8 @@ namespace torquescope {
 inline constexpr std::int64_t result_format = 2;
 
 struct ResultWriterOptions {
-  bool gzip = false;  // level 1 without shuffle: a fifth of the size for histories, five times the time
+  bool gzip = false;                  // level 1 without shuffle: a fifth of the size for histories, five times the time
+  std::uintmax_t expected_bytes = 0;  // as far as that is known: said where there is no room
 };
 
 // what a dataset says about itself

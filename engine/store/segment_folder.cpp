@@ -9,11 +9,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
-#include "engine/base/error.hpp"
+#include "engine/store/disk_failure.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
 
@@ -22,11 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_in(fs::path const& folder) {
+// failed: no folder is none
+std::vector<fs::path> files_in(fs::path const& folder, std::error_code& failed) {
   std::vector<fs::path> names;
-  std::error_code ignored;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
-    names.push_back(entry->path());
+  fs::directory_iterator entry(folder, failed), end;
+  if (failed == std::errc::interrupted) entry = fs::directory_iterator(folder, failed);
+  for (; !failed && entry != end; entry.increment(failed)) names.push_back(entry->path());
+  if (failed == std::errc::no_such_file_or_directory || failed == std::errc::not_a_directory) failed.clear();
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -55,18 +56,10 @@ fs::path segment_folder_of(fs::path const& result) { return result.string() + ".
 
 void make_segment_folder(fs::path const& folder) {
   constexpr mode_t anybody_as_umask_allows = 0777;
-  int error_number = 0;
-  if (::mkdir(folder.c_str(), anybody_as_umask_allows) != 0) {
-    if (errno == EEXIST) return;
-    error_number = errno;
-  } else {
-    error_number = sync_folder_of(folder);
-  }
-  validate(error_number == 0, [&] {
-    return Problem{.code = ExitCode::io,
-                   .what = fmt::format("cannot make the folder {}: {}", folder.string(), std::strerror(error_number)),
-                   .help = "write to a folder that is yours and has room, then run the same command again"};
-  });
+  int error_number = ::mkdir(folder.c_str(), anybody_as_umask_allows) == 0 || errno == EEXIST ? 0 : errno;
+  // also when it was there: whoever made it may have been killed before its name was safe
+  if (error_number == 0) error_number = sync_folder_of(folder);
+  if (error_number != 0) throw cannot_write(folder, error_number);
 }
 
 SegmentNames::SegmentNames(fs::path folder, ShardChoice const& shard) : folder_(std::move(folder)), host_(host_name()) {
@@ -78,23 +71,27 @@ SegmentNames::SegmentNames(fs::path folder, ShardChoice const& shard) : folder_(
 fs::path SegmentNames::next() { return folder_ / fmt::format("{}.{:06}.h5", begin_, number_++); }
 
 std::vector<fs::path> segments_in(fs::path const& folder) {
-  auto names = files_in(folder);
+  std::error_code failed;
+  auto names = files_in(folder, failed);
+  // to see none of them is not to have none
+  if (failed) throw cannot_read(folder, failed.value());
   std::erase_if(names, [](fs::path const& name) { return name.extension() != ".h5"; });
   return names;
 }
 
 void remove_segments(fs::path const& result) {
   fs::path const folder = segment_folder_of(result);
-  for (auto const& name : files_in(folder)) {
+  std::error_code ignored;
+  for (auto const& name : files_in(folder, ignored)) {
     if (name.extension() == ".h5")
       ::unlink(name.c_str());
-    else if (name.filename().string().find(".h5.tmp.") != std::string::npos)
+    else if (name.extension() == ".lock" || name.filename().string().find(".h5.tmp.") != std::string::npos)
       remove_if_abandoned(name);
   }
   ::rmdir(folder.c_str());
 
   fs::path const home = result.has_parent_path() ? result.parent_path() : fs::path(".");
-  for (auto const& name : files_in(home))
+  for (auto const& name : files_in(home, ignored))
     for (auto const& whole : {result, circumstances_file_of(result)})
       if (name.filename().string().starts_with(whole.filename().string() + ".tmp.")) remove_if_abandoned(name);
 }

@@ -4,7 +4,7 @@
 // Names      shard-<I>-of-<N>.<host>.<pid>.<began>.<number>.h5: one name per attempt and segment, so that no two processes
 //            ever write the same file, whatever else runs (an orphan of a dead Slurm daemon, the same command twice)
 // Segments   complete HDF5 files written by ResultWriter: temp file, fsync, rename, fsync of the folder. Never changed.
-// Errors     74 when the folder cannot be made; removal never fails loudly: what is left is stale, not wrong
+// Errors     74 when the folder cannot be made or listed; removal never fails loudly: what is left is stale, not wrong
 // Threads    free functions
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct ShardChoice {
 
 std::filesystem::path segment_folder_of(std::filesystem::path const& result);
 
-// makes the folder, safe against power loss; nothing to do when it is there
+// makes the folder unless it is there; its name is safe against power loss then
 void make_segment_folder(std::filesystem::path const& folder);
 
 // of this process, since it began: different on every node and at every start

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -17,47 +16,13 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/interrupted_call.hpp"
+#include "engine/store/disk_failure.hpp"
 
 namespace torquescope {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string reason_of(int error_number) {
-  std::string text = std::strerror(error_number);
-  text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
-  return text;
-}
-
-std::string help_for(int error_number) {
-  switch (error_number) {
-    case ENOSPC:
-    case EDQUOT:
-      return "make room there (or choose another folder) and run the same command again";
-    case EFBIG:
-      return "raise the limit on file sizes (ulimit -f) and run the same command again";
-    case ENOENT:
-      return "make the folder first, or write to another one";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "write to a folder that is yours";
-    default:
-      return "check the disk, or write to another folder";
-  }
-}
-
-Error cannot_write(fs::path const& name, int error_number) {
-  Problem problem{.code = ExitCode::io,
-                  .what = fmt::format("cannot write {}: {}", name.string(), reason_of(error_number))};
-  if (error_number == ENOSPC || error_number == EDQUOT) {
-    std::error_code ignored;
-    fs::space_info const space = fs::space(name.has_parent_path() ? name.parent_path() : fs::path("."), ignored);
-    if (!ignored) problem.notes = {fmt::format("{:.1f} MB are free there", static_cast<double>(space.available) / 1e6)};
-  }
-  problem.help = help_for(error_number);
-  return Error(problem);
-}
 
 constexpr std::size_t block_bytes = std::size_t{1} << 19;
 constexpr std::size_t most_waiting_blocks = 4;
@@ -65,20 +30,32 @@ constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache
 constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
 
+int open_file(char const* name, int flags, mode_t mode = 0) {
+  return unless_interrupted([&] { return ::open(name, flags, mode); });
+}
+
+int sync_file(int descriptor) {
+  return unless_interrupted([&] { return ::fsync(descriptor); });
+}
+
+// Linux has closed the descriptor whatever close() says. Returns errno of a failure
+int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
+
 }  // namespace
 
 int sync_folder_of(fs::path const& name) {
   fs::path const folder = name.has_parent_path() ? name.parent_path() : fs::path(".");
-  int const descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  int const descriptor = open_file(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return errno;
-  int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
+  int const error_number = sync_file(descriptor) == 0 ? 0 : errno;
+  static_cast<void>(close_file(descriptor));  // nothing was written through it
   // some network file systems have no fsync for folders: they keep names safe themselves
   return error_number == EINVAL ? 0 : error_number;
 }
 
-TempFile::TempFile(fs::path final_name)
+TempFile::TempFile(fs::path final_name, std::uintmax_t expected_bytes)
     : final_name_(std::move(final_name)),
+      expected_bytes_(expected_bytes),
       writer_([this](FilePiece const& piece) { return write_piece(piece.offset, piece.bytes.data(), piece.size); },
               most_waiting_blocks) {
   std::error_code ignored;
@@ -93,10 +70,10 @@ TempFile::TempFile(fs::path final_name)
   for (int i = 0; i < attempts && descriptor_ < 0; ++i) {
     temporary_name_ = fmt::format("{}.tmp.{}{}", final_name_.string(), ::getpid(), i ? fmt::format(".{}", i) : "");
     descriptor_ =
-        ::open(temporary_name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, anybody_as_umask_allows);
+        open_file(temporary_name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, anybody_as_umask_allows);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
-  if (descriptor_ < 0) throw cannot_write(final_name_, errno);
+  if (descriptor_ < 0) throw cannot_write(final_name_, errno, expected_bytes_);
   // where there are no locks, nothing is lost but a hint for whoever tidies up
   static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
 }
@@ -225,13 +202,14 @@ void TempFile::resize(std::uint64_t size) noexcept {
     return;
   }
   writer_.wait();
-  if (!failed() && ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) error_number_ = errno;
+  auto const cut = [&] { return ::ftruncate(descriptor_, static_cast<off_t>(size)); };
+  if (!failed() && unless_interrupted(cut) != 0) error_number_ = errno;
   tail_.offset = size;
   tail_.size = 0;
 }
 
 void TempFile::check() const {
-  if (failed()) throw cannot_write(final_name_, error_number());
+  if (failed()) throw cannot_write(final_name_, error_number(), std::max<std::uintmax_t>(expected_bytes_, size_));
 }
 
 void TempFile::publish() {
@@ -243,12 +221,13 @@ void TempFile::publish() {
     write_behind(tail_.offset + whole_pages, tail_.bytes.data() + whole_pages, tail_.size - whole_pages);
   }
   // an fsync that failed is never tried again: the second one would not tell what the first one lost
-  if (!failed() && ::fsync(descriptor_) != 0) error_number_ = errno;
+  if (!failed() && sync_file(descriptor_) != 0) error_number_ = errno;
   check();
   if (::rename(temporary_name_.c_str(), final_name_.c_str()) != 0) error_number_ = errno;
   check();
 
-  ::close(std::exchange(descriptor_, -1));
+  error_number_ = close_file(std::exchange(descriptor_, -1));
+  check();
   error_number_ = sync_folder_of(final_name_);
   check();
 }

@@ -9,6 +9,7 @@
 //            the page cache where the file system lets it: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6
 // Memory     six blocks
 // Lock       a temporary file is locked (flock) as long as its writer lives: one that is not may be removed
+// Signals    a call that one interrupts is made again
 // Errors     write_at() and resize() never fail loudly: the first failure is remembered, what follows is dropped, and
 //            check() or publish() tell (exit code 74). HDF5 writes through them and must not see a failing disk:
 //            closing a file after a failed write ends the process inside HDF5's exit handler.
@@ -28,7 +29,8 @@ int sync_folder_of(std::filesystem::path const& name);
 class TempFile {
  public:
   // creates FINAL.tmp.<pid> (with .1, .2, ... behind it when a killed process left that name); never follows a link
-  explicit TempFile(std::filesystem::path final_name);
+  // expected_bytes: how large it will be, as far as that is known; only said where there is no room
+  explicit TempFile(std::filesystem::path final_name, std::uintmax_t expected_bytes = 0);
   ~TempFile();  // removes the file unless it was published
   TempFile(TempFile const&) = delete;
   TempFile& operator=(TempFile const&) = delete;
@@ -59,6 +61,7 @@ class TempFile {
 
   std::filesystem::path final_name_;
   std::filesystem::path temporary_name_;
+  std::uintmax_t expected_bytes_;
   std::uint64_t size_ = 0;
   int descriptor_ = -1;
   int error_number_ = 0;     // errno of the first failure in the caller's thread

@@ -21,7 +21,7 @@ std::string job_digest(ResultReader const& reader) {
   auto const texts = reader.texts("/job/text");
   if (texts.size() != 1)
     throw contradicts(reader.name(), "/job/text", fmt::format("{} texts instead of one", texts.size()));
-  auto const found = sha256_hex(texts[0]);
+  auto found = sha256_hex(texts[0]);
   if (found != reader.attribute<std::string>("/job", "sha256"))
     throw contradicts(reader.name(), "/job/text", "the job text does not match its sha256");
   return found;
@@ -38,6 +38,10 @@ Verification verify_everything(std::filesystem::path const& file) {
   facts.bytes = std::filesystem::file_size(file, unknown);
   facts.content = reader.verified_content();
   facts.provenance = reader.read_everything(FilePart::provenance);
+  auto const stored = reader.find_attribute<std::string>("/", provenance_digest_key);
+  facts.provenance_is_stored = stored.has_value();
+  if (stored && *stored != facts.provenance.sha256)
+    throw contradicts(file, provenance_path, "what it says of the program does not match its sha256");
   bool const is_segment = reader.exists("/segment");  // it names its job, but does not hold it
   if (!is_segment) facts.job_sha256 = job_digest(reader);
   return facts;

@@ -2,8 +2,8 @@
 // Is this file what the program wrote? Everything in it is read and compared with what it says about itself.
 //
 // Checked    what ResultReader checks at opening; the checksum of every object header and of every chunk; SHA-256 of the
-//            content; SHA-256 of the job text. No stored digest covers /provenance (another build may write another): it is
-//            read (its checksums hold) and its own digest is said, for whoever wants to compare.
+//            content; SHA-256 of the job text; SHA-256 of /provenance, which is one of its own because another build writes
+//            another. Files of earlier versions have none: there it is read (its checksums hold) and its digest is said
 // Errors     Error 66 when there is no such file; 65 with the path of what is damaged inside it
 // Threads    as ResultReader: one at a time
 // Cost       as reading the whole file once
@@ -21,9 +21,10 @@ struct Verification {
   std::uintmax_t bytes = 0;
   std::int64_t format = 0;
   std::string creator{};
-  ReadFacts content{};       // its digest is the stored one
-  ReadFacts provenance{};    // no digest of it is stored
-  std::string job_sha256{};  // "" for a segment, which does not hold its job
+  ReadFacts content{};  // its digest is the stored one
+  ReadFacts provenance{};
+  bool provenance_is_stored = false;  // its digest, and it was compared
+  std::string job_sha256{};           // "" for a segment, which does not hold its job
 };
 
 Verification verify_everything(std::filesystem::path const& file);

@@ -141,11 +141,13 @@ class Folder:
 class FaultTest(unittest.TestCase):
     """Folders that go away, one result to compare with (made once, uninterrupted, by one thread), and the chance used."""
 
+    JOB = JOB
+
     @classmethod
     def setUpClass(cls):
         cls.home = tempfile.mkdtemp(prefix="torquescope_fault_")
         cls.addClassCleanup(shutil.rmtree, cls.home)
-        cls.whole = Folder(cls.new_path())
+        cls.whole = Folder(cls.new_path(), cls.JOB)
         began = time.monotonic()
         ended = cls.whole.run("run", "job.toml", "--out", "r.h5", "--threads", "1")
         if ended.code != 0:
@@ -158,8 +160,8 @@ class FaultTest(unittest.TestCase):
     def new_path(cls):
         return tempfile.mkdtemp(dir=cls.home)
 
-    def folder(self, job=JOB):
-        return Folder(self.new_path(), job)
+    def folder(self, job=None):
+        return Folder(self.new_path(), job or self.JOB)
 
     def options(self):
         """Whatever may differ from one attempt to the next."""

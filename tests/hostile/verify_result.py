@@ -17,6 +17,7 @@ import tempfile
 import unittest
 
 import h5py
+import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "jobs"))
 
@@ -161,6 +162,14 @@ class DamagedFile(Folder):
                     reported += 1
             print(f"{kind}: {flips} flipped bits: {reported} reported, {harmless} harmless (in bytes that nothing uses), 0 silent")
             self.assertGreater(reported, flips // 2)
+
+    def test_provenance_changed_by_another_program_is_told(self):
+        self.write("damaged.h5", content_of(self.path("none.h5")))
+        with h5py.File(self.path("damaged.h5"), "r+", locking=False) as file:
+            file["provenance"].attrs.modify("build_type", np.bytes_("another"))
+        outcome = self.verify("damaged.h5")
+        self.assert_reported(outcome, "build_type")
+        self.assertIn("/provenance", outcome.err)
 
     def test_first_and_last_bytes_are_covered(self):
         # where unchecked metadata of other versions of the format would lie

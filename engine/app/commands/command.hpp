@@ -46,6 +46,8 @@ void add_result_option(CLI::App& command, std::string& out);
 void add_threads_option(CLI::App& command, int& threads);
 // refuses what is no number above 0
 void add_seconds_option(CLI::App& command, std::string const& name, double& seconds, std::string const& meaning);
+// --allow-full-disk of the commands that write results
+void add_full_disk_option(CLI::App& command, bool& allow_full_disk);
 // --allow-mixed of the commands that go on from segments
 void add_mixed_option(CLI::App& command, bool& allow_mixed);
 

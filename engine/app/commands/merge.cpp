@@ -21,7 +21,7 @@ struct MergeArguments {
   std::vector<std::string> folders{};
   std::string out{};
   int threads = 0;  // 0: not given
-  bool partial = false, allow_mixed = false;
+  bool partial = false, allow_mixed = false, allow_full_disk = false;
 };
 
 ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
@@ -43,6 +43,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     session.note(session.topic_line(topic, text));
   };
   options.allow_mixed = arguments.allow_mixed;
+  options.allow_full_disk = arguments.allow_full_disk;
   for (auto const& folder : arguments.folders) {
     validate(std::filesystem::is_directory(folder), [&] {
       return Problem{.code = ExitCode::no_input,
@@ -79,6 +80,7 @@ void add_merge(CLI::App& app, ChosenCommand& chosen) {
       ->group("results");
   add_threads_option(*command, arguments->threads);
   add_mixed_option(*command, arguments->allow_mixed);
+  add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

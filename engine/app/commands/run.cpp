@@ -27,7 +27,7 @@ struct RunArguments {
   std::string shard{};
   double time_budget_s = 0.0;  // 0: none
   double segment_seconds = 20.0;
-  bool allow_mixed = false;
+  bool allow_mixed = false, allow_full_disk = false;
 };
 
 // a share of the runs, into segments
@@ -78,6 +78,11 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   options.shard = shard;
   options.segment_seconds = arguments.segment_seconds;
   options.allow_mixed = arguments.allow_mixed;
+  options.allow_full_disk = arguments.allow_full_disk;
+  if (progress_settings(session).style == ProgressStyle::lines)
+    options.safe = [&session](std::size_t runs, std::size_t all) {
+      session.note(session.topic_line("safe", fmt::format("{} of {} runs", runs, all)));
+    };
   note_start(session, experiment.job_line(), experiment, options.threads);
   for (auto const& line : experiment.fitness_lines()) session.note(session.topic_line("fitness", line));
   if (shard.count > 1) {
@@ -123,6 +128,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
       ->check(no_shard)
       ->group("machine");
   add_mixed_option(*command, arguments->allow_mixed);
+  add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -85,6 +85,11 @@ void add_seconds_option(CLI::App& command, std::string const& name, double& seco
   command.add_option(name, seconds, meaning)->type_name("S")->check(no_seconds)->group("machine");
 }
 
+void add_full_disk_option(CLI::App& command, bool& allow_full_disk) {
+  command.add_flag("--allow-full-disk", allow_full_disk, "begin although the result does not seem to fit on the disk")
+      ->group("machine");
+}
+
 void add_mixed_option(CLI::App& command, bool& allow_mixed) {
   command.add_flag("--allow-mixed", allow_mixed, "go on from segments of another program or job text, bits may differ")
       ->group("machine");

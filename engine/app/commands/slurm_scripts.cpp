@@ -54,6 +54,7 @@ std::string array_script(SlurmPlan const& plan) {
   fill_in(script, "#SBATCH --job-name=", plain(plan.name));
   fill_in(script, "#SBATCH --array=", fmt::format("0-{}", plan.shards - 1));
   fill_in(script, "shards=", std::to_string(plan.shards));
+  if (plan.save_every_s > 0.0) fill_in(script, "save_every=", fmt::format("{:g}", plan.save_every_s));
   fill_in(script, "#SBATCH --cpus-per-task=", std::to_string(plan.threads));
   fill_in(script, "#SBATCH --output=", plain(plan.result) + ".shard-%a.log");
   if (!plan.time.empty()) fill_in(script, "#SBATCH --time=", plan.time);

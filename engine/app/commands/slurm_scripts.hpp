@@ -9,8 +9,9 @@ namespace torquescope {
 struct SlurmPlan {
   std::string program, job, result, name;
   std::int64_t shards = 1, threads = 1;
-  std::string time{};       // "" leaves what the script says
-  std::string partition{};  // "" leaves it to the cluster
+  std::string time{};         // "" leaves what the script says
+  std::string partition{};    // "" leaves it to the cluster
+  double save_every_s = 0.0;  // 0 leaves what the script says
 };
 
 std::string array_script(SlurmPlan const& plan);

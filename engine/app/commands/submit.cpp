@@ -25,6 +25,7 @@ struct SubmitArguments {
   std::int64_t shards = 0;
   int threads = 0;
   std::string time{}, partition{};
+  double save_every_s = 0.0;  // 0: not given
   bool dry_run = false;
 };
 
@@ -80,6 +81,7 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   plan.threads = std::max(1, arguments.threads);
   plan.time = arguments.time;
   plan.partition = arguments.partition;
+  plan.save_every_s = arguments.save_every_s;
   std::string const array_name = result.string() + ".array.sbatch", merge_name = result.string() + ".merge.sbatch";
   if (arguments.dry_run) {
     session.result(fmt::format("# {}\n{}\n# {}\n{}", array_name, array_script(plan), merge_name, merge_script(plan)));
@@ -136,6 +138,8 @@ void add_submit(CLI::App& app, ChosenCommand& chosen) {
       ->check(no_plain_word)
       ->group("cluster");
   command->add_flag("--dry-run", arguments->dry_run, "print both scripts, submit nothing")->group("cluster");
+  add_seconds_option(*command, "--save-every", arguments->save_every_s,
+                     "seconds between two segments: what a kill may cost [20]");
   add_threads_option(*command, arguments->threads);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -30,6 +30,7 @@ bool already_complete(std::filesystem::path const& output, std::string const& in
   try {
     made = read_summary(output);
   } catch (Error const& error) {
+    if (error.code() == ExitCode::io) throw;
     throw output_exists(output, "is no complete result file: " + error.problems().front().what);
   }
   if (made.inputs_sha256 != inputs_sha256)

@@ -36,9 +36,12 @@ std::string verification_text(Verification const& facts) {
                           bytes_text(static_cast<std::uintmax_t>(facts.content.value_bytes)), facts.content.sha256));
   if (!facts.job_sha256.empty())
     text += hanging("  job      ", fmt::format("its text has the sha256 stored, {:.16}", facts.job_sha256));
-  text += hanging("  apart    ", fmt::format("/provenance (which program: {}) is no part of that sha256: its checksums "
-                                             "hold, changes made on purpose would not show",
-                                             count_of(facts.provenance.attributes, "attribute")));
+  if (facts.provenance.attributes > 0)
+    text +=
+        hanging("  program  ",
+                fmt::format("{} of /provenance: {}", count_of(facts.provenance.attributes, "attribute"),
+                            facts.provenance_is_stored ? fmt::format("sha256 {:.16} as stored", facts.provenance.sha256)
+                                                       : "their checksums hold; this file stores no sha256 of them"));
   return text;
 }
 
@@ -51,7 +54,8 @@ std::string verification_json(Verification const& facts) {
                          {"creator", facts.creator},
                          {"content", facts_json(facts.content)},
                          {"job", {{"sha256", facts.job_sha256}}},
-                         {"provenance", facts_json(facts.provenance)}};
+                         {"provenance", facts_json(facts.provenance)},
+                         {"provenance_is_stored", facts.provenance_is_stored}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

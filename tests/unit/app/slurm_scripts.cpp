@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-SlurmPlan const plan{"/opt/torque scope", "it's a job.toml", "out/r.h5", "lab", 8, 4, "01:30:00", "long"};
+SlurmPlan const plan{"/opt/torque scope", "it's a job.toml", "out/r.h5", "lab", 8, 4, "01:30:00", "long", 2.5};
 
 TEST(SlurmScripts, SayWhatWasAskedFor) {
   std::string const script = array_script(plan);
@@ -23,7 +23,7 @@ TEST(SlurmScripts, SayWhatWasAskedFor) {
        {"#!/bin/bash\n", "\n#SBATCH --array=0-7\n", "\n#SBATCH --cpus-per-task=4\n", "\n#SBATCH --time=01:30:00\n",
         "\n#SBATCH --partition=long\n", "\n#SBATCH --requeue\n", "\n#SBATCH --open-mode=append\n",
         "\n#SBATCH --signal=B:USR1@120\n", "\njob='it'\\''s a job.toml'\n", "\nresult='out/r.h5'\n", "\nshards=8\n",
-        "scontrol requeue"})
+        "\nsave_every=2.5\n", "scontrol requeue"})
     EXPECT_THAT(script, HasSubstr(line));
   EXPECT_THAT(merge_script(plan), HasSubstr("merge \"$job\" --out \"$result\""));
   EXPECT_THAT(array_script({"t", "j", "r", "n", 2, 1}), Not(HasSubstr("--partition")));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
+#include "engine/store/result_reader.hpp"
 #include "engine/store/result_writer.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/store/example_result.hpp"
@@ -55,6 +56,8 @@ TEST(Verification, ProvenanceHasADigestApart) {
   auto const a = verify_everything(folder / "A.h5"), b = verify_everything(folder / "B.h5");
   EXPECT_EQ(a.content.sha256, b.content.sha256);
   EXPECT_NE(a.provenance.sha256, b.provenance.sha256);
+  EXPECT_TRUE(a.provenance_is_stored);
+  EXPECT_EQ(ResultReader(folder / "A.h5").attribute<std::string>("/", "provenance_sha256"), a.provenance.sha256);
 }
 
 }  // namespace

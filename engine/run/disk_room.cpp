@@ -1,0 +1,68 @@
+#include "engine/run/disk_room.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/run/population_stage.hpp"
+#include "engine/store/disk_failure.hpp"
+
+namespace torquescope {
+namespace {
+
+// sizes that the job reader allows (check_sizes) fit; a sum of a few of them does too
+std::uintmax_t history_bytes(HistoryShape const& shape, std::size_t runs) {
+  std::uintmax_t const generations = runs * (shape.generations + 1);
+  std::uintmax_t numbers = generations;  // evaluations
+  for (auto const& list : history_lists) numbers += generations * list.width(shape);
+  return numbers * sizeof(double);
+}
+
+std::uintmax_t sample_bytes(DataSet const& set) {
+  constexpr std::uintmax_t channels = 6;  // time, recording, position, velocity, acceleration, torque
+  auto const rows = static_cast<std::uintmax_t>(set.regression.rows());
+  return rows * (channels + static_cast<std::uintmax_t>(set.regression.parameters())) * sizeof(double);
+}
+
+constexpr std::uintmax_t bytes_of_names = std::uintmax_t{16} << 10;
+
+}  // namespace
+
+std::uintmax_t result_bytes(Experiment::Parts const& parts) {
+  constexpr std::uintmax_t gzip_shrinks_to_less_than_a = 10;
+  constexpr std::uintmax_t curves_and_surfaces = std::uintmax_t{64} << 10, path_numbers = 4;
+  auto const runs = static_cast<std::size_t>(parts.experiment.runs);
+  std::uintmax_t bytes = 0;
+  for (auto const& plan : parts.estimators) {
+    if (plan.is_closed_form()) continue;
+    HistoryShape const shape = history_shape(parts, plan);
+    bytes += history_bytes(shape, runs);
+    if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
+  }
+  if (parts.output.samples) bytes += sample_bytes(parts.train) + (parts.validate ? sample_bytes(*parts.validate) : 0);
+  return bytes_of_names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
+}
+
+std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
+  if (runs == 0) return 0;
+  std::uintmax_t bytes = bytes_of_names;
+  for (auto const& plan : parts.estimators)
+    if (!plan.is_closed_form()) bytes += history_bytes(history_shape(parts, plan), runs);
+  return bytes;
+}
+
+void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file) {
+  auto const free = free_bytes_for(options.output);
+  if (!free || *free >= needed) return;
+  std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);
+  if (options.allow_full_disk) {
+    if (options.tell) options.tell("warning", words + ": --allow-full-disk");
+    return;
+  }
+  throw Error(Problem{.code = ExitCode::io,
+                      .what = words,
+                      .notes = {"nothing was begun"},
+                      .help = "make room, --out another folder, fewer runs or generations, [output] compression = "
+                              "\"gzip\"; or begin all the same with --allow-full-disk"});
+}
+
+}  // namespace torquescope

@@ -1,0 +1,28 @@
+#pragma once
+// Two processes at the same share of a job do its work twice: the second one is told so and ends. Nothing more depends on it:
+// segments have names of their own (segment_folder.hpp), so what two processes write is safe with it and without it.
+//
+// File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; it says who that is
+// Locks      where there are none (some network file systems), or where the file cannot be made, both go on
+// Errors     73 when a living process holds it
+// Threads    one at a time
+
+#include <filesystem>
+
+#include "engine/store/segment_folder.hpp"
+
+namespace torquescope {
+
+class ShardLock {
+ public:
+  ShardLock(std::filesystem::path const& result, ShardChoice const& shard);
+  ~ShardLock();  // takes its file away, and the folder when nothing else is in it
+  ShardLock(ShardLock const&) = delete;
+  ShardLock& operator=(ShardLock const&) = delete;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+}  // namespace torquescope

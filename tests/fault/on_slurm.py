@@ -1,0 +1,119 @@
+"""A job of 40 runs in four shards on a real Slurm, which this test starts itself: engines are killed and stopped, tasks go back into
+the queue, an urgent job takes the node away, and in the end one merge makes the file that nobody disturbed.
+
+Counts: 6 kills (TORQUESCOPE_FAULTS / 10). FAULT_SEED repeats a chance, though not Slurm's.
+"""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import private_slurm
+import shimmed
+import study
+
+KILLS = int(os.environ.get("TORQUESCOPE_FAULTS", "60")) // 10
+SHARDS = 4
+MOST_SECONDS = 150
+
+
+class OnSlurm(study.FaultTest):
+    # a second and a half of work for each shard, and not much to store
+    JOB = (shimmed.JOB.replace("runs = 3", "runs = 40").replace('name = "tiny"', 'name = "forty"')
+           .replace("population = 10", 'population = 14\nfitness = "direct"').replace("generations = 20", "generations = 500")
+           .replace("duration_s = 1\n", "duration_s = 500\n") + "[output]\nsamples = false\n")
+
+    @classmethod
+    def setUpClass(cls):
+        why_not = private_slurm.why_not()
+        if why_not:
+            raise unittest.SkipTest(why_not)
+        super().setUpClass()
+        try:
+            cls.slurm = private_slurm.PrivateSlurm(SHARDS)
+        except private_slurm.NotStarted as reason:
+            raise unittest.SkipTest(f"Slurm does not start here: {reason}") from reason
+        cls.addClassCleanup(cls.slurm.end)
+
+    def engines(self, folder):
+        """Processes of the program itself that work in this folder."""
+        found = []
+        for number in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{number}/cmdline", "rb") as file:
+                    words = file.read().split(b"\0")
+                if words[0] == study.PROGRAM.encode() and b"--shard" in words and os.readlink(
+                        f"/proc/{number}/cwd") == os.path.realpath(folder.path):
+                    found.append(int(number))
+            except (FileNotFoundError, ProcessLookupError):
+                continue
+        return found
+
+    def queue(self):
+        return self.slurm.said("squeue", "-h", "-r", "-o", "%j %T")
+
+    def test_kills_requeues_preemption_and_one_merge(self):
+        folder = self.folder()
+        ended = study.Ended(subprocess.Popen(
+            [study.PROGRAM, "submit", "job.toml", "--out", "r.h5", "--shards", str(SHARDS), "--time", "00:10:00",
+             "--save-every", "0.2"], cwd=folder.path, env=study.environment(
+                 {"SLURM_CONF": self.slurm.environment["SLURM_CONF"], "PATH": private_slurm.PATH}),
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE))
+        self.assert_ended(ended, 0)
+        self.assertIn(f"{SHARDS} shards as job", ended.said)
+
+        began = time.monotonic()
+        kills, asked = {signal.SIGKILL: 0, signal.SIGTERM: 0}, False
+        while "merge" in (queue := self.queue()) or "forty" in queue:
+            if os.path.exists(folder / "r.h5") and "merge" not in queue:
+                break
+            self.assertLess(time.monotonic() - began, MOST_SECONDS, f"{queue}\n{self.logs(folder)}")
+            self.assertNotIn("merge RUNNING", queue if "forty RUNNING" in queue else "", "a merge waits for all shards")
+            engines = self.engines(folder)
+            if engines and folder.segments() and not asked:
+                asked = True
+                self.slurm.said("sbatch", "--partition=urgent", f"--ntasks={SHARDS}", f"--chdir={folder.path}",
+                                "--job-name=urgent", "--output=/dev/null", "--wrap=sleep 0.2")
+            elif engines and "urgent" not in queue and sum(kills.values()) < KILLS:
+                number = self.chance.choice(sorted(kills))
+                try:
+                    os.kill(self.chance.choice(engines), number)
+                    kills[number] += 1
+                except ProcessLookupError:
+                    pass
+            time.sleep(self.chance.uniform(0.0, 0.6))
+        seconds = time.monotonic() - began
+
+        self.assertEqual(sum(kills.values()), KILLS, self.logs(folder))
+        with open(folder / "r.h5", "rb") as one, open(self.whole / "r.h5", "rb") as other:
+            self.assertTrue(one.read() == other.read(), "differs from the uninterrupted one")
+        self.assertFalse(os.path.exists(folder / "r.h5.parts"))
+        with open(folder / "r.h5.merge.log", encoding="utf-8") as file:
+            merged = file.read()
+        self.assertEqual(merged.count("wrote"), 1, merged)
+        self.assertIn("40 of 40 runs were done", " ".join(merged.split()))
+        told = self.slurm.said("scontrol", "show", "job", "-o")
+        restarts = sum(int(count) for name, count in re.findall(r"JobName=(\S+) .*? Restarts=(\d+)", told) if name == "forty")
+        # by Slurm, for the urgent job: what was asked to stop, and not by us
+        preempted = max(0, self.logs(folder).count("stopped by SIGTERM") - kills[signal.SIGTERM])
+        self.assertGreater(restarts, 0, told)
+        print(f"real Slurm: {SHARDS} shards, 40 runs, {kills[signal.SIGKILL]} kill -9, {kills[signal.SIGTERM]} SIGTERM, "
+              f"{preempted} tasks stopped for an urgent job, {restarts} restarts, one merge, "
+              f"{seconds:.0f} s, byte-identical", file=sys.stderr)
+
+    def logs(self, folder):
+        words = ""
+        for name in sorted(os.listdir(folder.path)):
+            if name.endswith(".log"):
+                with open(folder / name, encoding="utf-8", errors="replace") as file:
+                    words += f"--- {name}\n{file.read()}"
+        return words
+
+
+if __name__ == "__main__":
+    print(f"FAULT_SEED={study.SEED}", file=sys.stderr)
+    unittest.main(verbosity=2)
