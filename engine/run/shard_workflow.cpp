@@ -22,7 +22,8 @@ ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, Pro
     if (options.tell) options.tell("warning", warning);
   experiment.forget_motion();
   auto const& parts = experiment.parts();
-  SquaredErrorFloor const floor(parts.train.regression);
+  SquaredErrorFloor const floor(parts.train.regression, parts.reductions);
+  experiment.forget_reductions();
   try {
     for (auto const& plan : parts.estimators) {
       if (plan.is_closed_form()) continue;
