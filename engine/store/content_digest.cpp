@@ -174,6 +174,11 @@ void ContentDigest::dataset(std::string const& path, h5::Element element, h5::Sh
   dataset.blocks.resize(blocks_of(element, shape));
 }
 
+bool ContentDigest::has_dataset(std::string const& path) const {
+  auto const known = objects_.find(path);
+  return known != objects_.end() && !known->second.element.empty();
+}
+
 void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
   Object& dataset = object(path);
   TORQUESCOPE_EXPECT(index < dataset.blocks.size());

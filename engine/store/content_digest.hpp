@@ -41,6 +41,7 @@ class ContentDigest {
   // value: as the file gives it back (h5::as_stored); a second one replaces the first
   void attribute(std::string const& path, std::string const& name, OptionValue const& value);
   void dataset(std::string const& path, h5::Element element, h5::Shape const& shape);
+  bool has_dataset(std::string const& path) const;
   // row-major values of the rows of one block
   void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
   void texts(std::string const& path, std::span<std::string const> texts);
