@@ -1,6 +1,5 @@
 // torquescope: reads the command line, does the work of one command, and turns whatever happens into an exit code.
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -32,17 +31,9 @@ ExitCode run_command(std::vector<std::string> const& words, Session const*& sess
   return code;
 }
 
-// buffers of some hundred kilobytes stay in the heap, where the next one finds them; columns of long recordings go back to
-// the system as soon as nobody holds them (glibc would move its own limit up after the first of them)
-void tune_allocation() {
-  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  ::mallopt(M_TRIM_THRESHOLD, 8 << 20);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  tune_allocation();
   std::vector<std::string> const words(argv + 1, argv + (argc > 0 ? argc : 1));
   ignore_write_signals();
   Session const first_session(session_options_of(words));
