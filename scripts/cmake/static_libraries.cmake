@@ -42,14 +42,21 @@ function(link_statically)
   if(NOT TORQUESCOPE_ARCHIVES_LINK)
     return()
   endif()
+  # as targets of their own: only then the linker sees each archive before those it needs
+  add_library(torquescope::sz STATIC IMPORTED)
+  set_target_properties(torquescope::sz PROPERTIES
+    IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_sz} INTERFACE_LINK_LIBRARIES ${TORQUESCOPE_ARCHIVE_aec})
+  add_library(torquescope::matio STATIC IMPORTED)
+  set_target_properties(torquescope::matio PROPERTIES
+    IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_matio} INTERFACE_LINK_LIBRARIES hdf5::hdf5)
+  set_target_properties(PkgConfig::MATIO PROPERTIES INTERFACE_LINK_LIBRARIES torquescope::matio)
   set_target_properties(hdf5::hdf5 PROPERTIES
-    IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_hdf5} INTERFACE_LINK_LIBRARIES "${below_hdf5}")
-  set_target_properties(PkgConfig::MATIO PROPERTIES INTERFACE_LINK_LIBRARIES "${TORQUESCOPE_ARCHIVE_matio};hdf5::hdf5")
-  foreach(target ZLIB::ZLIB OpenSSL::Crypto)
-    # FindZLIB and FindOpenSSL may have set one location per configuration
-    set_target_properties(${target} PROPERTIES IMPORTED_CONFIGURATIONS "")
-  endforeach()
-  set_target_properties(ZLIB::ZLIB PROPERTIES IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_z})
+    IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_hdf5}
+    INTERFACE_LINK_LIBRARIES "torquescope::sz;ZLIB::ZLIB;m;${CMAKE_DL_LIBS}")
+  # FindZLIB may have set one location per configuration
+  set_target_properties(ZLIB::ZLIB PROPERTIES
+    IMPORTED_CONFIGURATIONS "" IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_z}
+    IMPORTED_LOCATION_RELEASE ${TORQUESCOPE_ARCHIVE_z} IMPORTED_LOCATION_DEBUG ${TORQUESCOPE_ARCHIVE_z})
   set_target_properties(OpenSSL::Crypto PROPERTIES
     IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_crypto} INTERFACE_LINK_LIBRARIES "Threads::Threads;${CMAKE_DL_LIBS}")
 endfunction()
