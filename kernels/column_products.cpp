@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 
 // the part up to HWY_ONCE is compiled once per instruction set
@@ -87,11 +88,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace torquescope::kernels {
 namespace {
-HWY_EXPORT(products);
+TORQUESCOPE_EXPORT(products);
 }  // namespace
 
 void column_products(double const* a, std::size_t n_a, double const* b, std::size_t n_b, std::size_t n, double* out) {
-  HWY_DYNAMIC_DISPATCH(products)(a, n_a, b, n_b, n, out);
+  TORQUESCOPE_DISPATCH(products)(a, n_a, b, n_b, n, out);
 }
 
 }  // namespace torquescope::kernels

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "kernels/dispatch-inl.hpp"
+
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/elementary.cpp"
@@ -247,19 +249,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace torquescope::kernels {
 namespace {
-HWY_EXPORT(exponential_of_array);
-HWY_EXPORT(power_of_array);
-HWY_EXPORT(cosine_sine_of_array);
+TORQUESCOPE_EXPORT(exponential_of_array);
+TORQUESCOPE_EXPORT(power_of_array);
+TORQUESCOPE_EXPORT(cosine_sine_of_array);
 }  // namespace
 
-void exponential(double const* x, std::size_t n, double* out) { HWY_DYNAMIC_DISPATCH(exponential_of_array)(x, n, out); }
+void exponential(double const* x, std::size_t n, double* out) { TORQUESCOPE_DISPATCH(exponential_of_array)(x, n, out); }
 
 void power_of_size(double const* x, double exponent, std::size_t n, double* out) {
-  HWY_DYNAMIC_DISPATCH(power_of_array)(x, exponent, n, out);
+  TORQUESCOPE_DISPATCH(power_of_array)(x, exponent, n, out);
 }
 
 void cosine_sine_of_multiple(double factor, double const* x, std::size_t n, double* cosine, double* sine) {
-  HWY_DYNAMIC_DISPATCH(cosine_sine_of_array)(factor, x, n, cosine, sine);
+  TORQUESCOPE_DISPATCH(cosine_sine_of_array)(factor, x, n, cosine, sine);
 }
 
 }  // namespace torquescope::kernels

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 #include "kernels/packed_parameters.hpp"
 #include "kernels/pairwise_tree.hpp"
@@ -90,7 +91,7 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-HWY_EXPORT(sum_block_float);
+TORQUESCOPE_EXPORT(sum_block_float);
 
 std::size_t tile_count(std::size_t n_samples) { return (n_samples + float_tile_samples - 1) / float_tile_samples; }
 
@@ -139,7 +140,7 @@ void float_residual_energy(FloatTiles const& tiles, Candidates const& candidates
   PairwiseTree tree(candidates.n_members, sums);
   pack_parameters(candidates, nullptr, tiles.n_regressors, packed);
 
-  auto const kernel = HWY_DYNAMIC_DISPATCH(sum_block_float);
+  auto const kernel = TORQUESCOPE_DISPATCH(sum_block_float);
   constexpr std::size_t block_tiles = block_samples / float_tile_samples;
   std::size_t const n_tiles = tile_count(tiles.n_samples);
   for (std::size_t first = 0; first < n_tiles; first += block_tiles) {

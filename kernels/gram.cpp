@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 #include "kernels/pairwise_tree.hpp"
 #include "kernels/sample_tiles.hpp"
@@ -136,9 +137,9 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-HWY_EXPORT(square_rows);
-HWY_EXPORT(add_chunk);
-HWY_EXPORT(whiten_chunk);
+TORQUESCOPE_EXPORT(square_rows);
+TORQUESCOPE_EXPORT(add_chunk);
+TORQUESCOPE_EXPORT(whiten_chunk);
 
 constexpr std::size_t largest_square = 4;
 
@@ -178,8 +179,8 @@ void sum_products(SampleColumns const& samples, double* sums, double* workspace,
   double* const lanes = chunk + packed_size(chunk_samples, samples.n_regressors);
   double* const pairs = lanes + lanes_size(samples.n_regressors);
   PairwiseTree tree(n_pairs, pairs + n_pairs);
-  auto const add = HWY_DYNAMIC_DISPATCH(add_chunk);
-  std::size_t const square = HWY_DYNAMIC_DISPATCH(square_rows)();
+  auto const add = TORQUESCOPE_DISPATCH(add_chunk);
+  std::size_t const square = TORQUESCOPE_DISPATCH(square_rows)();
 
   for (std::size_t block = 0; block < samples.n_samples; block += block_samples) {
     std::fill_n(lanes, lanes_size(samples.n_regressors), 0.0);
@@ -213,7 +214,7 @@ void gram(SampleColumns const& samples, double* sums, double* workspace) {
 
 void whitened_gram(SampleColumns const& samples, double const* root, double const* centre, double* sums,
                    double* workspace) {
-  auto const whiten = HWY_DYNAMIC_DISPATCH(whiten_chunk);
+  auto const whiten = TORQUESCOPE_DISPATCH(whiten_chunk);
   sum_products(samples, sums, workspace, [&](double* chunk) { whiten(chunk, samples.n_regressors, root, centre); });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 #include "kernels/packed_parameters.hpp"
 #include "kernels/pairwise_tree.hpp"
@@ -50,9 +51,9 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-HWY_EXPORT(sum_levelled_squares);
-HWY_EXPORT(sum_levelled_huber);
-HWY_EXPORT(sum_constants);
+TORQUESCOPE_EXPORT(sum_levelled_squares);
+TORQUESCOPE_EXPORT(sum_levelled_huber);
+TORQUESCOPE_EXPORT(sum_constants);
 
 constexpr std::size_t block_tiles = block_samples / tile_samples;
 
@@ -85,7 +86,7 @@ void sum_runs(LevelledTiles const& tiles, Candidates const& candidates, double* 
   tree.add(energy);
   pack_parameters(candidates, tiles.varying_column, n_varying, varying);
   pack_parameters(candidates, tiles.constant_column, tiles.n_constant, levelled);
-  auto const add_up = HWY_DYNAMIC_DISPATCH(sum_constants);
+  auto const add_up = TORQUESCOPE_DISPATCH(sum_constants);
   std::size_t begin = 0;
   for (std::size_t run = 0; run < tiles.n_runs; begin = tiles.run_end[run++]) {
     add_up(tiles.level + run * tiles.n_constant, tiles.n_constant, n_groups, levelled, constant);
@@ -109,7 +110,7 @@ std::size_t levelled_workspace_size(LevelledTiles const& tiles, std::size_t n_me
 
 void levelled_residual_energy(LevelledTiles const& tiles, Candidates const& candidates, double* energy,
                               double* workspace) {
-  auto const kernel = HWY_DYNAMIC_DISPATCH(sum_levelled_squares);
+  auto const kernel = TORQUESCOPE_DISPATCH(sum_levelled_squares);
   sum_runs(
       tiles, candidates, energy, workspace,
       [&](double* sum, double* rest) { residual_energy(tiles.rest, candidates, sum, rest); },
@@ -120,7 +121,7 @@ void levelled_residual_energy(LevelledTiles const& tiles, Candidates const& cand
 void levelled_huber_energy(LevelledTiles const& tiles, Candidates const& candidates, double delta, double* energy,
                            double* workspace) {
   assert(delta > 0);
-  auto const kernel = HWY_DYNAMIC_DISPATCH(sum_levelled_huber);
+  auto const kernel = TORQUESCOPE_DISPATCH(sum_levelled_huber);
   sum_runs(
       tiles, candidates, energy, workspace,
       [&](double* sum, double* rest) { huber_energy(tiles.rest, candidates, delta, sum, rest); },

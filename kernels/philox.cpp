@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "kernels/dispatch-inl.hpp"
+
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/philox.cpp"
@@ -83,12 +85,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-HWY_EXPORT(all_blocks);
+TORQUESCOPE_EXPORT(all_blocks);
 
 }  // namespace
 
 void philox_blocks(PhiloxStreams const& streams, std::size_t n_streams, std::size_t n_blocks, std::uint32_t* blocks) {
-  HWY_DYNAMIC_DISPATCH(all_blocks)(streams, n_streams, n_blocks, blocks);
+  TORQUESCOPE_DISPATCH(all_blocks)(streams, n_streams, n_blocks, blocks);
 }
 
 }  // namespace torquescope::kernels

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 
 // the part up to HWY_ONCE is compiled once per instruction set
@@ -73,7 +74,7 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-HWY_EXPORT(lanes_energy);
+TORQUESCOPE_EXPORT(lanes_energy);
 
 }  // namespace
 
@@ -81,7 +82,7 @@ std::size_t quadratic_workspace_size(std::size_t n_regressors) { return (2 * n_r
 
 void quadratic_energy(QuadraticForm const& form, Candidates const& candidates, double* energy, double* workspace) {
   assert(candidates.n_members == 0 || candidates.leading_dimension >= form.n_regressors);
-  auto const evaluate = HWY_DYNAMIC_DISPATCH(lanes_energy);
+  auto const evaluate = TORQUESCOPE_DISPATCH(lanes_energy);
   double* const high = workspace;
   double* const low = high + form.n_regressors * n_lanes;
   double* const lanes = low + form.n_regressors * n_lanes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
 #include "kernels/packed_parameters.hpp"
 #include "kernels/pairwise_tree.hpp"
@@ -34,8 +35,8 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-HWY_EXPORT(sum_block_squares);
-HWY_EXPORT(sum_block_huber);
+TORQUESCOPE_EXPORT(sum_block_squares);
+TORQUESCOPE_EXPORT(sum_block_huber);
 
 std::size_t block_count(std::size_t n_samples) { return (n_samples + block_samples - 1) / block_samples; }
 
@@ -73,7 +74,7 @@ std::size_t energy_workspace_size(std::size_t n_samples, std::size_t n_regressor
 }
 
 void residual_energy(SampleTiles const& tiles, Candidates const& candidates, double* energy, double* workspace) {
-  auto const kernel = HWY_DYNAMIC_DISPATCH(sum_block_squares);
+  auto const kernel = TORQUESCOPE_DISPATCH(sum_block_squares);
   sum_blocks(tiles, candidates, energy, workspace,
              [&](std::size_t first, std::size_t last, std::size_t n_groups, double const* packed, double* lanes) {
                kernel(tiles, first, last, n_groups, packed, lanes);
@@ -83,7 +84,7 @@ void residual_energy(SampleTiles const& tiles, Candidates const& candidates, dou
 void huber_energy(SampleTiles const& tiles, Candidates const& candidates, double delta, double* energy,
                   double* workspace) {
   assert(delta > 0);
-  auto const kernel = HWY_DYNAMIC_DISPATCH(sum_block_huber);
+  auto const kernel = TORQUESCOPE_DISPATCH(sum_block_huber);
   sum_blocks(tiles, candidates, energy, workspace,
              [&](std::size_t first, std::size_t last, std::size_t n_groups, double const* packed, double* lanes) {
                kernel(tiles, first, last, n_groups, packed, delta, lanes);

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "kernels/dispatch-inl.hpp"
+
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/section_cascade.cpp"
@@ -81,7 +83,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace torquescope::kernels {
 namespace {
-HWY_EXPORT(cascade);
+TORQUESCOPE_EXPORT(cascade);
 }  // namespace
 
 void run_cascade(CascadeSection const* sections, std::size_t n_sections, double* samples, std::size_t n_samples,
@@ -90,7 +92,7 @@ void run_cascade(CascadeSection const* sections, std::size_t n_sections, double*
   auto const width = static_cast<std::ptrdiff_t>(cascade_signals);
   bool const forwards = direction == CascadeDirection::forwards;
   double* const first = forwards ? samples : samples + (n_samples - 1) * cascade_signals;
-  HWY_DYNAMIC_DISPATCH(cascade)(sections, n_sections, first, n_samples, forwards ? width : -width);
+  TORQUESCOPE_DISPATCH(cascade)(sections, n_sections, first, n_samples, forwards ? width : -width);
 }
 
 }  // namespace torquescope::kernels

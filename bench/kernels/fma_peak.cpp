@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "kernels/dispatch-inl.hpp"
+
 // this file is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/kernels/fma_peak.cpp"
@@ -41,7 +43,7 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::bench {
 namespace {
 
-HWY_EXPORT(multiply_add);
+TORQUESCOPE_EXPORT(multiply_add);
 
 }  // namespace
 
@@ -56,7 +58,7 @@ void FmaRate::measure_for(double seconds) {
   double passed = 0.0;
   while (passed < seconds) {
     double result[8];
-    count_ += HWY_DYNAMIC_DISPATCH(multiply_add)(60'000, result);
+    count_ += TORQUESCOPE_DISPATCH(multiply_add)(60'000, result);
     passed = thread_cpu_seconds() - begin;
   }
   seconds_ += passed;

@@ -11,6 +11,7 @@
 #include "bench/kernels/kernel_benchmarks.hpp"
 #include "bench/kernels/percent_of_peak.hpp"
 #include "bench/kernels/random_tiles.hpp"
+#include "bench/kernels/read_rate.hpp"
 #include "kernels/aligned_doubles.hpp"
 #include "kernels/dispatch.hpp"
 
@@ -40,6 +41,12 @@ void run(benchmark::State& state, Case const& test) {
   };
   double const fma = static_cast<double>(test.n_samples * test.n_members * (test.n_regressors + 1));
   measure(state, {test.n_samples, test.n_members, fma}, evaluate);
+  // what the sweep reads of the memory, and what a loop that only reads gets of it right after
+  double const bytes_per_value = static_cast<double>((test.n_regressors + 1) * sizeof(double));
+  state.counters["sweep_gb_per_s"] =
+      bytes_per_value / (state.counters["ns_per_sample_candidate"] * static_cast<double>(test.n_members));
+  state.counters["read_gb_per_s"] =
+      1e-9 * read_bytes_per_second(tiles.data, kernels::packed_size(test.n_samples, test.n_regressors));
   kernels::release_instruction_set();
 }
 

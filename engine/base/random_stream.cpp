@@ -33,10 +33,6 @@ std::uint64_t RandomStream::computed_bits() {
   return (std::uint64_t{block_[place + 1]} << 32) | block_[place];
 }
 
-double RandomStream::normal() {
-  // the middle of one of 2^53 cells: never 0 or 1
-  double const probability = (static_cast<double>(bits() >> 11) + 0.5) * 0x1.0p-53;
-  return normal_quantile(probability);
-}
+double RandomStream::normal() { return normal_quantile(probability(bits())); }
 
 }  // namespace torquescope

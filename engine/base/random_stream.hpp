@@ -69,6 +69,10 @@ class RandomStream {
   }
   // standard normal, inverse cumulative distribution of one uniform
   double normal();
+  // the uniform that these bits stand for: the middle of one of 2^53 cells, never 0 or 1
+  static double probability(std::uint64_t bits) {
+    return (static_cast<double>(static_cast<std::int64_t>(bits >> 11)) + 0.5) * 0x1.0p-53;
+  }
 
  private:
   // behind the blocks that were computed before

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -78,9 +79,12 @@ std::string read_text(std::filesystem::path const& path) {
   if (::fstat(descriptor.number, &status) != 0 || !S_ISREG(status.st_mode))
     throw no_input(file + " is not a regular file", "a job is a .toml text file; jobs/ has examples");
 
-  std::string text(largest_job_bytes + 1, '\0');
+  // as large as it says, and one byte more to see its end
+  std::size_t const most = largest_job_bytes + 1;
+  std::string text(std::min(most, static_cast<std::size_t>(status.st_size) + 1), '\0');
   std::size_t size = 0;
-  while (size < text.size()) {
+  while (size < most) {
+    if (size == text.size()) text.resize(std::min(most, 2 * size));  // it grew
     ssize_t const got = ::read(descriptor.number, text.data() + size, text.size() - size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw cannot_read(file, errno);

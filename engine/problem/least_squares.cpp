@@ -19,18 +19,27 @@ struct ScaledQr {
   Eigen::VectorXd torque;  // of the rows that the QR has seen
 };
 
-ScaledQr factorise(RegressionData const& data, Eigen::VectorXd const& root_weights) {
-  if (too_few_rows(data)) throw not_identifiable(data);
+ScaledQr factorise(RegressionData const& data, Eigen::VectorXd length, ReducedRows&& reduced) {
   ScaledQr factors;
-  factors.length = column_lengths(data, root_weights);
-  // a column that the weights silence: the QR below finds the rank, not a division by zero
-  for (auto& length : factors.length) length = length > 0.0 ? length : 1.0;
-  auto reduced = reduce_rows(data, {root_weights, factors.length.cwiseInverse()});
+  factors.length = std::move(length);
   factors.qr.setThreshold(identifiable_threshold);
   factors.qr.compute(reduced.phi);
   factors.torque = std::move(reduced.tau);
   if (factors.qr.rank() < data.parameters()) throw not_identifiable(data);
   return factors;
+}
+
+ScaledQr factorise(RegressionData const& data, Eigen::VectorXd const& root_weights) {
+  if (too_few_rows(data)) throw not_identifiable(data);
+  Eigen::VectorXd lengths = column_lengths(data, root_weights);
+  // a column that the weights silence: the QR finds the rank, not a division by zero
+  for (auto& length : lengths) length = length > 0.0 ? length : 1.0;
+  RowScaling const scaling{root_weights, lengths.cwiseInverse()};
+  return factorise(data, std::move(lengths), reduce_rows(data, scaling));
+}
+
+Eigen::VectorXd solved(ScaledQr const& factors) {
+  return factors.qr.solve(factors.torque).cwiseQuotient(factors.length);
 }
 
 Eigen::VectorXd roots(Eigen::VectorXd const& weights) { return weights.cwiseSqrt(); }
@@ -39,8 +48,12 @@ Eigen::VectorXd roots(Eigen::VectorXd const& weights) { return weights.cwiseSqrt
 
 Eigen::VectorXd solve_weighted(RegressionData const& data, Eigen::VectorXd const& weights) {
   TORQUESCOPE_EXPECT(weights.size() == 0 || weights.size() == data.rows());
-  auto const factors = factorise(data, roots(weights));
-  return factors.qr.solve(factors.torque).cwiseQuotient(factors.length);
+  return solved(factorise(data, roots(weights)));
+}
+
+Eigen::VectorXd solve_reduced(RegressionData const& data, Reductions const& reductions) {
+  if (too_few_rows(data)) throw not_identifiable(data);
+  return solved(factorise(data, reductions.length, ReducedRows(reductions.unit_columns)));
 }
 
 Eigen::MatrixXd inverse_information(RegressionData const& data, Eigen::VectorXd const& d) {

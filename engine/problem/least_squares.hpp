@@ -14,6 +14,7 @@
 
 #include "engine/problem/prediction_metrics.hpp"
 #include "engine/problem/regression_data.hpp"
+#include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
 
@@ -35,6 +36,9 @@ struct LeastSquaresFit {
 
 // weights: [n], or empty for all 1
 Eigen::VectorXd solve_weighted(RegressionData const& data, Eigen::VectorXd const& weights);
+
+// of all rows alike, reduced already (row_reduction.hpp; not looked at where rows are too few)
+Eigen::VectorXd solve_reduced(RegressionData const& data, Reductions const& reductions);
 
 // (sum_t d_t phi_t phi_t')^-1, d: [n], or empty for all 1
 Eigen::MatrixXd inverse_information(RegressionData const& data, Eigen::VectorXd const& d);

@@ -8,6 +8,8 @@
 // Threads    free function
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "engine/problem/regression_data.hpp"
 
@@ -22,5 +24,8 @@ struct PredictionMetrics {
 };
 
 PredictionMetrics prediction_metrics(RegressionData const& data, Eigen::VectorXd const& parameters);
+// of several at once: the same bits from one sweep over the rows
+std::vector<PredictionMetrics> prediction_metrics(RegressionData const& data,
+                                                  std::span<Eigen::VectorXd const> parameters);
 
 }  // namespace torquescope

@@ -42,13 +42,6 @@ std::string advice(RegressionData const& data, std::vector<std::size_t> const& m
   return listed(wanted) + " would help";
 }
 
-// to columns of length one; a column of zeros stays
-RowScaling to_unit_columns(RegressionData const& data) {
-  Eigen::VectorXd lengths = column_lengths(data);
-  for (auto& length : lengths) length = length > 0.0 ? length : 1.0;
-  return {{}, lengths.cwiseInverse()};
-}
-
 Eigen::MatrixXd products_of(RegressionData const& data, RowScaling const& scaling) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(data.parameters(), data.parameters());
   for (Eigen::Index first = 0; first < data.rows(); first += reduced_block_rows) {
@@ -65,9 +58,7 @@ double condition(Eigen::VectorXd const& singular_values) {
 
 // singular values and right vectors, from the R x R factor of phi = Q R
 using SquareSvd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>;
-SquareSvd right_svd(RegressionData const& data, RowScaling const& scaling = {}) {
-  return SquareSvd(triangular_factor(data, scaling), Eigen::ComputeFullV);
-}
+SquareSvd right_svd(ReducedRows const& reduced) { return SquareSvd(triangular_factor(reduced), Eigen::ComputeFullV); }
 
 // columns that make up the weakest direction
 std::vector<std::size_t> weakest_members(Eigen::MatrixXd const& right_vectors) {
@@ -106,6 +97,10 @@ std::string few_rows_words(RegressionData const& data) {
 bool too_few_rows(RegressionData const& data) { return data.rows() <= data.parameters(); }
 
 RegressorHealth regressor_health(RegressionData const& data) {
+  return regressor_health(data, too_few_rows(data) ? Reductions{} : reductions_of(data));
+}
+
+RegressorHealth regressor_health(RegressionData const& data, Reductions const& reductions) {
   TORQUESCOPE_EXPECT(data.columns.size() == static_cast<std::size_t>(data.phi.cols()));
   RegressorHealth health;
   if (too_few_rows(data)) {
@@ -115,11 +110,10 @@ RegressorHealth regressor_health(RegressionData const& data) {
     health.words = few_rows_words(data);
     return health;
   }
-  auto const unit_columns = to_unit_columns(data);
-  health.correlation = products_of(data, unit_columns);
-  auto const svd = right_svd(data, unit_columns);
+  health.correlation = products_of(data, {{}, reductions.length.cwiseInverse()});
+  auto const svd = right_svd(reductions.unit_columns);
   health.condition_number = condition(svd.singularValues());
-  health.condition_number_raw = condition(right_svd(data).singularValues());
+  health.condition_number_raw = condition(right_svd(reductions.raw).singularValues());
   health.identifiable = health.condition_number * identifiable_threshold < 1.0;
 
   health.words = pair_words(data, health.correlation);
@@ -144,7 +138,7 @@ Error not_identifiable(RegressionData const& data) {
   std::vector<std::size_t> silent;
   for (Eigen::Index r = 0; r < lengths.size(); ++r)
     if (lengths[r] == 0.0) silent.push_back(static_cast<std::size_t>(r));
-  auto const members = silent.empty() ? weakest_members(right_svd(data, to_unit_columns(data)).matrixV()) : silent;
+  auto const members = silent.empty() ? weakest_members(right_svd(reductions_of(data).unit_columns).matrixV()) : silent;
   auto const names = listed(names_of(data, members));
   problem.what = silent.empty() ? "the recording cannot tell " + names + " apart: they are proportional in this motion"
                                 : "the recording never excites " + names + ": the regressor is zero there";

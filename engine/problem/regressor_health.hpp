@@ -12,6 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/problem/regression_data.hpp"
+#include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
 
@@ -31,6 +32,8 @@ struct RegressorHealth {
 bool too_few_rows(RegressionData const& data);
 
 RegressorHealth regressor_health(RegressionData const& data);
+// with the rows reduced already (row_reduction.hpp); not looked at where rows are too few
+RegressorHealth regressor_health(RegressionData const& data, Reductions const& reductions);
 
 // Requires   not regressor_health(data).identifiable
 Error not_identifiable(RegressionData const& data);

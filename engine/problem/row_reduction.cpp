@@ -49,9 +49,22 @@ ReducedRows reduce_rows(RegressionData const& data, RowScaling const& scaling, E
   return reduced;
 }
 
+Reductions reductions_of(RegressionData const& data) {
+  Reductions reductions;
+  reductions.length = column_lengths(data);
+  for (auto& length : reductions.length) length = length > 0.0 ? length : 1.0;
+  reductions.unit_columns = reduce_rows(data, {{}, reductions.length.cwiseInverse()});
+  reductions.raw = reduce_rows(data);
+  return reductions;
+}
+
+Eigen::MatrixXd triangular_factor(ReducedRows const& reduced) {
+  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(reduced.phi);
+  return qr.matrixQR().topRows(reduced.phi.cols()).triangularView<Eigen::Upper>();
+}
+
 Eigen::MatrixXd triangular_factor(RegressionData const& data, RowScaling const& scaling, Eigen::Index block_rows) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(reduce_rows(data, scaling, block_rows).phi);
-  return qr.matrixQR().topRows(data.parameters()).triangularView<Eigen::Upper>();
+  return triangular_factor(reduce_rows(data, scaling, block_rows));
 }
 
 Eigen::VectorXd column_lengths(RegressionData const& data, Eigen::VectorXd const& root_weight) {

@@ -34,6 +34,15 @@ struct ReducedRows {
 ReducedRows reduce_rows(RegressionData const& data, RowScaling const& scaling = {},
                         Eigen::Index block_rows = reduced_block_rows);
 
+// What the health of a regressor and the floor of its squared errors both ask for. Up to block_rows rows each
+struct Reductions {
+  Eigen::VectorXd length;    // [R], of the columns of phi; 1 for a column of zeros
+  ReducedRows unit_columns;  // of phi with columns of length one
+  ReducedRows raw;
+};
+
+Reductions reductions_of(RegressionData const& data);
+
 // scaled rows first .. first + count
 Eigen::MatrixXd scaled_rows(RegressionData const& data, RowScaling const& scaling, Eigen::Index first,
                             Eigen::Index count);
@@ -41,6 +50,9 @@ Eigen::MatrixXd scaled_rows(RegressionData const& data, RowScaling const& scalin
 // the R factor of the scaled phi, upper triangular; signs of its rows are arbitrary
 Eigen::MatrixXd triangular_factor(RegressionData const& data, RowScaling const& scaling = {},
                                   Eigen::Index block_rows = reduced_block_rows);
+
+// of rows reduced already
+Eigen::MatrixXd triangular_factor(ReducedRows const& reduced);
 
 // of every column of phi, the weighted rows
 Eigen::VectorXd column_lengths(RegressionData const& data, Eigen::VectorXd const& root_weight = {});

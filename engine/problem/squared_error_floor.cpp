@@ -4,21 +4,17 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/problem/least_squares.hpp"
-#include "engine/problem/row_reduction.hpp"
+#include "engine/problem/prediction_metrics.hpp"
+#include "engine/problem/regressor_health.hpp"
 
 namespace torquescope {
-namespace {
-
-Eigen::MatrixXd triangular_root(RegressionData const& data) {
-  return triangular_factor(data) / std::sqrt(static_cast<double>(data.rows()));
-}
-
-}  // namespace
-
 SquaredErrorFloor::SquaredErrorFloor(RegressionData const& data)
-    : least_squares_(solve_weighted(data, {})),
+    : SquaredErrorFloor(data, too_few_rows(data) ? Reductions{} : reductions_of(data)) {}
+
+SquaredErrorFloor::SquaredErrorFloor(RegressionData const& data, Reductions const& reductions)
+    : least_squares_(solve_reduced(data, reductions)),
       mse_(prediction_metrics(data, least_squares_).mse),
-      root_(triangular_root(data)) {}
+      root_(triangular_factor(reductions.raw) / std::sqrt(static_cast<double>(data.rows()))) {}
 
 double SquaredErrorFloor::gap(std::span<double const> candidate) const {
   TORQUESCOPE_EXPECT(candidate.size() == static_cast<std::size_t>(least_squares_.size()));

@@ -10,12 +10,15 @@
 #include <span>
 
 #include "engine/problem/regression_data.hpp"
+#include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
 
 class SquaredErrorFloor {
  public:
   explicit SquaredErrorFloor(RegressionData const& data);
+  // with the rows reduced already
+  SquaredErrorFloor(RegressionData const& data, Reductions const& reductions);
 
   // squared error above the least possible, as MSE and whatever the loss; NaN for a NaN candidate
   double gap(std::span<double const> candidate) const;

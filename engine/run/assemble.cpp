@@ -218,7 +218,10 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
   prepare(parts->train, *parts, channels);
   if (parts->validate) prepare(*parts->validate, *parts, channels);
-  parts->health = regressor_health(parts->train.regression);
+  auto const& rows = parts->train.regression;
+  if (!too_few_rows(rows)) parts->reductions = reductions_of(rows);
+  parts->health = regressor_health(rows, parts->reductions);
+  if (purpose != Purpose::identify) parts->reductions = {};
   if (purpose == Purpose::identify && wants_statistics(*parts))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);
   check_precision(*parts);

@@ -40,6 +40,8 @@ void Experiment::forget_motion() {
   if (parts_->validate) parts_->validate->regression.forget_motion();
 }
 
+void Experiment::forget_reductions() { parts_->reductions = {}; }
+
 std::string const& Experiment::name() const { return parts_->experiment.name; }
 
 std::uint64_t Experiment::seed() const { return static_cast<std::uint64_t>(parts_->experiment.seed); }

@@ -46,6 +46,7 @@ struct Experiment::Parts {
   std::optional<Regressor> regressor;  // always there once loaded
   DataSet train;
   std::optional<DataSet> validate;
+  Reductions reductions;  // of the training rows, until the floor of their squared errors is known
   RegressorHealth health;
   Bounds box;
   Eigen::VectorXd truth;                                 // NaN where unknown

@@ -33,13 +33,16 @@ struct Study {
 void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
               std::int64_t nonfinite, RunResults& results) {
   results.gap.push_back(study.floor.gap({parameters.data(), static_cast<std::size_t>(parameters.size())}));
-  results.train.push_back(prediction_metrics(study.parts.train.regression, parameters));
-  if (study.parts.validate)
-    results.validate.push_back(prediction_metrics(study.parts.validate->regression, parameters));
   results.parameters.push_back(parameters);
   results.stop_reason.push_back(std::move(stop_reason));
   results.evaluations.push_back(evaluations);
   results.nonfinite.push_back(nonfinite);
+}
+
+// of all runs in one sweep over the rows
+void measure_runs(Study const& study, RunResults& results) {
+  results.train = prediction_metrics(study.parts.train.regression, results.parameters);
+  if (study.parts.validate) results.validate = prediction_metrics(study.parts.validate->regression, results.parameters);
 }
 
 RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
@@ -47,6 +50,7 @@ RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
   LeastSquaresFit const fit = plan.fit(study.parts.train.regression);
   RunResults results;
   keep_run(study, fit.parameters, "closed form", 1, 0, results);
+  measure_runs(study, results);
   auto const form = joint_form(*study.parts.regressor);
   write_least_squares(study.writer, plan.label, fit, form ? &*form : nullptr);
   progress.count_evaluations(1);
@@ -88,6 +92,7 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
       progress.count_run();
     }
   }
+  measure_runs(study, results);
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;
@@ -117,7 +122,8 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   write_study(writer, experiment);
   experiment.forget_motion();
 
-  SquaredErrorFloor const floor(parts.train.regression);
+  SquaredErrorFloor const floor(parts.train.regression, parts.reductions);
+  experiment.forget_reductions();
   bool const revolute = parts.regressor->joint() == JointKind::revolute;
   Study const study{parts, attempt, progress, writer, floor, revolute ? "N m" : "N", merges};
   IdentifyReport report;

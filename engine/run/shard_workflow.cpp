@@ -26,7 +26,8 @@ ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, Pro
   experiment.forget_motion();
   auto const& parts = experiment.parts();
   check_room(options, segment_bytes(parts, attempt.runs_left()), segment_folder_of(options.output));
-  SquaredErrorFloor const floor(parts.train.regression);
+  SquaredErrorFloor const floor(parts.train.regression, parts.reductions);
+  experiment.forget_reductions();
   try {
     for (auto const& plan : parts.estimators) {
       if (plan.is_closed_form()) continue;

@@ -54,6 +54,8 @@ class Experiment {
   Parts const& parts() const { return *parts_; }
   // what only people look at: once written, a fit does without
   void forget_motion();
+  // once the floor of the squared errors is known
+  void forget_reductions();
 
  private:
   explicit Experiment(std::unique_ptr<Parts> parts);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,13 +68,11 @@ Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index sam
   Motion motion;
   motion.rate_hz = rate_hz;
   for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) channel->resize(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) {
-    motion.time_s[i] = static_cast<double>(i) / rate_hz;
-    ReferencePoint const point = reference.at(motion.time_s[i]);
-    motion.q[i] = point.q;
-    motion.dq[i] = point.dq;
-    motion.ddq[i] = point.ddq;
-  }
+  for (Eigen::Index i = 0; i < samples; ++i) motion.time_s[i] = static_cast<double>(i) / rate_hz;
+  auto const numbers = [](Eigen::VectorXd& column) {
+    return std::span(column.data(), static_cast<std::size_t>(column.size()));
+  };
+  reference.at_each(numbers(motion.time_s), {numbers(motion.q), numbers(motion.dq), numbers(motion.ddq)});
   return motion;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/portable_math.hpp"
+
 namespace torquescope {
 
 std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
@@ -23,12 +25,23 @@ LaneNoise::LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_
   for (std::size_t k = 0; k < settling * model_.past.size(); ++k) next(dropped);
 }
 
+void LaneNoise::draw() {
+  std::array<double, ticks_together * twin_lanes> probabilities;
+  for (std::size_t tick = 0; tick < ticks_together; ++tick)
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      probabilities[tick * twin_lanes + lane] = RandomStream::probability(streams_[lane].bits());
+  normal_quantiles(probabilities, normals_);
+  tick_ = 0;
+}
+
 void LaneNoise::next(double* out) {
   if (model_.innovation == 0.0) {
     std::fill_n(out, twin_lanes, 0.0);
     return;
   }
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * streams_[lane].normal();
+  if (tick_ == ticks_together) draw();
+  double const* const fresh = normals_.data() + tick_++ * twin_lanes;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * fresh[lane];
   std::size_t const order = model_.past.size();
   if (order == 0) return;
   for (std::size_t i = 0; i < order; ++i) {

@@ -1,10 +1,12 @@
 #include "engine/simulate/noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/portable_math.hpp"
+#include "kernels/philox.hpp"
 
 namespace torquescope {
 
@@ -45,6 +47,24 @@ double addressed_normal(RandomKey const& key, NoiseStream stream, std::size_t in
   return stream_at(key, stream, index).normal();
 }
 
+void addressed_normals(RandomKey const& key, NoiseStream stream, std::size_t first, std::span<double> normals) {
+  constexpr std::size_t together = 128, words = 4;
+  std::array<std::uint32_t, together * words> blocks;
+  std::array<double, together> probabilities;
+  for (std::size_t done = 0; done < normals.size(); done += together) {
+    std::size_t const count = std::min(together, normals.size() - done);
+    TORQUESCOPE_EXPECT(first + done + count - 1 <= std::numeric_limits<std::uint32_t>::max());
+    auto const counter =
+        RandomStream::first_counter(key, static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(first + done));
+    auto const philox_key = RandomStream::philox_key(key);
+    kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, count, 1,
+                           blocks.data());
+    for (std::size_t i = 0; i < count; ++i)
+      probabilities[i] = RandomStream::probability(std::uint64_t{blocks[words * i + 1]} << 32 | blocks[words * i]);
+    normal_quantiles(std::span(probabilities).first(count), normals.subspan(done, count));
+  }
+}
+
 ColouredNoise::ColouredNoise(RandomKey const& key, NoiseStream stream, double std, double correlation_s, double rate_hz)
     : key_(key),
       stream_(stream),
@@ -56,7 +76,9 @@ ColouredNoise::ColouredNoise(RandomKey const& key, NoiseStream stream, double st
 
 double ColouredNoise::next() {
   if (std_ == 0.0) return 0.0;
-  double const fresh = std_ * addressed_normal(key_, stream_, index_);
+  std::size_t const place = index_ % normals_.size();
+  if (place == 0) addressed_normals(key_, stream_, index_, normals_);
+  double const fresh = std_ * normals_[place];
   value_ = index_ == 0 ? fresh : rho_ * value_ + innovation_ * fresh;
   ++index_;
   return value_;

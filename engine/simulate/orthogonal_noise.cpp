@@ -12,8 +12,7 @@ Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd phi, double mse, RandomKey cons
   TORQUESCOPE_EXPECT(phi.rows() > phi.cols() && mse >= 0.0);
   Eigen::Index const n = phi.rows();
   Eigen::VectorXd noise(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    noise[i] = addressed_normal(key, NoiseStream::orthogonal, static_cast<std::size_t>(i));
+  addressed_normals(key, NoiseStream::orthogonal, 0, {noise.data(), static_cast<std::size_t>(n)});
 
   // columns of a common size, so that the rank does not depend on units
   for (auto column : phi.colwise())

@@ -1,7 +1,9 @@
 #include "engine/simulate/ramped.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -29,19 +31,26 @@ class Ramped : public Reference {
     scale_ = scale;
   }
 
-  ReferencePoint at(double time_s) const override {
+  ReferencePoint at(double time_s) const override { return ramped(time_s, oscillation_->at(time_s)); }
+
+  void at_each(std::span<double const> times_s, ReferenceColumns const& points) const override {
+    oscillation_->at_each(times_s, points);
+    for (std::size_t i = 0; i < times_s.size(); ++i)
+      points.set(i, ramped(times_s[i], {points.q[i], points.dq[i], points.ddq[i]}));
+  }
+
+ private:
+  ReferencePoint ramped(double time_s, ReferencePoint const& p) const {
     ReferencePoint w{1.0, 0.0, 0.0};
     if (ramp_s_ > 0.0) {
       w = smooth_step(time_s / ramp_s_);
       w.dq /= ramp_s_;
       w.ddq /= ramp_s_ * ramp_s_;
     }
-    ReferencePoint const p = oscillation_->at(time_s);
     return {centre_ + scale_ * (w.q * p.q), scale_ * (w.q * p.dq + w.dq * p.q),
             scale_ * (w.q * p.ddq + 2.0 * w.dq * p.dq + w.ddq * p.q)};
   }
 
- private:
   std::unique_ptr<Reference const> oscillation_;
   double ramp_s_;
   double centre_ = 0.0;
@@ -57,12 +66,19 @@ std::unique_ptr<Reference const> ramped_to_limits(std::unique_ptr<Reference cons
   // peaks of the unscaled motion
   constexpr double points_per_period = 128.0;
   double const step_s = 1.0 / (points_per_period * highest_hz);
+  constexpr std::size_t points_together = 512;
+  std::array<double, points_together> times_s, q, dq, ddq;
   ReferencePoint peak;
-  for (double k = 0.0; k * step_s <= duration_s; ++k) {
-    ReferencePoint const point = motion->at(k * step_s);
-    peak.q = std::max(peak.q, std::abs(point.q));
-    peak.dq = std::max(peak.dq, std::abs(point.dq));
-    peak.ddq = std::max(peak.ddq, std::abs(point.ddq));
+  for (double k = 0.0; k * step_s <= duration_s;) {
+    std::size_t count = 0;
+    for (; count < points_together && k * step_s <= duration_s; ++k) times_s[count++] = k * step_s;
+    ReferenceColumns const points{std::span(q).first(count), std::span(dq).first(count), std::span(ddq).first(count)};
+    motion->at_each(std::span(times_s).first(count), points);
+    for (std::size_t i = 0; i < count; ++i) {
+      peak.q = std::max(peak.q, std::abs(q[i]));
+      peak.dq = std::max(peak.dq, std::abs(dq[i]));
+      peak.ddq = std::max(peak.ddq, std::abs(ddq[i]));
+    }
   }
   TORQUESCOPE_EXPECT(peak.q > 0.0 && peak.dq > 0.0 && peak.ddq > 0.0);
 

@@ -113,6 +113,10 @@ OptionTable<ReferenceOptions> const& ReferenceOptions::table() {
   return options;
 }
 
+void Reference::at_each(std::span<double const> times_s, ReferenceColumns const& points) const {
+  for (std::size_t i = 0; i < times_s.size(); ++i) points.set(i, at(times_s[i]));
+}
+
 std::vector<double> reference_frequencies_hz(ReferenceOptions const& options) {
   if (!options.frequencies_hz.empty()) return options.frequencies_hz;
   std::vector<double> frequencies;

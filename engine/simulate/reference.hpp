@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,24 @@ struct ReferencePoint {
   double q = 0.0, dq = 0.0, ddq = 0.0;
 };
 
+// points as columns of one length
+struct ReferenceColumns {
+  std::span<double> q, dq, ddq;
+
+  std::size_t size() const { return q.size(); }
+  void set(std::size_t i, ReferencePoint const& point) const {
+    q[i] = point.q;
+    dq[i] = point.dq;
+    ddq[i] = point.ddq;
+  }
+};
+
 class Reference {
  public:
   virtual ~Reference() = default;
   virtual ReferencePoint at(double time_s) const = 0;
+  // of many times at once: the same bits, faster where a kind can
+  virtual void at_each(std::span<double const> times_s, ReferenceColumns const& points) const;
 };
 
 struct ReferenceOptions {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kernels/dispatch-inl.hpp"
+
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/simulate/twin_lanes.cpp"
@@ -169,8 +171,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace torquescope {
 namespace {
-HWY_EXPORT(advance_light);
-HWY_EXPORT(advance_heavy);
+TORQUESCOPE_EXPORT(advance_light);
+TORQUESCOPE_EXPORT(advance_heavy);
 }  // namespace
 
 void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
@@ -193,9 +195,9 @@ void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double st
       a.weight[lane] = (joint.gravity_sin * sine + joint.gravity_cos * cosine) * per_inertia[lane];
       a.weight_slope[lane] = (joint.gravity_sin * cosine - joint.gravity_cos * sine) * per_inertia[lane];
     }
-    HWY_DYNAMIC_DISPATCH(advance_heavy)(a, step_s, steps, state);
+    TORQUESCOPE_DISPATCH(advance_heavy)(a, step_s, steps, state);
   } else {
-    HWY_DYNAMIC_DISPATCH(advance_light)(a, step_s, steps, state);
+    TORQUESCOPE_DISPATCH(advance_light)(a, step_s, steps, state);
   }
 }
 

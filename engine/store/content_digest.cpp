@@ -4,9 +4,13 @@
 #include <set>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
 namespace {
+
+// more is not worth a copy, nor the memory
+constexpr std::size_t most_waiting_bytes = std::size_t{1} << 18;
 
 bool is_about_the_file(std::string const& path, std::string const& attribute) {
   return path == "/" &&
@@ -173,10 +177,34 @@ void ContentDigest::dataset(std::string const& path, h5::Element element, h5::Sh
   dataset.blocks.resize(blocks_of(element, shape));
 }
 
+bool ContentDigest::has_dataset(std::string const& path) const {
+  auto const known = objects_.find(path);
+  return known != objects_.end() && !known->second.element.empty();
+}
+
 void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
   Object& dataset = object(path);
   TORQUESCOPE_EXPECT(index < dataset.blocks.size());
-  dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+  auto const* const first = static_cast<std::byte const*>(values);
+  if (waiting_.is_there) {
+    auto const both = sha256_of_two(waiting_.values, {first, bytes});
+    object(waiting_.path).blocks[waiting_.index] = both.first;
+    dataset.blocks[index] = both.second;
+    waiting_.is_there = false;
+  } else if (bytes <= most_waiting_bytes) {
+    waiting_.is_there = true;
+    waiting_.path = path;
+    waiting_.index = index;
+    waiting_.values.assign(first, first + bytes);
+  } else {
+    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+  }
+}
+
+void ContentDigest::digest_waiting() {
+  if (!waiting_.is_there) return;
+  object(waiting_.path).blocks[waiting_.index] = Digest().bytes(waiting_.values.data(), waiting_.values.size()).raw();
+  waiting_.is_there = false;
 }
 
 void ContentDigest::texts(std::string const& path, std::span<std::string const> texts) {
@@ -187,7 +215,8 @@ void ContentDigest::texts(std::string const& path, std::span<std::string const> 
   dataset.blocks[0] = digest.raw();
 }
 
-std::string ContentDigest::hex(FilePart part) const {
+std::string ContentDigest::hex(FilePart part) {
+  digest_waiting();
   Digest digest;
   for (auto const& [path, object] : objects_) {
     if (is_volatile(path) != (part == FilePart::provenance)) continue;

@@ -43,13 +43,22 @@ class ContentDigest {
   // value: as the file gives it back (h5::as_stored); a second one replaces the first
   void attribute(std::string const& path, std::string const& name, OptionValue const& value);
   void dataset(std::string const& path, h5::Element element, h5::Shape const& shape);
+  bool has_dataset(std::string const& path) const;
   // row-major values of the rows of one block
   void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
   void texts(std::string const& path, std::span<std::string const> texts);
 
-  std::string hex(FilePart part = FilePart::content) const;
+  std::string hex(FilePart part = FilePart::content);
 
  private:
+  // a block of values that waits for another one: two are digested in little more than the time of one
+  struct Waiting {
+    bool is_there = false;
+    std::string path{};
+    std::size_t index = 0;
+    std::vector<std::byte> values{};
+  };
+
   struct Object {
     std::map<std::string, Sha256> attributes;
     std::string element;  // "" for a group
@@ -59,7 +68,10 @@ class ContentDigest {
 
   Object& object(std::string const& path);  // with all the groups that lead to it
 
+  void digest_waiting();
+
   std::map<std::string, Object> objects_;
+  Waiting waiting_;
 };
 
 // Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.

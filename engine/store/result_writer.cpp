@@ -83,10 +83,16 @@ void ResultWriter::add_attribute(h5::Handle const& object, std::string const& pa
   digest_.attribute(path, name, h5::as_stored(value));
 }
 
+// is made when there is none
+h5::Handle const& ResultWriter::group(std::string const& path) {
+  auto const known = groups_.find(path);
+  return known != groups_.end() ? known->second : groups_.emplace(path, h5::make_groups(file_, path)).first->second;
+}
+
 h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& plan, Note const& note) {
   TORQUESCOPE_EXPECT(!note.unit.empty() && !note.long_name.empty());
   auto const [group, name] = split(path);
-  h5::Handle dataset = h5::create_dataset(h5::make_groups(file_, group), name, plan);
+  h5::Handle dataset = h5::create_dataset(this->group(group), name, plan);
   digest_.dataset(path, plan.element, plan.shape);
   add_attribute(dataset, path, "unit", note.unit);
   add_attribute(dataset, path, "long_name", note.long_name);
@@ -175,9 +181,10 @@ void ResultWriter::texts(std::string const& path, std::span<std::string const> v
 
 void ResultWriter::attribute(std::string const& object_path, std::string const& name, OptionValue const& value) {
   guarded(object_path, [&] {
-    h5::Handle const object =
-        h5::exists(file_, object_path) ? h5::open_object(file_, object_path) : h5::make_groups(file_, object_path);
-    add_attribute(object, object_path, name, value);
+    if (digest_.has_dataset(object_path))
+      add_attribute(h5::open_object(file_, object_path), object_path, name, value);
+    else
+      add_attribute(group(object_path), object_path, name, value);
   });
 }
 
@@ -249,6 +256,7 @@ std::string ResultWriter::finish() {
   if (h5::exists(file_, provenance_path)) attribute("/", provenance_digest_key, digest_.hex(FilePart::provenance));
   attribute("/", complete_key, std::int64_t{1});
 
+  groups_.clear();
   bool const closed = file_.close();
   temp_.check();
   if (!closed) throw cannot_write(temp_.final_name(), "/", h5::Failure("HDF5 could not close the file"));

@@ -87,6 +87,7 @@ class ResultWriter {
     RunBlocks blocks;
   };
 
+  h5::Handle const& group(std::string const& path);
   h5::Handle create(std::string const& path, h5::DatasetPlan const& plan, Note const& note);
   void add_attribute(h5::Handle const& object, std::string const& path, std::string const& name,
                      OptionValue const& value);
@@ -106,6 +107,7 @@ class ResultWriter {
   ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them
   h5::Handle file_;
+  std::map<std::string, h5::Handle> groups_;  // those met so far: HDF5 walks from the root to each of them in 10 us
   std::map<std::string, RunDataset> runs_;
 };
 

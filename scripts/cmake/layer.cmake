@@ -15,6 +15,8 @@ endif()
 if(TORQUESCOPE_CONTRACTS)
   target_compile_definitions(torquescope_flags INTERFACE TORQUESCOPE_CONTRACTS=1)
 endif()
+# a library that nothing is taken from is not loaded either: libhwy, whose headers are all that release builds use
+target_link_options(torquescope_flags INTERFACE -Wl,--as-needed)
 # Eigen must never start threads of its own: the engine spreads runs, not matrices
 target_compile_definitions(torquescope_flags INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -30,6 +31,14 @@ struct RunArguments {
   bool allow_mixed = false, allow_full_disk = false;
 };
 
+// Small buffers stay in the heap, where the next one finds them; columns of long recordings go back to the system as soon
+// as nobody holds them: glibc would move its limit above them after the first. Not for a diagnosis, which asks for
+// matrices of megabytes thousands of times and would wait for the system each time
+void tune_allocation() {
+  ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 8 << 20);
+}
+
 // a share of the runs, into segments
 ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::string const& job,
                    Session const& session) {
@@ -49,6 +58,7 @@ ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::s
 }
 
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
+  tune_allocation();
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);

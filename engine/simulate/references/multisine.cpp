@@ -34,24 +34,45 @@ class Multisine : public Reference {
     return sum;
   }
 
+  void at_each(std::span<double const> times_s, ReferenceColumns const& points) const override {
+    for (auto const& column : {points.q, points.dq, points.ddq}) std::fill(column.begin(), column.end(), 0.0);
+    for (std::size_t first = 0; first < times_s.size(); first += times_together) {
+      std::size_t const count = std::min(times_together, times_s.size() - first);
+      for (Line const& line : lines_)
+        add(line, times_s.subspan(first, count),
+            {points.q.subspan(first, count), points.dq.subspan(first, count), points.ddq.subspan(first, count)});
+    }
+  }
+
  private:
   static constexpr std::size_t side_by_side = 32;
+  static constexpr std::size_t times_together = 256;
+
+  static double angle(Line const& line, double time_s) { return line.frequency_hz * time_s + line.phase_turns; }
+  static double omega(Line const& line) { return 2.0 * std::numbers::pi * line.frequency_hz; }
 
   static void add(std::span<Line const> lines, double time_s, ReferencePoint& sum) {
-    // sines, then cosines
-    std::array<double, 2 * side_by_side> turns, values;
-    for (std::size_t k = 0; k < lines.size(); ++k)
-      turns[k] = turns[lines.size() + k] = lines[k].frequency_hz * time_s + lines[k].phase_turns;
-    auto const angles = std::span(turns).first(2 * lines.size());
-    quarter_ahead(angles.last(lines.size()));
-    sines_of_turns(angles, std::span(values).first(angles.size()));
-
+    std::array<double, side_by_side> turns, sines, cosines;
+    for (std::size_t k = 0; k < lines.size(); ++k) turns[k] = angle(lines[k], time_s);
+    sines_cosines_of_turns(std::span(turns).first(lines.size()), std::span(sines).first(lines.size()),
+                           std::span(cosines).first(lines.size()));
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      double const omega = 2.0 * std::numbers::pi * lines[k].frequency_hz;
-      double const sine = values[k];
-      sum.q += sine / omega;
-      sum.dq += values[lines.size() + k];
-      sum.ddq -= omega * sine;
+      sum.q += sines[k] / omega(lines[k]);
+      sum.dq += cosines[k];
+      sum.ddq -= omega(lines[k]) * sines[k];
+    }
+  }
+
+  static void add(Line const& line, std::span<double const> times_s, ReferenceColumns const& sum) {
+    std::array<double, times_together> turns, sines, cosines;
+    for (std::size_t i = 0; i < times_s.size(); ++i) turns[i] = angle(line, times_s[i]);
+    sines_cosines_of_turns(std::span(turns).first(times_s.size()), std::span(sines).first(times_s.size()),
+                           std::span(cosines).first(times_s.size()));
+    double const w = omega(line);
+    for (std::size_t i = 0; i < times_s.size(); ++i) {
+      sum.q[i] += sines[i] / w;
+      sum.dq[i] += cosines[i];
+      sum.ddq[i] -= w * sines[i];
     }
   }
 

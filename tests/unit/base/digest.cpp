@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <span>
 #include <vector>
+
+#include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
 namespace {
@@ -19,6 +23,21 @@ TEST(Digest, OfPartsIsThatOfTheWhole) {
   Digest parts;
   parts.bytes("a", 1).bytes("", 0).bytes("bc", 2);
   EXPECT_EQ(parts.hex(), sha256_hex("abc"));
+}
+
+TEST(Digest, OfTwoIsThatOfEach) {
+  std::vector<std::byte> bytes(1000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i * i % 251);
+  std::span<std::byte const> const all(bytes);
+  // ends on both sides of a block of 64 and of the eight bytes for the length
+  std::size_t const sizes[] = {0, 1, 54, 55, 56, 63, 64, 65, 119, 120, 128, 900};
+  for (std::size_t a : sizes)
+    for (std::size_t b : sizes) {
+      auto const first = all.first(a), second = all.last(b);
+      auto const both = sha256_of_two(first, second);
+      EXPECT_EQ(both.first, Digest().bytes(first.data(), a).raw()) << a << " and " << b;
+      EXPECT_EQ(both.second, Digest().bytes(second.data(), b).raw()) << a << " and " << b;
+    }
 }
 
 TEST(Digest, TellsWhereATextEnds) {

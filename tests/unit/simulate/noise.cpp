@@ -32,6 +32,16 @@ TEST(AddressedNoise, DependsOnTheAddressOnly) {
   EXPECT_EQ(addressed_normal(key, NoiseStream::torque_white, 77), first);
 }
 
+TEST(AddressedNoise, OfManyHasTheBitsOfEach) {
+  // tails too: one of seven
+  std::vector<double> normals(1000);
+  for (std::size_t first : {0u, 5u, 4'000'000'000u}) {
+    addressed_normals(key, NoiseStream::torque_coloured, first, normals);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      ASSERT_EQ(normals[i], addressed_normal(key, NoiseStream::torque_coloured, first + i)) << first + i;
+  }
+}
+
 TEST(AddressedNoise, DiffersInEveryPartOfTheAddress) {
   double const here = addressed_normal(key, NoiseStream::torque_white, 5);
   EXPECT_NE(here, addressed_normal(key, NoiseStream::torque_white, 6));

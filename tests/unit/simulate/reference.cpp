@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 using namespace torquescope;
 
@@ -49,6 +50,20 @@ TEST_P(EveryReference, StartsFromRestAtTheCentre) {
   EXPECT_EQ(point.dq, 0.0);
   if (GetParam() != "trapezoid") {
     EXPECT_EQ(point.ddq, 0.0);
+  }
+}
+
+TEST_P(EveryReference, AtManyTimesHasTheBitsOfEach) {
+  auto const reference = make_reference(of_kind(GetParam()), duration_s, key_of(5));
+  std::vector<double> times_s;
+  for (int i = 0; i < 1037; ++i) times_s.push_back(0.0137 * i);
+  std::vector<double> q(times_s.size()), dq(times_s.size()), ddq(times_s.size());
+  reference->at_each(times_s, {q, dq, ddq});
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    auto const point = reference->at(times_s[i]);
+    ASSERT_EQ(q[i], point.q) << i;
+    ASSERT_EQ(dq[i], point.dq) << i;
+    ASSERT_EQ(ddq[i], point.ddq) << i;
   }
 }
 
