@@ -14,12 +14,12 @@
 #include "engine/diagnose/multiple_testing.hpp"
 #include "engine/diagnose/region_consistency.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
+#include "engine/diagnose/trial_order.hpp"
 
 namespace torquescope {
 namespace {
 
 constexpr double least_share_of_rest = 0.25;
-constexpr double nearly_all = 0.97;
 constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
 constexpr std::size_t n_refined = 5;
 
@@ -31,13 +31,6 @@ std::vector<double> q_of(std::vector<EffectScan> const& scans) {
     family.push_back(word(scan.effect->family()));
   }
   return hierarchical_q(p, family);
-}
-
-// Most of the gain is there on blocks that the fit has not seen, or the gain per block is beyond its own spread. An effect
-// that acts in few places gains in few blocks, so that its spread says nothing
-bool helps_elsewhere(BlockedGain const& cv, double gain) {
-  constexpr double least_t = 2.0, most = 0.5;
-  return cv.t >= least_t || cv.gain >= most * gain;
 }
 
 // of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
@@ -69,13 +62,6 @@ class Search {
   }
 
  private:
-  struct Trial {
-    EffectScan scan;
-    double q = 1.0;
-    RefinedEffect refined;
-    BlockedGain cv;
-  };
-
   void tell(char const* what, std::size_t done, std::size_t total) const {
     if (progress_) progress_(what, done, total);
   }
@@ -159,36 +145,7 @@ class Search {
       if (is_first) selection_.first_cv_gain[i] = trial.cv.gain;
       trials.push_back(std::move(trial));
     }
-    std::stable_sort(trials.begin(), trials.end(),
-                     [](Trial const& a, Trial const& b) { return a.refined.gain > b.refined.gain; });
-    prefer_what_repeats(trials);
-    prefer_fewer_parameters(trials);
-    return trials;
-  }
-
-  // What happens once fits any one peak and can be checked nowhere else. Something that acts all the time and explains half
-  // as much on blocks it was not fitted to comes first: an event cannot be foretold from other blocks
-  static void prefer_what_repeats(std::vector<Trial>& trials) {
-    constexpr double half = 0.5;
-    for (auto event = trials.begin(); event != trials.end(); ++event) {
-      if (!event->refined.effect->is_event()) continue;
-      double const enough = half * event->refined.gain;
-      std::stable_partition(event, trials.end(), [&](Trial const& trial) {
-        return !trial.refined.effect->is_event() && trial.cv.gain >= enough;
-      });
-    }
-  }
-
-  static void prefer_fewer_parameters(std::vector<Trial>& trials) {
-    if (trials.empty()) return;
-    double const enough = nearly_all * trials.front().refined.gain;
-    auto const last = std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) {
-      return trial.refined.gain < enough ||
-             trial.refined.effect->is_event() != trials.front().refined.effect->is_event();
-    });
-    std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
-      return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
-    });
+    return in_order_of_trial(std::move(trials));
   }
 
   // waves may be named again: a second order is another wave

@@ -6,8 +6,11 @@
 //            mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is there
 //            because a disturbance was fitted to the energy of the residual: where physics is missing it takes part of it
 //            for noise, so that the whole looks like noise while one direction of it does not
-//            Fainter than that, down to 0.02 %, only when a candidate's q is below 0.005, and nothing that happens once
-//            gets a name there
+//            Otherwise a candidate must be certain (q below 0.005), and its torque beside the model's own columns more than
+//            0.02 % of the torque's rms; up to 0.25 % nothing that happens once gets a name. After the first name it must
+//            also explain 3 % of the whole: what an imperfect name leaves is just as certain, and no physics
+// Weights    every accepted effect gets rows weighed anew (noise_weights.hpp), for what is missing passes for noise in part;
+//            energies of earlier steps are counted in the unit of the last (energy_unit)
 // Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds; the
 //            largest gain wins, a lesser one with fewer parameters
 //            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, have a

@@ -53,6 +53,7 @@ ABLATIONS = {
     "controller_unknown": without_reference,
     "noise_half": with_key("twin_noise", "0.5"),
     "noise_double": with_key("twin_noise", "2"),
+    "no_whitening": with_key("whitening", "false"),
 }
 
 

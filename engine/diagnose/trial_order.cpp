@@ -1,0 +1,47 @@
+#include "engine/diagnose/trial_order.hpp"
+
+#include <algorithm>
+
+namespace torquescope {
+namespace {
+
+bool is_event(Trial const& trial) { return trial.refined.effect->is_event(); }
+
+void prefer_what_repeats(std::vector<Trial>& trials) {
+  constexpr double half = 0.5;
+  for (auto event = trials.begin(); event != trials.end(); ++event) {
+    if (!is_event(*event)) continue;
+    double const enough = half * event->refined.gain;
+    std::stable_partition(event, trials.end(),
+                          [&](Trial const& trial) { return !is_event(trial) && trial.cv.gain >= enough; });
+  }
+}
+
+void prefer_fewer_parameters(std::vector<Trial>& trials) {
+  constexpr double nearly_all = 0.97;
+  if (trials.empty()) return;
+  double const enough = nearly_all * trials.front().refined.gain;
+  auto const last = std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) {
+    return trial.refined.gain < enough || is_event(trial) != is_event(trials.front());
+  });
+  std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
+    return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
+  });
+}
+
+}  // namespace
+
+std::vector<Trial> in_order_of_trial(std::vector<Trial> trials) {
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](Trial const& a, Trial const& b) { return a.refined.gain > b.refined.gain; });
+  prefer_what_repeats(trials);
+  prefer_fewer_parameters(trials);
+  return trials;
+}
+
+bool helps_elsewhere(BlockedGain const& cv, double gain) {
+  constexpr double least_t = 2.0, most = 0.5;
+  return cv.t >= least_t || cv.gain >= most * gain;
+}
+
+}  // namespace torquescope

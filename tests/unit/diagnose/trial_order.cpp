@@ -1,0 +1,57 @@
+// Which candidate is tried first for a name.
+
+#include "engine/diagnose/trial_order.hpp"
+
+#include <gtest/gtest.h>
+
+using torquescope::find_effect;
+using torquescope::helps_elsewhere;
+using torquescope::in_order_of_trial;
+using torquescope::Trial;
+
+namespace {
+
+Trial trial(char const* effect, double gain, double cv_gain) {
+  Trial one;
+  one.refined.effect = find_effect(effect);
+  one.refined.gain = gain;
+  one.cv.gain = cv_gain;
+  return one;
+}
+
+std::vector<std::string> names(std::vector<Trial> const& trials) {
+  std::vector<std::string> result;
+  for (auto const& one : trials) result.push_back(one.refined.effect->name());
+  return result;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST(TrialOrder, MostGainFirst) {
+  EXPECT_EQ(names(in_order_of_trial({trial("gravity", 2.0, 2.0), trial("stribeck", 5.0, 5.0)})),
+            (Names{"stribeck", "gravity"}));
+  EXPECT_TRUE(in_order_of_trial({}).empty());
+}
+
+TEST(TrialOrder, WhatRepeatsComesBeforeAnEventWhenItHoldsOnOtherBlocks) {
+  EXPECT_EQ(names(in_order_of_trial({trial("contact", 4.0, 0.0), trial("stribeck", 3.0, 2.1)})),
+            (Names{"stribeck", "contact"}));
+  EXPECT_EQ(names(in_order_of_trial({trial("contact", 4.0, 0.0), trial("stribeck", 3.0, 1.9)})),
+            (Names{"contact", "stribeck"}));
+}
+
+TEST(TrialOrder, FewerParametersWinWhenTheyExplainNearlyAsMuch) {
+  ASSERT_LT(find_effect("asymmetric_viscous")->parameters().size(), find_effect("stribeck")->parameters().size());
+  EXPECT_EQ(names(in_order_of_trial({trial("stribeck", 1.0, 1.0), trial("asymmetric_viscous", 0.98, 0.98)})),
+            (Names{"asymmetric_viscous", "stribeck"}));
+  EXPECT_EQ(names(in_order_of_trial({trial("stribeck", 1.0, 1.0), trial("asymmetric_viscous", 0.96, 0.96)})),
+            (Names{"stribeck", "asymmetric_viscous"}));
+}
+
+TEST(TrialOrder, HelpsElsewhereByItsSpreadOrByHalfOfItsGain) {
+  EXPECT_TRUE(helps_elsewhere({.gain = 0.1, .t = 2.1}, 1.0));
+  EXPECT_TRUE(helps_elsewhere({.gain = 0.6, .t = 0.5}, 1.0));
+  EXPECT_FALSE(helps_elsewhere({.gain = 0.4, .t = 1.9}, 1.0));
+}
