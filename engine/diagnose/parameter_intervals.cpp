@@ -2,14 +2,22 @@
 
 #include <cmath>
 
+#include "engine/diagnose/block_jackknife.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {
 
-ParameterEstimate estimate(std::string name, std::string unit, double value, double std) {
+ParameterEstimate estimate(std::string name, std::string unit, double value, double half) {
+  return {std::move(name), std::move(unit), value, value - half, value + half};
+}
+
+// half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more
+Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   constexpr double two_sided = 1.96;
-  return {std::move(name), std::move(unit), value, value - two_sided * std, value + two_sided * std};
+  Eigen::VectorXd const chance = two_sided * parameter_deviations(stage, columns);
+  Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), columns.with_tangents());
+  return chance.cwiseMax(blocks);
 }
 
 }  // namespace
@@ -27,13 +35,13 @@ Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns c
 
 ModelEstimate estimate_parameters(ModelStage const& stage) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  Eigen::VectorXd const std = parameter_deviations(stage, columns);
+  Eigen::VectorXd const half = half_intervals(stage, columns);
   auto const& model = stage.model();
   ModelEstimate result;
   auto const owners = model.regressor().column_owners();
   for (std::size_t k = 0; k < owners.size(); ++k)
     result.baseline.push_back(estimate(owners[k].name, owners[k].unit, stage.parameters()[static_cast<Eigen::Index>(k)],
-                                       std[static_cast<Eigen::Index>(k)]));
+                                       half[static_cast<Eigen::Index>(k)]));
   Eigen::Index shape_at = columns.model_columns().cols();
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     auto const& effect = *model.effects()[i].effect;
@@ -43,7 +51,7 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
       auto const& parameter = effect.parameters()[k];
       Eigen::Index const at =
           k < effect.n_linear() ? static_cast<Eigen::Index>(model.first_parameter(i) + k) : shape_at++;
-      own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], std[at]));
+      own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], half[at]));
     }
     result.effects.push_back(std::move(own));
   }

@@ -2,7 +2,8 @@
 // Parameters of a model with 95 % intervals from its twins: all of them jointly, shapes included.
 //
 // Equation   deviation of twin t = [columns | tangents]^+ (its torque - columns * the truth it was simulated with);
-//            interval = value -+ 1.96 standard deviation over twins * sqrt(1 + 1/M)
+//            interval = value -+ the larger of 1.96 standard deviations over twins * sqrt(1 + 1/M) and 2.26 of the block
+//            jackknife on the recording's own mismatch (block_jackknife.hpp): a law that is not quite the joint's is no chance
 // Value      corrected for the bias of processing (baseline_correction.hpp); shapes by the last step of joint_refinement.hpp
 // Threads    free function
 // Source     PHYSICS.md section 2 step 12; parametric bootstrap: Efron, Tibshirani 1993
