@@ -1,5 +1,6 @@
 #include "engine/diagnose/baseline_correction.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -18,6 +19,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
   result.least_squares = recording_fit;
   result.parameters = start;
   auto const n = static_cast<Eigen::Index>(twins);
+  std::vector<bool> const signs = pipeline.model().non_negative();
   Eigen::MatrixXd fits(n, recording_fit.size());
   std::vector<char> ran_away(twins);
   while (result.rounds < most_rounds && !result.converged) {
@@ -35,6 +37,8 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
     double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
     Eigen::VectorXd const mismatch = recording_fit - mean.transpose();
     result.parameters += gain * mismatch;
+    for (Eigen::Index k = 0; k < result.parameters.size(); ++k)
+      if (signs[static_cast<std::size_t>(k)]) result.parameters[k] = std::max(0.0, result.parameters[k]);
     ++result.rounds;
     // without noise all twins are one: then rounding is the yardstick
     constexpr double nothing = std::numeric_limits<double>::min();  // a parameter that this joint has not

@@ -50,6 +50,14 @@ CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinCompariso
   nuisance_ = orthonormal_basis(with_tangents());
 }
 
+void CandidateColumns::add_nuisance(Eigen::MatrixXd const& signals) {
+  Eigen::MatrixXd columns = pipeline_->filtered_columns(signals, comparison_->common);
+  pipeline_->whiten(columns, comparison_->common.kept_rows);
+  Eigen::MatrixXd all(nuisance_.rows(), nuisance_.cols() + columns.cols());
+  all << nuisance_, columns;
+  nuisance_ = orthonormal_basis(all);
+}
+
 Eigen::MatrixXd CandidateColumns::with_tangents() const {
   Eigen::MatrixXd all(model_columns_.rows(), model_columns_.cols() + tangents_.cols());
   all << model_columns_, tangents_;

@@ -4,6 +4,7 @@
 // Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those are
 // Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
 //            wrong shape leaves must not take a second name (LESSONS item 11)
+//            More can be added: laws that are neither known nor asked for
 // Shapes     n rows; L = effect.n_linear()
 // Threads    const object, any number of threads; looks into the comparison and the pipeline, which outlive it
 
@@ -25,6 +26,9 @@ class CandidateColumns {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison, BaselineReference reference,
                    Eigen::VectorXd const& parameters, std::size_t without = none);
+
+  // candidates must explain something beside these as well: n samples x k, at the full rate
+  void add_nuisance(Eigen::MatrixXd const& signals);
 
   JointScales const& scales() const { return reference_.scales; }
   JointKind joint() const { return reference_.scales.joint; }

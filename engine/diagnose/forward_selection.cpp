@@ -23,21 +23,6 @@ constexpr double least_share_of_rest = 0.25;
 constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
 constexpr std::size_t n_refined = 5;
 
-std::vector<double> q_of(std::vector<EffectScan> const& scans) {
-  std::vector<double> p;
-  std::vector<std::string> family;
-  for (auto const& scan : scans) {
-    p.push_back(scan.p);
-    family.push_back(word(scan.effect->family()));
-  }
-  return hierarchical_q(p, family);
-}
-
-// of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
-double energy_about_true_mean(ModelStage const& stage) {
-  return stage.mismatch().squaredNorm() - stage.energy.noise / static_cast<double>(stage.comparison.rows.n_twins() + 1);
-}
-
 class Search {
  public:
   Search(StageSetting setting, SelectionOptions const& options, StageSink const& progress)
@@ -260,6 +245,7 @@ class Search {
 
   Selection finish() {
     selection_.final = std::move(stage_);
+    selection_.wander = setting_.wander;
     return std::move(selection_);
   }
 
@@ -278,6 +264,20 @@ double Selection::whole() const { return std::max(first_excess * energy_unit, st
 
 bool Selection::has_accepted(Effect const* effect) const {
   return std::any_of(accepted.begin(), accepted.end(), [&](auto const& one) { return one.effect == effect; });
+}
+
+std::vector<double> q_of(std::vector<EffectScan> const& scans) {
+  std::vector<double> p;
+  std::vector<std::string> family;
+  for (auto const& scan : scans) {
+    p.push_back(scan.p);
+    family.push_back(word(scan.effect->family()));
+  }
+  return hierarchical_q(p, family);
+}
+
+double energy_about_true_mean(ModelStage const& stage) {
+  return stage.mismatch().squaredNorm() - stage.energy.noise / static_cast<double>(stage.comparison.rows.n_twins() + 1);
 }
 
 double energy_share(ModelStage const& stage, double energy) {

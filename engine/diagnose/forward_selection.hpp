@@ -62,10 +62,12 @@ struct Selection {
   std::vector<double> first_q{};         // of each
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
-  double first_excess = 0.0;               // of it, or what one candidate explains if that is more; energy
-  double energy_unit = 1.0;                // what a unit of energy of the first step is under the weights of the last
-  bool is_gate_open = false;               // something is missing
-  std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
+  double first_excess = 0.0;     // of it, or what one candidate explains if that is more; energy
+  double energy_unit = 1.0;      // what a unit of energy of the first step is under the weights of the last
+  bool is_gate_open = false;     // something is missing
+  bool keeps_reversals = false;  // both stages have rows at reversals (friction_buildup.hpp)
+  WanderReading wander = WanderReading::beside_motion;  // that the twins were made with
+  std::vector<AcceptedEffect> accepted{};               // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
   ModelStage baseline;           // without effects
   ModelStage final;              // with all of them; a second copy of the baseline's when there are none
@@ -84,6 +86,10 @@ inline constexpr double smallest_faint_share = 0.0002, faint_q = 0.005;  // belo
 double mismatch_share(ModelStage const& stage);
 double energy_share(ModelStage const& stage, double energy);
 bool is_significant(ModelStage const& stage);
+// of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
+double energy_about_true_mean(ModelStage const& stage);
+// hierarchical, of each scan
+std::vector<double> q_of(std::vector<EffectScan> const& scans);
 
 // told before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
 using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;

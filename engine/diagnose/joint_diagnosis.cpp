@@ -12,6 +12,7 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/detection_power.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
+#include "engine/diagnose/friction_buildup.hpp"
 #include "engine/diagnose/mismatch_map.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/parameter_intervals.hpp"
@@ -93,9 +94,9 @@ class JointWork {
       });
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
+    Remainder const remainder = judge_with_reversals(setting);
     describe_baseline();
     joint_.candidates = candidate_table(selection_);
-    Remainder const remainder = judge_remainder(selection_, final_stage());
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
@@ -103,6 +104,15 @@ class JointWork {
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
+  }
+
+  // what the names leave; where that has no structure of its own, the reversals are looked at as well
+  Remainder judge_with_reversals(StageSetting& setting) {
+    Remainder remainder = judge_remainder(selection_, final_stage());
+    if (remainder.is_unexplained && !selection_.accepted.empty()) return remainder;
+    if (!look_at_reversals(setting, input_.selection, selection_, progress_)) return remainder;
+    setting.keeps_reversals = true;
+    return judge_remainder(selection_, final_stage());
   }
 
   // the recording by itself; may replace its torque by what the user's simulator cannot say

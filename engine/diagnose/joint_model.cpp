@@ -29,6 +29,14 @@ std::vector<RegressorColumn> JointModel::column_owners() const {
   return owners;
 }
 
+std::vector<bool> JointModel::non_negative() const {
+  std::vector<bool> signs(regressor_->size(), false);
+  for (auto const& [effect, shape] : effects_)
+    for (std::size_t k = 0; k < effect->n_linear(); ++k)
+      signs.push_back(effect->parameters()[k].sign() == Sign::non_negative);
+  return signs;
+}
+
 Eigen::MatrixXd JointModel::columns(Motion const& motion) const {
   if (effects_.empty()) return regressor_->columns(motion);
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));

@@ -43,6 +43,8 @@ class JointModel {
   // index of the first parameter of effect i
   std::size_t first_parameter(std::size_t effect) const;
   std::vector<RegressorColumn> column_owners() const;
+  // parameters of effects that physics allows no negative value; those of the baseline are free
+  std::vector<bool> non_negative() const;
 
   Eigen::MatrixXd columns(Motion const& motion) const;
   // linear parameters, then the shape: as Effect::runner takes them

@@ -14,8 +14,7 @@ constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have som
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
 
 ModelStage made_stage(StageSetting const& setting, JointModel model) {
-  auto pipeline = std::make_unique<RecordPipeline>(std::move(model), setting.filter, setting.recording.rate_hz,
-                                                   setting.recording.position.size(), setting.filter_section);
+  auto pipeline = std::make_unique<RecordPipeline>(pipeline_for(setting, setting.recording, std::move(model)));
   TwinOptions options;
   options.seed = setting.seed;
   options.wander = setting.wander;
@@ -51,6 +50,13 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
 
 }  // namespace
 
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model) {
+  RecordPipeline pipeline(std::move(model), setting.filter, recording.rate_hz, recording.position.size(),
+                          setting.filter_section);
+  if (setting.keeps_reversals) pipeline.keep_reversals();
+  return pipeline;
+}
+
 BaselineReference ModelStage::reference() const {
   auto const& regressor = model().regressor();
   Eigen::VectorXd const own = parameters().head(static_cast<Eigen::Index>(regressor.size()));
@@ -78,8 +84,7 @@ std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStag
   StageSetting own = setting;
   own.levels = levels_of(*stage.twin);
   if (stage.pipeline->whitens()) {
-    RecordPipeline const plain(stage.model(), setting.filter, setting.recording.rate_hz,
-                               setting.recording.position.size(), setting.filter_section);
+    RecordPipeline const plain = pipeline_for(setting, setting.recording, stage.model());
     NoiseWeights const rows(
         twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.threads));
     own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));

@@ -31,7 +31,11 @@ struct StageSetting {
   std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
+  bool keeps_reversals = false;                   // rows at reversals count (friction_buildup.hpp)
 };
+
+// of a recording, with the setting's filter and rows
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model);
 
 struct ModelStage {
   std::unique_ptr<RecordPipeline> pipeline{};  // restricted to the common rows

@@ -11,8 +11,10 @@ namespace torquescope {
 namespace {
 
 // the mask at the samples the filter keeps
-std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const& filter, double cutoff_hz) {
-  auto const moving = moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
+std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const& filter, double cutoff_hz,
+                                      bool with_reversals) {
+  auto const moving = with_reversals ? samples_without_rest(motion.dq, motion.rate_hz, cutoff_hz)
+                                     : moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
   Eigen::VectorXd as_numbers(motion.dq.size());
   for (Eigen::Index k = 0; k < as_numbers.size(); ++k) as_numbers[k] = moving[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
   Eigen::VectorXd const kept = filter.pick(as_numbers);
@@ -80,19 +82,44 @@ void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const
     record.columns = signals.leftCols(record.columns.cols());
     record.torque = signals.col(record.columns.cols());
   }
+  record.parameters = Eigen::VectorXd::Zero(record.columns.cols());
+  record.residual = record.torque;
+  std::vector<Eigen::Index> present = present_columns(record.columns);
+  std::vector<bool> const signs = model_.non_negative();
+  while (true) {
+    Eigen::VectorXd const solved = solved_with(record, present, name);
+    // a parameter that would be negative where it cannot be is 0; the most negative first, the others are asked again
+    std::ptrdiff_t worst = -1;
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      auto const at = static_cast<Eigen::Index>(i);
+      if (!signs[static_cast<std::size_t>(present[i])] || !(solved[at] < 0.0)) continue;
+      double const size = solved[at] * record.columns.col(present[i]).norm();
+      if (worst < 0 || size < solved[worst] * record.columns.col(present[static_cast<std::size_t>(worst)]).norm())
+        worst = at;
+    }
+    if (worst >= 0) {
+      present.erase(present.begin() + worst);
+      continue;
+    }
+    record.parameters(present) = solved;
+    break;
+  }
+  record.residual -= record.columns * record.parameters;
+}
+
+Eigen::VectorXd RecordPipeline::solved_with(ProcessedRecord& record, std::vector<Eigen::Index> const& present,
+                                            std::string const& name) const {
   std::vector<RegressorColumn> const owners = model_.column_owners();
-  std::vector<Eigen::Index> const present = present_columns(record.columns);
   RegressionData data;
   for (Eigen::Index k : present) data.columns.push_back(owners[static_cast<std::size_t>(k)]);
   data.recording_names = {name};
   bool const all_are = present.size() == owners.size();
   data.phi = all_are ? std::move(record.columns) : Eigen::MatrixXd(record.columns(Eigen::all, present));
   data.tau = std::move(record.torque);
-  record.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(owners.size()));
-  record.parameters(present) = solve_weighted(data, {});
-  record.residual = data.tau - data.phi * record.parameters(present);
+  Eigen::VectorXd solved = solve_weighted(data, {});
   if (all_are) record.columns = std::move(data.phi);
   record.torque = std::move(data.tau);
+  return solved;
 }
 
 ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,
@@ -115,9 +142,10 @@ ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
   TORQUESCOPE_EXPECT(recording.position.size() == n_samples_ && recording.torque.size() == n_samples_);
   ProcessedRecord record;
   record.motion = differentiate(recording, options_, section_);
-  record.kept_rows = fixed_rows_.empty()
-                         ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz)
-                         : fixed_rows_;
+  record.kept_rows =
+      fixed_rows_.empty()
+          ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz, keeps_reversals_)
+          : fixed_rows_;
 
   // the torque goes through the filter beside the columns: eight signals cost as much as one
   Eigen::MatrixXd signals = model_.columns(record.motion);

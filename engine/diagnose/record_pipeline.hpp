@@ -3,7 +3,8 @@
 //
 // Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, weights of the
 //            rows by their noise (noise_weights.hpp) where they were set, least squares
-// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column
+// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column. Parameters of
+//            effects that cannot be negative are not: one that least squares would make so is 0
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
 // Memory     about 60 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
@@ -61,6 +62,9 @@ class RecordPipeline {
   // from now on process() keeps exactly these rows, whatever its own mask would be
   void restrict_to(std::vector<Eigen::Index> kept_rows);
 
+  // from now on its own mask drops rests alone (reversal_mask.hpp)
+  void keep_reversals() { keeps_reversals_ = true; }
+
   // from now on process() weighs rows by what their noise leaves of them; none: every row alike
   void weigh_with(std::shared_ptr<NoiseWeights const> weights);
   std::shared_ptr<NoiseWeights const> const& weights() const { return weights_; }
@@ -89,6 +93,9 @@ class RecordPipeline {
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
+  // least squares on these columns; the record is borrowed, and as it was afterwards
+  Eigen::VectorXd solved_with(ProcessedRecord& record, std::vector<Eigen::Index> const& present,
+                              std::string const& name) const;
 
   JointModel model_;
   FilterOptions options_;
@@ -97,6 +104,7 @@ class RecordPipeline {
   Eigen::Index n_samples_;
   double cutoff_hz_;
   ParallelFilter filter_;
+  bool keeps_reversals_ = false;
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
   std::shared_ptr<NoiseWeights const> weights_{};
   WanderOnRows fixed_wander_{};  // on fixed_rows_

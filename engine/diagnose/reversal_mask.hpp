@@ -4,6 +4,8 @@
 //
 // Equation   still_k: |dq_k| < 0.005 max|dq|, or the sign of dq differs from that of sample k-1;
 //            dropped: every sample within 1.6 / cutoff_hz of a still one
+// Reversals  kept where friction that builds up after them is asked for (friction_buildup.hpp): there only rests are
+//            dropped, for what friction holds at rest no law of the motion says
 // Why        the filtered velocity misplaces the sign of friction by a few samples, and no law of sticking is known well
 //            enough to be simulated there: with these rows nothing was calibrated, without them everything else shows up
 //            to ten times clearer, whatever the true law of sticking is
@@ -20,5 +22,8 @@
 namespace torquescope {
 
 std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
+
+// dropped: every stretch slower than 0.005 max|dq| that lasts longer than 1.6 / cutoff_hz, and as much before and after it
+std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
 
 }  // namespace torquescope

@@ -102,10 +102,6 @@ void check_rows(ProcessedRecord const& record, std::string const& name) {
   });
 }
 
-RecordPipeline pipeline_for(Recording const& recording, StageSetting const& setting, JointModel const& model) {
-  return {model, setting.filter, recording.rate_hz, recording.position.size(), setting.filter_section};
-}
-
 // the loop that another recording was made in, without levels; none where twins follow a measured motion
 std::optional<RecordedLoop> loop_of(Recording const& recording, ModelStage const& stage) {
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
@@ -134,7 +130,7 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 
 double floor_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                 RecordedLoop const& loop, Eigen::VectorXd const& parameters) {
-  RecordPipeline const pipeline = pipeline_for(recording, setting, stage.model());
+  RecordPipeline const pipeline = pipeline_for(setting, recording, stage.model());
   CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());
   std::vector<double> relerr(twin_lanes, unknown);
@@ -191,8 +187,8 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
                           ModelStage const& augmented) {
   Recording const recording = from_zero(given);
   UnseenResult result;
-  RecordPipeline const plain = pipeline_for(recording, setting, baseline.model());
-  RecordPipeline full = pipeline_for(recording, setting, augmented.model());
+  RecordPipeline const plain = pipeline_for(setting, recording, baseline.model());
+  RecordPipeline full = pipeline_for(setting, recording, augmented.model());
   ProcessedRecord const before = plain.prepare(recording);
   check_rows(before, recording.name);
   full.restrict_to(before.kept_rows);

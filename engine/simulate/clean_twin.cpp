@@ -119,10 +119,15 @@ void load_lanes(TwinJoint const& joint, double const* held, double const* fricti
     torques.added_inertia[lane] = std::max(demand.inertia[lane], -most_taken);
     double const lagging = (demand.inertia[lane] - torques.added_inertia[lane]) * state.ddq[lane];
     torques.held[lane] = held[lane] - demand.smooth[lane] - lagging;
-    torques.forward[lane] = friction[lane] * joint.coulomb_forward + demand.forward[lane];
-    // friction that an effect turned into a drive is none at all
-    torques.backward[lane] =
-        std::min(friction[lane] * joint.coulomb_backward + demand.backward[lane], torques.forward[lane]);
+    double forward = friction[lane] * joint.coulomb_forward + demand.forward[lane];
+    double backward = friction[lane] * joint.coulomb_backward + demand.backward[lane];
+    // friction that an effect turned into a drive holds nothing at rest; what slides keeps the torque of its own branch
+    if (forward < backward) {
+      double const dq = state.dq[lane];
+      forward = backward = dq > 0.0 ? forward : dq < 0.0 ? backward : 0.5 * (forward + backward);
+    }
+    torques.forward[lane] = forward;
+    torques.backward[lane] = backward;
   }
 }
 

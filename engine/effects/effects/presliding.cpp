@@ -56,7 +56,7 @@ class Presliding final : public MemoryEffect {
              .source = "Dahl 1968; Canudas de Wit, Olsson, Astrom, Lischinsky 1995",
              .separated_by =
                  "triangular strokes of several small amplitudes, with smaller loops inside larger ones, at two rates",
-             .parameters = {{"presliding", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
+             .parameters = {{"presliding", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
                             {"presliding_damping", "N m s/rad", "N s/m", {0.0}},
                             shape_parameter("presliding_distance", "rad", "m", {1.0, RelativeTo::resolution},
                                             {0.02, RelativeTo::position_range}, Spacing::logarithmic)},

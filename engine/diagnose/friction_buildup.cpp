@@ -1,0 +1,268 @@
+#include "engine/diagnose/friction_buildup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/diagnose/backward_selection.hpp"
+#include "engine/diagnose/joint_refinement.hpp"
+#include "engine/diagnose/multiple_testing.hpp"
+#include "engine/diagnose/trial_order.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double most_of_it = 0.5;
+constexpr double confirmed = 1.0 / 3.0;
+
+// friction that remembers where it turned, and nothing else
+bool is_buildup(Effect const& effect) {
+  static std::vector<EffectFamily> const families{EffectFamily::reversal};
+  static std::vector<SignatureAxis> const axes{SignatureAxis::since_velocity_reversal, SignatureAxis::velocity};
+  return effect.is_dry_friction() && effect.families() == families && effect.signature() == axes;
+}
+
+// a law of the speed alone, like Stribeck's, is within the nuisance at reversals
+bool remembers_reversals(Effect const& effect) {
+  auto const& signature = effect.signature();
+  return !signature.empty() && (signature.front() == SignatureAxis::since_velocity_reversal ||
+                                signature.front() == SignatureAxis::since_torque_reversal);
+}
+
+// n x 5: what a smeared sign leaves of a sharp one
+Eigen::MatrixXd smeared_signs(Motion const& motion, JointScales const& scales) {
+  constexpr int count = 5;
+  constexpr double slowest = 1.0 / 2000.0, factor = 3.0;
+  double const peak = motion.dq.cwiseAbs().maxCoeff();
+  Eigen::MatrixXd signals(motion.dq.size(), count);
+  for (int k = 0; k < count; ++k) {
+    double const speed = peak * slowest * std::pow(factor, k);
+    for (Eigen::Index i = 0; i < motion.dq.size(); ++i)
+      signals(i, k) = scales.friction_sign(motion.dq[i]) * (std::tanh(std::abs(motion.dq[i]) / speed) - 1.0);
+  }
+  return signals;
+}
+
+// what is left of signals beside a basis
+Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& signals) {
+  return signals - basis * (basis.transpose() * signals);
+}
+
+struct Finding {
+  std::vector<EffectScan> scans;
+  std::vector<double> q;
+  Trial trial;
+};
+
+class SecondLook {
+ public:
+  SecondLook(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
+             StageSink const& progress)
+      : setting_(setting), options_(options), selection_(selection), progress_(progress) {
+    setting_.weights = selection.final.pipeline->weights();
+    setting_.loop = std::make_shared<RecordedLoop const>(selection.final.twin->loop);
+    setting_.wander = selection.wander;
+  }
+
+  bool run() {
+    if (!has_candidate() || others_remember_reversals()) return false;
+    try {
+      if (!leave_out_buildup()) return false;
+      setting_.keeps_reversals = true;
+      if (!compare(std::min(draft_twins, setting_.twins)) || !is_anything_left()) return false;
+      if (setting_.twins > draft_twins && (!compare(setting_.twins) || !is_anything_left())) return false;
+      auto finding = find();
+      return finding && take(std::move(*finding));
+    } catch (Error const&) {
+      return false;  // these rows cannot be fitted: what the masked ones said stands
+    }
+  }
+
+ private:
+  bool has_candidate() const {
+    return std::any_of(options_.candidates.begin(), options_.candidates.end(),
+                       [](Effect const* effect) { return is_buildup(*effect); });
+  }
+
+  bool others_remember_reversals() const {
+    return std::any_of(selection_.accepted.begin(), selection_.accepted.end(), [](AcceptedEffect const& one) {
+      return !is_buildup(*one.effect) && remembers_reversals(*one.effect);
+    });
+  }
+
+  // What the mask left of such friction may have got its name already. It is asked for anew, beside all other names
+  bool leave_out_buildup() {
+    auto const& final = selection_.final;
+    Eigen::VectorXd const& all = final.parameters();
+    auto const n_baseline = static_cast<Eigen::Index>(setting_.regressor.size());
+    std::vector<double> kept(all.data(), all.data() + n_baseline);
+    std::vector<ShapedEffect> effects;
+    for (std::size_t i = 0; i < selection_.accepted.size(); ++i) {
+      ShapedEffect const& one = final.model().effects()[i];
+      if (is_buildup(*one.effect)) continue;
+      accepted_.push_back(selection_.accepted[i]);
+      effects.push_back(one);
+      double const* first = all.data() + final.model().first_parameter(i);
+      kept.insert(kept.end(), first, first + one.effect->n_linear());
+    }
+    if (effects.size() == selection_.accepted.size()) return true;
+    StageSetting own = setting_;
+    own.twins = std::min(setting_.twins, draft_twins);
+    own.levels = levels_of(*final.twin);
+    own.levels->parameters = Eigen::Map<Eigen::VectorXd const>(kept.data(), static_cast<Eigen::Index>(kept.size()));
+    auto stage = make_stage(own, JointModel(setting_.regressor, final.reference(), std::move(effects)));
+    if (stage) without_ = std::make_unique<ModelStage>(std::move(*stage));
+    return without_ != nullptr;
+  }
+
+  // the model so far, on masked rows
+  ModelStage const& before() const { return without_ ? *without_ : selection_.final; }
+
+  // recording and twins of the model so far, on rows with reversals
+  bool compare(std::size_t twins) {
+    auto const& final = before();
+    rows_.pipeline = std::make_unique<RecordPipeline>(pipeline_for(setting_, setting_.recording, final.model()));
+    if (setting_.weights) rows_.pipeline->weigh_with(setting_.weights);
+    TwinAddress const null_set{setting_.seed, 0, first_free_twin_set};
+    rows_.comparison =
+        compare_with_twins(setting_.recording, final.twin->twin, *rows_.pipeline, null_set, twins, setting_.threads);
+    if (rows_.comparison.ran_away) return false;
+    rows_.twin = final.twin;
+    rows_.energy = mismatch_energy(rows_.comparison.rows);
+    return true;
+  }
+
+  bool is_anything_left() const { return is_significant(rows_); }
+
+  std::optional<Finding> find() const {
+    auto const& final = before();
+    CandidateColumns columns(*rows_.pipeline, rows_.comparison, final.reference(), final.parameters());
+    columns.add_nuisance(smeared_signs(rows_.comparison.rows.motion, columns.scales()));
+    Finding found{scan_candidates(columns, options_.candidates, setting_.threads), {}, {}};
+    found.q = q_of(found.scans);
+    Eigen::VectorXd const mismatch = rows_.mismatch();
+    ShapeSearch const search = shape_search(options_.shape_optimiser, setting_.seed);
+    std::vector<Trial> trials;
+    double most_of_others = 0.0;
+    for (std::size_t i = 0; i < found.scans.size(); ++i) {
+      auto const& scan = found.scans[i];
+      if (!is_buildup(*scan.effect)) most_of_others = std::max(most_of_others, scan.gain);
+      if (!is_buildup(*scan.effect) || !scan.is_testable || found.q[i] > options_.q || !(scan.gain > 0.0)) continue;
+      Trial trial{scan, found.q[i], refine_shape(columns, scan, mismatch, search, setting_.threads), {}};
+      selection_.evaluations += trial.refined.evaluations;
+      trial.cv = blocked_gain(mismatch, columns.nuisance(), columns.columns(*scan.effect, trial.refined.shape),
+                              guard_rows(*rows_.pipeline));
+      trials.push_back(std::move(trial));
+    }
+    if (trials.empty()) return std::nullopt;
+    found.trial = simplest_of(std::move(trials));
+    auto const& best = found.trial.refined;
+    bool const holds = best.gain > most_of_others && best.gain > most_of_it * left_beside(columns.nuisance()) &&
+                       best.effect->is_plausible(best.shape, columns.scales()) &&
+                       helps_elsewhere(found.trial.cv, best.gain);
+    return holds ? std::optional(std::move(found)) : std::nullopt;
+  }
+
+  // Nested loops have parameters enough for any law of building up, and no bound on what they add up to: where the simpler
+  // law explains half as much it is the one that is modelled, and the other is asked as its rival
+  static Trial simplest_of(std::vector<Trial> trials) {
+    constexpr double half = 0.5;
+    auto const most = std::max_element(trials.begin(), trials.end(),
+                                       [](auto const& a, auto const& b) { return a.refined.gain < b.refined.gain; });
+    Trial* best = &*most;
+    for (auto& trial : trials)
+      if (trial.refined.effect->n_linear() < best->refined.effect->n_linear() &&
+          trial.refined.gain >= half * most->refined.gain)
+        best = &trial;
+    return std::move(*best);
+  }
+
+  // energy of the mismatch beyond noise, beside the nuisance
+  double left_beside(Eigen::MatrixXd const& nuisance) const {
+    auto const& rows = rows_.comparison.rows;
+    auto const m = static_cast<double>(rows.n_twins());
+    double const noise = beside(nuisance, rows.twins.colwise() - rows.twin_mean).squaredNorm() / (m - 1.0);
+    return beside(nuisance, rows_.mismatch()).squaredNorm() - noise * (1.0 + 1.0 / m);
+  }
+
+  bool take(Finding found) {
+    auto const& refined = found.trial.refined;
+    progress_told(0);
+    std::vector<ShapedEffect> effects = before().model().effects();
+    effects.push_back({refined.effect, refined.shape});
+    StageSetting own = setting_;
+    own.levels = levels_of(*before().twin);
+    Eigen::VectorXd const& known = before().twin->baseline.parameters;
+    Eigen::VectorXd start(known.size() + refined.parameters.size());
+    start << known, refined.parameters;
+    own.levels->parameters = start;
+    auto draft = refined_draft(own, before().reference(), std::move(effects));
+    double const promised = confirmed * refined.gain;
+    if (!draft || energy_about_true_mean(*draft) > energy_about_true_mean(rows_) - promised) return false;
+    own.levels = levels_of(*draft->twin);
+    auto next = make_stage(own, draft->model());
+    auto baseline = baseline_with_reversals();
+    progress_told(setting_.twins);
+    if (!next || !baseline || energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - promised)
+      return false;
+    put(std::move(found), std::move(*baseline), std::move(*next));
+    if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_, selection_.final);
+    return true;
+  }
+
+  std::optional<ModelStage> baseline_with_reversals() const {
+    auto const& masked = selection_.accepted.empty() ? selection_.final : selection_.baseline;
+    StageSetting own = setting_;
+    own.levels = levels_of(*selection_.final.twin);
+    own.levels->parameters = masked.twin->baseline.parameters;
+    return make_stage(own, setting_.regressor);
+  }
+
+  void put(Finding found, ModelStage baseline, ModelStage final) {
+    auto const& trial = found.trial;
+    selection_.accepted = accepted_;
+    for (auto& one : selection_.accepted) {
+      one.gain *= selection_.energy_unit;
+      one.cv_gain *= selection_.energy_unit;
+    }
+    selection_.energy_unit = 1.0;
+    selection_.first_energy = baseline.energy;
+    selection_.first_excess = std::max(baseline.energy.excess, trial.refined.gain);
+    bool const was_open = selection_.is_gate_open;
+    for (std::size_t i = 0; i < found.scans.size(); ++i) {
+      if (was_open && !is_buildup(*found.scans[i].effect)) continue;
+      selection_.first_scan[i] = std::move(found.scans[i]);
+      selection_.first_q[i] = found.q[i];
+      if (selection_.first_scan[i].effect == trial.refined.effect) selection_.first_cv_gain[i] = trial.cv.gain;
+    }
+    selection_.is_gate_open = true;
+    selection_.keeps_reversals = true;
+    selection_.accepted.push_back({trial.refined.effect, trial.scan, trial.q, trial.refined.gain, trial.cv.gain,
+                                   std::numeric_limits<double>::quiet_NaN()});
+    selection_.baseline = std::move(baseline);
+    selection_.final = std::move(final);
+  }
+
+  void progress_told(std::size_t done) const {
+    if (progress_) progress_("twins", done, setting_.twins);
+  }
+
+  StageSetting setting_;
+  SelectionOptions const& options_;
+  Selection& selection_;
+  StageSink const& progress_;
+  std::vector<AcceptedEffect> accepted_{};  // what was named, but for friction that builds up
+  std::unique_ptr<ModelStage> without_{};   // the model of these; none: it is the selection's
+  ModelStage rows_;                         // the model so far, on rows with reversals
+};
+
+}  // namespace
+
+bool look_at_reversals(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
+                       StageSink const& progress) {
+  return SecondLook(setting, options, selection, progress).run();
+}
+
+}  // namespace torquescope
