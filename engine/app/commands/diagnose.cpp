@@ -32,6 +32,7 @@ struct DiagnoseArguments {
   std::string columns{};
   int threads = 0;  // 0: not given
   bool all = false;
+  bool allow_full_disk = false;
 };
 
 // what each stage did in all: twins are made again after every effect that is named, so stages come and go
@@ -127,6 +128,10 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.threads = choose_threads(arguments.threads);
   request.output = output;
   request.stop_requested = stop_requested;
+  request.tell = [&session](std::string const& topic, std::string const& text) {
+    session.note(session.topic_line(topic, text));
+  };
+  request.allow_full_disk = arguments.allow_full_disk;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   StageTotals totals;
@@ -168,6 +173,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       ->type_name("C.h5")
       ->group("results");
   add_threads_option(*command, arguments->threads);
+  add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);
