@@ -4,7 +4,7 @@
 // SHIM_FOLDER   absolute path; calls on it and on what is below count (1, 2, 3, ... through all threads of the process)
 // SHIM_CALLS    file that gets a line per counted call: "number call flags path", and "!" before the one that failed
 // SHIM_NTH      this call fails, and with SHIM_ON=1 every later one that can fail that way
-// SHIM_ERROR    how: ENOSPC, EDQUOT, EIO, EINTR, or "short" (half of the bytes are written)
+// SHIM_ERROR    how: ENOSPC, EDQUOT, EIO, EINTR, or "short" (half of the bytes are written, or read)
 // SHIM_LOG      file that gets what was done, in its order and with all bytes: power_log.py reads it. Also what the program
 //               said on stdout and stderr, so that a claim stands behind the fsync it relies on, or before it
 // SHIM_FREE     bytes that statvfs says are free
@@ -260,6 +260,27 @@ ssize_t writev(int file, struct iovec const* parts, int count) {
   REAL(writev);
   if (!is_ours(file) || count < 1) return real(file, parts, count);
   return write_any("writev", file, parts[0].iov_base, parts[0].iov_len, -1);
+}
+
+static ssize_t read_any(char const* name, int file, void* bytes, size_t size, off_t offset) {
+  REAL(pread);
+  static ssize_t (*real_read)(int, void*, size_t);
+  if (!real_read) *(void**)(&real_read) = next("read");
+  if (!is_ours(file)) return offset < 0 ? real_read(file, bytes, size) : real(file, bytes, size, offset);
+  pthread_mutex_lock(&guard);
+  ssize_t done = -1;
+  int const how = fails(name, files[file].path, can_be_interrupted | can_be_short);
+  size_t const part = how == 2 && size > 1 ? size / 2 : size;
+  if (how != 1) done = offset < 0 ? real_read(file, bytes, part) : real(file, bytes, part, offset);
+  int const problem = errno;
+  pthread_mutex_unlock(&guard);
+  errno = problem;
+  return done;
+}
+ssize_t read(int file, void* bytes, size_t size) { return read_any("read", file, bytes, size, -1); }
+ssize_t pread(int file, void* bytes, size_t size, off_t offset) { return read_any("pread", file, bytes, size, offset); }
+ssize_t pread64(int file, void* bytes, size_t size, off64_t offset) {
+  return read_any("pread", file, bytes, size, offset);
 }
 
 static int sync_any(char const* name, int file) {
