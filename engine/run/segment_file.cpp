@@ -1,9 +1,9 @@
 #include "engine/run/segment_file.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
+#include "engine/base/confined.hpp"
 #include "engine/base/error.hpp"
 #include "engine/store/result_writer.hpp"
 
@@ -246,6 +246,18 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
     at += sizes[i];
   }
   return part;
+}
+
+void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look) {
+  auto const read = [&] {
+    look(SegmentFile(name));
+    return std::string();
+  };
+  run_confined(read, limits_for_file(name, 60), [&name](std::string const& how) {
+    return Problem{.code = ExitCode::bad_data,
+                   .what = name.string() + " is damaged: HDF5 " + how + " while reading it",
+                   .help = "delete it and run the same command again"};
+  });
 }
 
 }  // namespace torquescope

@@ -14,6 +14,7 @@
 // One lock is held over call and record, so that the order in the log is the order of what happened. glibc's own calls (fopen,
 // opendir, stdio's writes) do not pass through here; the program writes what must be safe by open and pwrite.
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -24,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/syscall.h>
@@ -36,7 +38,8 @@ static pthread_mutex_t guard = PTHREAD_MUTEX_INITIALIZER;
 static char folder[PATH_MAX];
 static size_t folder_length;
 static int calls_file = -1, log_file = -1;
-static long nth, counted;
+static long nth;
+static long* counted;  // of the process and of children that it forks
 static int on, shorten, error_number, flock_error, real_sync;
 static long long free_bytes = -1;
 static long opened;
@@ -101,6 +104,8 @@ static void record(void const* bytes, size_t size, char const* format, ...) {
 __attribute__((constructor)) static void prepare(void) {
   char const* const name = getenv("SHIM_FOLDER");
   if (!name) return;
+  counted = mmap(NULL, sizeof *counted, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (counted == MAP_FAILED) abort();
   snprintf(folder, sizeof folder, "%s", name);
   folder_length = strlen(folder);
   calls_file = open_record(getenv("SHIM_CALLS"));
@@ -145,7 +150,7 @@ enum { needs_room = 1, can_be_interrupted = 2, can_be_short = 4 };
 
 // counts a call; 1: it fails here, errno is set; 2: it is cut short
 static int fails(char const* name, char const* path, int can) {
-  long const number = ++counted;
+  long const number = ++*counted;
   int const possible = shorten                                            ? can & can_be_short
                        : error_number == EINTR                            ? can & can_be_interrupted
                        : error_number == ENOSPC || error_number == EDQUOT ? can & needs_room
@@ -333,6 +338,16 @@ int close(int file) {
   pthread_mutex_unlock(&guard);
   errno = problem;
   return failed ? -1 : result;
+}
+
+// it closes inside of libc: the next file, or pipe, of that number is another
+int closedir(DIR* folder_read) {
+  REAL(closedir);
+  int const file = dirfd(folder_read);
+  pthread_mutex_lock(&guard);
+  if (is_ours(file)) files[file].serial = 0;
+  pthread_mutex_unlock(&guard);
+  return real(folder_read);
 }
 
 static int rename_any(int from_at, char const* from, int to_at, char const* to, int is_link) {

@@ -27,18 +27,6 @@ import seeds  # noqa: E402
 SECONDS = int(os.environ.get("TORQUESCOPE_FUZZ_SECONDS", "60"))
 LIMITS = ["-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=1024"]
 FOREIGN = {"hdf5", "mat5", "segment"}
-JOB = """
-[recording]
-train = "%s"
-columns = {time = "t_s", position = "q_rad", torque = "tau_Nm"}
-
-[model]
-joint = "revolute"
-terms = ["inertia"]
-
-[[estimator]]
-name = "ols"
-"""
 
 
 def sanitized():
@@ -69,7 +57,7 @@ def is_handled(reader, folder, path):
     if reader == "segment":
         return program.run("show", path, "--verify", folder=folder).code in (0, 65)
     with open(os.path.join(folder, "job.toml"), "w", encoding="utf-8") as file:
-        file.write(JOB % path)
+        file.write(seeds.JOB % path)
     return program.run("check", "job.toml", folder=folder).code in (0, 65, 78)
 
 

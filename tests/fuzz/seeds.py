@@ -24,6 +24,20 @@ ROWS = recordings.good_rows(seconds=0.2)
 DATA = np.array(ROWS, dtype=float)
 NAMES = recordings.HEADER.split(",")
 
+# reads a recording like these
+JOB = """
+[recording]
+train = "%s"
+columns = {time = "t_s", position = "q_rad", torque = "tau_Nm"}
+
+[model]
+joint = "revolute"
+terms = ["inertia"]
+
+[[estimator]]
+name = "ols"
+"""
+
 
 def jobs(folder):
     for path in glob.glob(f"{SOURCE}/jobs/*.toml") + glob.glob(f"{SOURCE}/tests/jobs/bad/*.toml"):

@@ -3,7 +3,8 @@
 // Use        short_pass READER FOLDER_OF_SEEDS COUNT
 // Proves     each is read or refused with an Error, within seconds. What a foreign library parses is read in a child, as the
 //            program does, and the child may end in any way; of our own parsers a batch shares a child, which must not
-// Exit       0, or 1 with the input that broke the law, kept as finding.READER in the working folder
+// Exit       0, or 1 with the input that broke the law, kept as finding.READER in the working folder. What broke a library off
+//            is kept as broke_off.READER.0, .1, ...: the program has to refuse it
 
 #include <fmt/format.h>
 
@@ -125,8 +126,12 @@ Outcome try_inputs(Inputs const& inputs, HostileReader const& reader, std::uint3
   }
 }
 
+void keep(Inputs const& inputs, std::string const& file, std::uint32_t number) {
+  std::ofstream(file, std::ios::binary) << inputs(number);
+}
+
 int report_finding(Inputs const& inputs, std::string const& name, std::uint32_t number, std::string const& how) {
-  std::ofstream("finding." + name, std::ios::binary) << inputs(number);
+  keep(inputs, "finding." + name, number);
   fmt::print(stderr, "input {} of reader {}: {}; kept as finding.{}\n", number, name, how, name);
   return 1;
 }
@@ -142,6 +147,7 @@ int pass(std::string const& name, std::filesystem::path const& folder, std::uint
     read += outcome.read;
     refused += outcome.refused;
     if (outcome.broke_off.empty()) continue;
+    if (reader.foreign) keep(inputs, fmt::format("broke_off.{}.{}", name, broke_off), first);
     ++broke_off;
     if (reader.foreign) continue;
     for (std::uint32_t number = first; number < end; ++number)
