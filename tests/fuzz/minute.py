@@ -89,7 +89,7 @@ def minute(reader, home):
         report = judge(reader, folder, os.path.join(found, name))
         if report:
             bad += 1
-            kept = f"finding.{reader}.{name}"
+            kept = os.path.join(FUZZERS, f"finding.{reader}.{name}")
             shutil.copy(os.path.join(found, name), kept)
             print(f"{reader}: kept as {kept}\n{report[:6000]}", file=sys.stderr)
     inputs, edges = tried[-1] if tried else (0, 0)
