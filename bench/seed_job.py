@@ -9,55 +9,31 @@ import sys
 
 from measure import Run
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "jobs"))
+
+import simulated_job  # noqa: E402
+
 RUNS, MEMBERS, GENERATIONS = 30, 30, 100
 RATE_HZ = 1000
 
-JOB = """[experiment]
-name = "seed"
-seed = 1
-runs = {runs}
+# a way to the fitness: settings of the method, and of the output
+FITNESS = {"direct": ({"fitness": "direct"}, {}), "gram": ({"fitness": "gram"}, {}),
+           "float32": ({"fitness": "direct", "precision": "float32"}, {}), "lean": ({"fitness": "gram"}, {"samples": False})}
 
-[filter]
-edge_s = 0
 
-[model]
-joint = "revolute"
-terms = ["inertia", "viscous", "coulomb_positive", "coulomb_negative"]
-
-[model.bounds]
-every = [-1, 1]
-
-[[estimator]]
-name = "de"
-population = {members}
-generations = {generations}
-F = 0.8
-CR = 0.9
-{fitness}
-
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = {rate}
-duration_s = {duration}
-validate = false
-
-[simulate.plant]
-inertia = 0.0036
-viscous = 0.0164
-coulomb_positive = 0.0089
-coulomb_negative = -0.2582
-
-[simulate.reference]
-kind = "multisine"
-max_speed = 3.1
-
-[simulate.noise]
-torque_std = 0.05
-"""
-
-FITNESS = {"direct": 'fitness = "direct"', "gram": 'fitness = "gram"',
-           "float32": 'fitness = "direct"\nprecision = "float32"',
-           "lean": 'fitness = "gram"\n\n[output]\nsamples = false'}
+def job(n, runs, members, generations, fitness):
+    method, output = FITNESS[fitness]
+    return simulated_job.job(
+        [{"name": "de", "population": members, "generations": generations, "F": 0.8, "CR": 0.9, **method}],
+        replaced=("filter", "simulate.plant"),
+        experiment={"name": "seed", "seed": 1, "runs": runs},
+        filter={"edge_s": 0},
+        model={"terms": ["inertia", "viscous", "coulomb_positive", "coulomb_negative"]},
+        simulate={"rate_hz": RATE_HZ, "duration_s": n / RATE_HZ},
+        simulate__plant={"inertia": 0.0036, "viscous": 0.0164, "coulomb_positive": 0.0089, "coulomb_negative": -0.2582},
+        simulate__reference={"kind": "multisine", "max_speed": 3.1},
+        simulate__noise={"torque_std": 0.05},
+        output=output)
 
 
 class SeedJob:
@@ -66,9 +42,8 @@ class SeedJob:
     def __init__(self, program, folder, n, runs=RUNS, members=MEMBERS, generations=GENERATIONS):
         self.program, self.n = program, n
         self.folder = pathlib.Path(folder)
-        for fitness, line in FITNESS.items():
-            self.file(fitness).write_text(JOB.format(runs=runs, members=members, generations=generations, fitness=line,
-                                                     rate=RATE_HZ, duration=n / RATE_HZ))
+        for fitness in FITNESS:
+            self.file(fitness).write_text(job(n, runs, members, generations, fitness))
 
     def file(self, fitness):
         return self.folder / f"seed_{self.n}_{fitness}.toml"

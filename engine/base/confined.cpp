@@ -7,10 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <system_error>
 
 #include "engine/base/packed_bytes.hpp"
 
@@ -159,6 +161,15 @@ Error no_child(char const* what) {
 }
 
 }  // namespace
+
+ConfinedLimits limits_for_file(std::filesystem::path const& file, int least_seconds) {
+  constexpr std::uintmax_t bytes_per_second = std::uintmax_t{2} << 20, most_seconds = 1000000;
+  std::error_code unknown;
+  auto const bytes = std::filesystem::file_size(file, unknown);
+  ConfinedLimits limits{.processor_seconds = least_seconds};
+  if (!unknown) limits.processor_seconds += static_cast<int>(std::min(bytes / bytes_per_second, most_seconds));
+  return limits;
+}
 
 std::string run_confined(std::function<std::string()> const& work, ConfinedLimits const& limits,
                          std::function<Problem(std::string const& how)> const& broke_off) {

@@ -10,6 +10,7 @@
 //            no exit handler of a library runs, no file of the parent is flushed
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -21,6 +22,9 @@ struct ConfinedLimits {
   int processor_seconds = 5;
   std::uint64_t more_memory_bytes = std::uint64_t{10} << 30;
 };
+
+// for reading a file: far more than an honest one of its size takes, which is half a second per MiB
+ConfinedLimits limits_for_file(std::filesystem::path const& file, int least_seconds);
 
 // the bytes that the work returned
 std::string run_confined(std::function<std::string()> const& work, ConfinedLimits const& limits,

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-
 #include "engine/base/confined.hpp"
 #include "engine/base/packed_bytes.hpp"
 #include "engine/data/data_problem.hpp"
-#include "engine/data/file_bytes.hpp"
 
 namespace torquescope {
 namespace {
@@ -36,21 +33,11 @@ RawTable unpacked(std::string_view bytes) {
   return table;
 }
 
-// far more than an honest file of this size takes: half a second per MiB
-ConfinedLimits limits_for(std::filesystem::path const& path) {
-  std::error_code unknown;
-  auto const bytes = std::filesystem::file_size(path, unknown);
-  constexpr std::uintmax_t bytes_per_second = std::uintmax_t{2} << 20;
-  ConfinedLimits limits;
-  if (!unknown) limits.processor_seconds += static_cast<int>(std::min(bytes, largest_file_bytes) / bytes_per_second);
-  return limits;
-}
-
 }  // namespace
 
 RawTable read_confined(std::filesystem::path const& path, RawTable (*read)(std::filesystem::path const&),
                        std::string const& library) {
-  return unpacked(run_confined([&] { return packed(read(path)); }, limits_for(path),
+  return unpacked(run_confined([&] { return packed(read(path)); }, limits_for_file(path, 5),
                                [&](std::string const& how) {
                                  return bad_data(
                                      fmt::format("{} is damaged: {} {} while reading it", path.string(), library, how),

@@ -73,11 +73,16 @@ int open_regular(std::filesystem::path const& path) {
 
 // reads until `most` bytes or the end
 std::string read_bytes(OpenFile const& file, std::filesystem::path const& path, std::uint64_t most) {
-  constexpr std::size_t block = std::size_t{1} << 22;
+  // as large as it says and a byte more to see its end, in blocks; a file that grows is read on
+  constexpr std::uint64_t largest_block = std::uint64_t{1} << 22, smallest_block = 4096;
+  struct stat status {};
+  bool const known = ::fstat(file.descriptor(), &status) == 0;
+  std::uint64_t const said = known ? static_cast<std::uint64_t>(status.st_size) + 1 : largest_block;
+  std::uint64_t const block = std::clamp(said, smallest_block, largest_block);
   std::string bytes;
   while (bytes.size() < most) {
     std::size_t const before = bytes.size();
-    std::size_t const wanted = std::min<std::size_t>(block, static_cast<std::size_t>(most - before));
+    std::size_t const wanted = static_cast<std::size_t>(std::min(block, most - before));
     bytes.resize(before + wanted);
     auto const got = ::read(file.descriptor(), bytes.data() + before, wanted);
     if (got < 0 && errno == EINTR) {

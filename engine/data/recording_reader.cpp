@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/data/confined_reader.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/file_bytes.hpp"
 
@@ -49,7 +50,8 @@ RawTable read_table(std::filesystem::path const& path, Section const& section) {
   try {
     auto const first_bytes = read_first_bytes(path, enough_for_signatures);
     for (auto const& reader : reader_choices())
-      if (reader.accepts(path, first_bytes)) return reader.read(path);
+      if (reader.accepts(path, first_bytes))
+        return reader.library.empty() ? reader.read(path) : read_confined(path, reader.read, reader.library);
     auto problem = bad_data(fmt::format("{} is in no format known here", path.string()), path.string(), 0,
                             "export the recording as CSV");
     for (auto const& reader : reader_choices()) problem.notes.push_back(reader.name + ": " + reader.meaning);

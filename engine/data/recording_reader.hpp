@@ -19,13 +19,14 @@ namespace torquescope {
 struct RecordingOptions {
   std::vector<std::string> train{};
   std::vector<std::string> validate{};
-  std::map<std::string, std::string> columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration
-  double torque_per_unit = 1.0;                  // N m per unit of the torque column (A, V, N)
-  double position_per_unit = 1.0;                // rad per unit of position, reference, velocity, acceleration columns
-  double rate_hz = 0.0;                          // sampling rate when the file has no time column
-  double delay_s = 0.0;                          // added to the torque's time stamps
-  std::string gaps = "error";                    // NaN runs up to 5 samples: "error" or "fill"
-  std::string simulated_torque{};                // column of the user's own simulator, in N m (not scaled, not delayed)
+  std::map<std::string, std::string>
+      columns{};                   // channel -> column: time, position, torque, reference, velocity, acceleration
+  double torque_per_unit = 1.0;    // N m per unit of the torque column (A, V, N)
+  double position_per_unit = 1.0;  // rad per unit of position, reference, velocity, acceleration columns
+  double rate_hz = 0.0;            // sampling rate when the file has no time column
+  double delay_s = 0.0;            // added to the torque's time stamps
+  std::string gaps = "error";      // NaN runs up to 5 samples: "error" or "fill"
+  std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
 
   static OptionTable<RecordingOptions> const& table();
 };
@@ -49,10 +50,11 @@ struct RawTable {
 
 // one per file in readers/; chosen by content, never by extension
 struct ReaderChoice {
-  std::string name;                                              // "csv"
-  std::string meaning;                                           // "comma-separated text, plain or gzip"
+  std::string name;     // "csv"
+  std::string meaning;  // "comma-separated text, plain or gzip"
   bool (*accepts)(std::filesystem::path const&, std::string const& first_bytes);
-  RawTable (*read)(std::filesystem::path const&);
+  RawTable (*read)(std::filesystem::path const&);  // in this process
+  std::string library{};                           // "HDF5": not ours, so read_table() confines it
 };
 std::vector<ReaderChoice> const& reader_choices();
 

@@ -4,6 +4,7 @@
 
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/diagnosis_result.hpp"
+#include "engine/run/disk_room.hpp"
 
 namespace torquescope {
 
@@ -40,6 +41,7 @@ class Stages {
 }  // namespace
 
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress) {
+  check_room(request, diagnosis_bytes(experiment.parts()));
   JobInput const job(experiment.parts(), request.threads.count);
   Stages stages(progress, request);
   StageSink const sink = [&stages](std::string const& stage, std::size_t done, std::size_t total) {

@@ -23,12 +23,44 @@ std::uintmax_t sample_bytes(DataSet const& set) {
   return rows * (channels + static_cast<std::uintmax_t>(set.regression.parameters())) * sizeof(double);
 }
 
+std::uintmax_t all_sample_bytes(Experiment::Parts const& parts) {
+  if (!parts.output.samples) return 0;
+  return sample_bytes(parts.train) + (parts.validate ? sample_bytes(*parts.validate) : 0);
+}
+
 constexpr std::uintmax_t bytes_of_names = std::uintmax_t{16} << 10;
+
+std::uintmax_t stored_bytes(Experiment::Parts const& parts, std::uintmax_t bytes) {
+  constexpr std::uintmax_t gzip_shrinks_to_less_than_a = 10;
+  return bytes_of_names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
+}
+
+struct Wish {
+  std::filesystem::path const& output;
+  bool allow_full_disk;
+  std::function<void(std::string const& topic, std::string const& text)> const& tell;
+  std::string smaller;  // what else makes the result smaller
+};
+
+void check(Wish const& wish, std::uintmax_t needed, std::filesystem::path const& file) {
+  auto const free = free_bytes_for(wish.output);
+  if (!free || *free >= needed) return;
+  std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);
+  if (wish.allow_full_disk) {
+    if (wish.tell) wish.tell("warning", words + ": --allow-full-disk");
+    return;
+  }
+  throw Error(Problem{.code = ExitCode::io,
+                      .what = words,
+                      .notes = {"nothing was begun"},
+                      .help = fmt::format("make room, --out another folder, {}, [output] compression = \"gzip\"; or "
+                                          "begin all the same with --allow-full-disk",
+                                          wish.smaller)});
+}
 
 }  // namespace
 
 std::uintmax_t result_bytes(Experiment::Parts const& parts) {
-  constexpr std::uintmax_t gzip_shrinks_to_less_than_a = 10;
   constexpr std::uintmax_t curves_and_surfaces = std::uintmax_t{64} << 10, path_numbers = 4;
   auto const runs = static_cast<std::size_t>(parts.experiment.runs);
   std::uintmax_t bytes = 0;
@@ -38,8 +70,7 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts) {
     bytes += history_bytes(shape, runs);
     if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
   }
-  if (parts.output.samples) bytes += sample_bytes(parts.train) + (parts.validate ? sample_bytes(*parts.validate) : 0);
-  return bytes_of_names + (parts.output.compression == "gzip" ? bytes / gzip_shrinks_to_less_than_a : bytes);
+  return stored_bytes(parts, bytes + all_sample_bytes(parts));
 }
 
 std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
@@ -50,19 +81,19 @@ std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
   return bytes;
 }
 
+std::uintmax_t diagnosis_bytes(Experiment::Parts const& parts) {
+  constexpr std::uintmax_t numbers_of_a_trace = 6;  // time, torque, residual before and after, velocity, position
+  DataSet const& drawn = parts.validate ? *parts.validate : parts.train;
+  auto const rows = static_cast<std::uintmax_t>(drawn.regression.rows());
+  return stored_bytes(parts, all_sample_bytes(parts) + rows * numbers_of_a_trace * sizeof(double));
+}
+
 void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file) {
-  auto const free = free_bytes_for(options.output);
-  if (!free || *free >= needed) return;
-  std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);
-  if (options.allow_full_disk) {
-    if (options.tell) options.tell("warning", words + ": --allow-full-disk");
-    return;
-  }
-  throw Error(Problem{.code = ExitCode::io,
-                      .what = words,
-                      .notes = {"nothing was begun"},
-                      .help = "make room, --out another folder, fewer runs or generations, [output] compression = "
-                              "\"gzip\"; or begin all the same with --allow-full-disk"});
+  check({options.output, options.allow_full_disk, options.tell, "fewer runs or generations"}, needed, file);
+}
+
+void check_room(DiagnoseRequest const& request, std::uintmax_t needed) {
+  check({request.output, request.allow_full_disk, request.tell, "[output] samples = false"}, needed, request.output);
 }
 
 }  // namespace torquescope

@@ -19,7 +19,11 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts);
 // of the segments of so many runs of every population method, at most: runs may end early
 std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs);
 
+// of the result file of a diagnosis: its samples, and the traces of torque of the recordings that it draws
+std::uintmax_t diagnosis_bytes(Experiment::Parts const& parts);
+
 // throws when fewer bytes are free beside the result; or tells it as a warning, when that is allowed
 void check_room(IdentifyOptions const& options, std::uintmax_t needed, std::filesystem::path const& file);
+void check_room(DiagnoseRequest const& request, std::uintmax_t needed);
 
 }  // namespace torquescope

@@ -68,9 +68,11 @@ SavedRuns::SavedRuns(SavedRunsRequest const& request) {
   for (auto const& folder : request.folders)
     for (auto const& name : segments_in(folder)) {
       try {
+        look_at_segment(name, [&](SegmentFile const& file) {
+          if (accept(file, request)) file.verify();
+        });
         SegmentFile const file(name);
         if (!accept(file, request)) continue;
-        file.verify();
         files_.push_back(name);
         take(file, files_.size() - 1);
       } catch (Error const& error) {

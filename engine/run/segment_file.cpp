@@ -1,9 +1,9 @@
 #include "engine/run/segment_file.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
+#include "engine/base/confined.hpp"
 #include "engine/base/error.hpp"
 #include "engine/store/result_writer.hpp"
 
@@ -215,17 +215,25 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
   Index const& index = estimators_.at(label);
   Entry const& wanted = index.entries.at(entry);
   RunPart part{.run = wanted.run, .first = wanted.first, .count = wanted.count, .ended = wanted.ended};
-  for (auto const& list : history_lists) {
-    auto values = reader_.number_rows(group + list.name, wanted.row, wanted.count);
-    if (values.size() != wanted.count * list.width(index.shape)) throw contradicts_itself(name(), group + list.name);
-    part.history.*list.values = std::move(values);
-  }
-  part.history.evaluations = reader_.whole_number_rows(group + "evaluations", wanted.row, wanted.count);
-  part.history.nonfinite = reader_.whole_number_rows(group + "nonfinite", entry, 1).front();
-  part.history.elapsed_s = reader_.number_rows(group + "elapsed_s", entry, 1).front();
+  // as many as there should be: rows may be of any width, none included
+  auto const checked = [&](auto values, std::size_t expected, char const* what) {
+    if (values.size() != expected) throw contradicts_itself(name(), group + what);
+    return values;
+  };
+  auto const whole_rows = [&](char const* what, std::size_t first, std::size_t count) {
+    return checked(reader_.whole_number_rows(group + what, first, count), count, what);
+  };
+  auto const number_rows = [&](char const* what, std::size_t first, std::size_t count, std::size_t width) {
+    return checked(reader_.number_rows(group + what, first, count), count * width, what);
+  };
+  for (auto const& list : history_lists)
+    part.history.*list.values = number_rows(list.name, wanted.row, wanted.count, list.width(index.shape));
+  part.history.evaluations = whole_rows("evaluations", wanted.row, wanted.count);
+  part.history.nonfinite = whole_rows("nonfinite", entry, 1).front();
+  part.history.elapsed_s = number_rows("elapsed_s", entry, 1, 1).front();
   if (wanted.ended) {
     part.history.stop_reason = wanted.stop_reason;
-    part.history.parameters = reader_.number_rows(group + "parameters", entry, 1);
+    part.history.parameters = number_rows("parameters", entry, 1, index.shape.parameters);
     return part;
   }
   if (wanted.state_first == wanted.state_end) return part;
@@ -234,10 +242,22 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
   if (wanted.state_end > names.size()) throw contradicts_itself(name(), group + "state_names");
   std::size_t at = 0;
   for (std::size_t i = 0; i < wanted.state_end; ++i) {
-    if (i >= wanted.state_first) part.state[names[i]] = reader_.number_rows(group + "state_numbers", at, sizes[i]);
+    if (i >= wanted.state_first) part.state[names[i]] = number_rows("state_numbers", at, sizes[i], 1);
     at += sizes[i];
   }
   return part;
+}
+
+void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look) {
+  auto const read = [&] {
+    look(SegmentFile(name));
+    return std::string();
+  };
+  run_confined(read, limits_for_file(name, 60), [&name](std::string const& how) {
+    return Problem{.code = ExitCode::bad_data,
+                   .what = name.string() + " is damaged: HDF5 " + how + " while reading it",
+                   .help = "delete it and run the same command again"};
+  });
 }
 
 }  // namespace torquescope

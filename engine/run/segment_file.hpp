@@ -3,11 +3,14 @@
 //
 // Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for
 // Trust      the index is believed after its own checksums; histories only after verify(), which reads everything
+// Harm       checksums do not keep out who computes them, and HDF5 crashes on some such files: look_at_segment() opens one
+//            in a child first, and what did no harm there is read here
 // Errors     writing: those of ResultWriter (74); reading: those of ResultReader (65 for whatever is damaged or not ours)
 // Threads    as HDF5: one of the process at a time
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -69,5 +72,9 @@ class SegmentFile {
   SegmentOrigin origin_;
   std::map<std::string, Index> estimators_;
 };
+
+// opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when HDF5
+// crashes, loops or takes too much memory
+void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look);
 
 }  // namespace torquescope

@@ -90,6 +90,7 @@ JobStatus read_status(std::filesystem::path const& segment_folder) {
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
   for (auto const& name : segments_in(segment_folder)) {
     try {
+      look_at_segment(name, [](SegmentFile const&) {});
       SegmentFile const file(name);
       auto const& origin = file.origin();
       status.job_name = origin.job_name;

@@ -140,9 +140,12 @@ struct DiagnoseRequest {
   ThreadChoice threads{};
   std::filesystem::path output{};
   std::function<bool()> stop_requested{};  // polled between twins and effects; true: Error 75, nothing published
+  std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
+  bool allow_full_disk = false;  // begin although the result does not seem to fit
 };
 
-// finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify"
+// finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". Error 74 when
+// there is no room for the result
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods other

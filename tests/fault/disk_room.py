@@ -50,6 +50,23 @@ class DiskRoom(shimmed.ShimmedTest):
         os.remove(folder / "r.h5")
         self.assert_ended(folder.run(*shimmed.RUN, changes=shimmed.changes(folder, free=size)), 0)
 
+    def test_a_diagnosis_that_does_not_fit_is_not_begun(self):
+        command = ("diagnose", "job.toml", "--out", "d.h5")
+        folder = self.folder(study.simulated_job.job(simulate={"duration_s": 12, "validate": True}, diagnose={"twins": 60}))
+        ended = folder.run(*command, changes=shimmed.changes(folder, free=20480))
+        self.assert_ended(ended, 74)
+        needed = re.search(r"d\.h5 needs up to (\d+) bytes, and 20480 are free there", ended.said.replace("[74] ", ""))
+        self.assertTrue(needed, ended.said)
+        self.assertIn("--allow-full-disk", ended.said)
+        self.assertEqual(os.listdir(folder.path), ["job.toml"])
+        ended = folder.run(*command, "--allow-full-disk", changes=shimmed.changes(folder, free=20480))
+        self.assert_ended(ended, 0)
+        self.assertIn("warning", ended.said)
+        size = os.path.getsize(folder / "d.h5")
+        # the map and its lists are not counted: what would fit must never be refused
+        self.assertLess(int(needed.group(1)), size)
+        self.assertGreater(int(needed.group(1)), size - 700000)
+
     def test_a_disk_that_is_really_full(self):
         """With the preflight overruled: the disk itself refuses, at whatever byte; with room the same command ends well."""
         shards = self.prepared(shimmed.shard(0, 2))

@@ -78,6 +78,7 @@ class Disk:
         self.root = root
         self.names = {os.path.join(root, name): File(data) for name, data in content.items()}  # as a reader sees them
         self.safe_names = dict(self.names)
+        self.ever = dict(self.names)  # what each name last stood for, gone or not: a cut may bring it back
         self.changes = []  # of names, since each folder's last fsync: (folder, what happens to a table of names)
         self.opened = {}
         self.said = []  # by each process
@@ -87,13 +88,14 @@ class Disk:
         self.changes.append((os.path.dirname(path), effect))
 
     def name(self, path, file):
+        self.ever[path] = file
         self.change(path, lambda names: names.__setitem__(path, file))
 
     def forget(self, path):
         self.change(path, lambda names: names.pop(path, None))
 
     def move(self, old, new):
-        file = self.names[old]
+        file = self.ever[new] = self.names[old]
 
         def effect(names):
             names.pop(old, None)

@@ -91,12 +91,9 @@ class PowerLoss(shimmed.ShimmedTest):
 
     def check_image(self, story, count):
         disk = story.disk_after(count)
-        ever = {}
-        for path, file in list(disk.safe_names.items()) + list(disk.names.items()):
-            if not isinstance(file, str):
-                ever[path] = file
+        ever = [(path, file) for path, file in disk.ever.items() if not isinstance(file, str)]
         image = disk.image(self.chance)
-        self.assert_nothing_final_is_torn(image, ever.items(), story)
+        self.assert_nothing_final_is_torn(image, ever, story)
         folder = study.Folder(self.new_path(), self.JOB)
         write_image({name: content for name, content in image.items() if name != "job.toml"}, folder.path)
         runs, complete = story.claims_on(disk)

@@ -4,7 +4,7 @@
 // SHIM_FOLDER   absolute path; calls on it and on what is below count (1, 2, 3, ... through all threads of the process)
 // SHIM_CALLS    file that gets a line per counted call: "number call flags path", and "!" before the one that failed
 // SHIM_NTH      this call fails, and with SHIM_ON=1 every later one that can fail that way
-// SHIM_ERROR    how: ENOSPC, EDQUOT, EIO, EINTR, or "short" (half of the bytes are written)
+// SHIM_ERROR    how: ENOSPC, EDQUOT, EIO, EINTR, or "short" (half of the bytes are written, or read)
 // SHIM_LOG      file that gets what was done, in its order and with all bytes: power_log.py reads it. Also what the program
 //               said on stdout and stderr, so that a claim stands behind the fsync it relies on, or before it
 // SHIM_FREE     bytes that statvfs says are free
@@ -14,6 +14,7 @@
 // One lock is held over call and record, so that the order in the log is the order of what happened. glibc's own calls (fopen,
 // opendir, stdio's writes) do not pass through here; the program writes what must be safe by open and pwrite.
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -24,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/syscall.h>
@@ -36,7 +38,8 @@ static pthread_mutex_t guard = PTHREAD_MUTEX_INITIALIZER;
 static char folder[PATH_MAX];
 static size_t folder_length;
 static int calls_file = -1, log_file = -1;
-static long nth, counted;
+static long nth;
+static long* counted;  // of the process and of children that it forks
 static int on, shorten, error_number, flock_error, real_sync;
 static long long free_bytes = -1;
 static long opened;
@@ -101,6 +104,8 @@ static void record(void const* bytes, size_t size, char const* format, ...) {
 __attribute__((constructor)) static void prepare(void) {
   char const* const name = getenv("SHIM_FOLDER");
   if (!name) return;
+  counted = mmap(NULL, sizeof *counted, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (counted == MAP_FAILED) abort();
   snprintf(folder, sizeof folder, "%s", name);
   folder_length = strlen(folder);
   calls_file = open_record(getenv("SHIM_CALLS"));
@@ -145,7 +150,7 @@ enum { needs_room = 1, can_be_interrupted = 2, can_be_short = 4 };
 
 // counts a call; 1: it fails here, errno is set; 2: it is cut short
 static int fails(char const* name, char const* path, int can) {
-  long const number = ++counted;
+  long const number = ++*counted;
   int const possible = shorten                                            ? can & can_be_short
                        : error_number == EINTR                            ? can & can_be_interrupted
                        : error_number == ENOSPC || error_number == EDQUOT ? can & needs_room
@@ -262,6 +267,27 @@ ssize_t writev(int file, struct iovec const* parts, int count) {
   return write_any("writev", file, parts[0].iov_base, parts[0].iov_len, -1);
 }
 
+static ssize_t read_any(char const* name, int file, void* bytes, size_t size, off_t offset) {
+  REAL(pread);
+  static ssize_t (*real_read)(int, void*, size_t);
+  if (!real_read) *(void**)(&real_read) = next("read");
+  if (!is_ours(file)) return offset < 0 ? real_read(file, bytes, size) : real(file, bytes, size, offset);
+  pthread_mutex_lock(&guard);
+  ssize_t done = -1;
+  int const how = fails(name, files[file].path, can_be_interrupted | can_be_short);
+  size_t const part = how == 2 && size > 1 ? size / 2 : size;
+  if (how != 1) done = offset < 0 ? real_read(file, bytes, part) : real(file, bytes, part, offset);
+  int const problem = errno;
+  pthread_mutex_unlock(&guard);
+  errno = problem;
+  return done;
+}
+ssize_t read(int file, void* bytes, size_t size) { return read_any("read", file, bytes, size, -1); }
+ssize_t pread(int file, void* bytes, size_t size, off_t offset) { return read_any("pread", file, bytes, size, offset); }
+ssize_t pread64(int file, void* bytes, size_t size, off64_t offset) {
+  return read_any("pread", file, bytes, size, offset);
+}
+
 static int sync_any(char const* name, int file) {
   REAL(fsync);
   if (!is_ours(file)) return real(file);
@@ -312,6 +338,16 @@ int close(int file) {
   pthread_mutex_unlock(&guard);
   errno = problem;
   return failed ? -1 : result;
+}
+
+// it closes inside of libc: the next file, or pipe, of that number is another
+int closedir(DIR* folder_read) {
+  REAL(closedir);
+  int const file = dirfd(folder_read);
+  pthread_mutex_lock(&guard);
+  if (is_ours(file)) files[file].serial = 0;
+  pthread_mutex_unlock(&guard);
+  return real(folder_read);
 }
 
 static int rename_any(int from_at, char const* from, int to_at, char const* to, int is_link) {

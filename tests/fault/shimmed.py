@@ -4,44 +4,11 @@ import os
 import shutil
 
 import study
+from study import simulated_job
 
 SHIM = os.environ["TORQUESCOPE_SHIM"]
 
-JOB = """
-[experiment]
-name = "tiny"
-seed = 7
-runs = 3
-
-[filter]
-cutoff_hz = 20
-
-[model]
-joint = "revolute"
-terms = ["inertia", "viscous", "coulomb", "offset"]
-
-[model.bounds]
-every = [-1, 1]
-
-[[estimator]]
-name = "fade"
-population = 10
-generations = 20
-
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = 200
-duration_s = 1
-validate = false
-
-[simulate.plant]
-inertia = 0.5
-viscous = 0.2
-coulomb = 0.1
-
-[simulate.noise]
-torque_std = 0.02
-"""
+JOB = simulated_job.job([{"name": "fade", "population": 10, "generations": 20}], experiment={"name": "tiny"})
 
 RUN = ("run", "job.toml", "--out", "r.h5", "--threads", "1")
 MERGE = ("merge", "job.toml", "--out", "r.h5", "--threads", "1")

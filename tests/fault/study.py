@@ -14,57 +14,18 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "report"))
+sys.path.insert(0, os.path.join(HERE, "..", "jobs"))
+
+import simulated_job  # noqa: E402
 
 PROGRAM = os.environ["TORQUESCOPE"]
 SEED = int(os.environ.get("FAULT_SEED", time.time_ns() % 1_000_000))
 SECONDS = 60  # far beyond what any of these commands needs
 
-JOB = """
-[experiment]
-name = "fault"
-seed = 7
-runs = 7
-
-[filter]
-cutoff_hz = 20
-
-[model]
-joint = "revolute"
-terms = ["inertia", "viscous", "coulomb", "offset"]
-
-[model.bounds]
-every = [-1, 1]
-
-[[estimator]]
-name = "ols"
-
-[[estimator]]
-name = "de"
-population = 14
-generations = 250
-fitness = "direct"
-
-[[estimator]]
-name = "fade"
-population = 12
-generations = 120
-stagnation = 25
-fitness = "direct"
-
-[simulate]
-mode = "inverse_dynamics"
-rate_hz = 200
-duration_s = 15
-validate = true
-
-[simulate.plant]
-inertia = 0.5
-viscous = 0.2
-coulomb = 0.1
-
-[simulate.noise]
-torque_std = 0.02
-"""
+JOB = simulated_job.job(
+    [{"name": "ols"}, {"name": "de", "population": 14, "generations": 250, "fitness": "direct"},
+     {"name": "fade", "population": 12, "generations": 120, "stagnation": 25, "fitness": "direct"}],
+    experiment={"name": "fault", "runs": 7}, simulate={"duration_s": 15, "validate": True})
 
 
 def environment(changes=None):

@@ -30,8 +30,10 @@ struct DiagnoseArguments {
   std::string job;
   std::string out{};
   std::string columns{};
+  std::string shard{};
   int threads = 0;  // 0: not given
   bool all = false;
+  bool allow_full_disk = false;
 };
 
 // what each stage did in all: twins are made again after every effect that is named, so stages come and go
@@ -108,7 +110,18 @@ ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& exp
   return ExitCode::ok;
 }
 
+// one joint, one training recording: every effect that is named has its twins made anew, and all of them decide together
+[[noreturn]] void refuse_shard() {
+  Problem problem{ExitCode::usage,
+                  "--shard is of run: a diagnosis is one piece of work, some seconds of all processors"};
+  problem.help =
+      "share whole diagnoses, one job file (a joint, a recording) per task of an array: torquescope diagnose "
+      "joint_$SLURM_ARRAY_TASK_ID.toml";
+  throw Error(problem);
+}
+
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
+  if (!arguments.shard.empty()) refuse_shard();
   Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
@@ -127,6 +140,10 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.threads = choose_threads(arguments.threads);
   request.output = output;
   request.stop_requested = stop_requested;
+  request.tell = [&session](std::string const& topic, std::string const& text) {
+    session.note(session.topic_line(topic, text));
+  };
+  request.allow_full_disk = arguments.allow_full_disk;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   StageTotals totals;
@@ -167,7 +184,9 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
                    "other methods, on equal terms")
       ->type_name("C.h5")
       ->group("results");
+  command->add_option("--shard", arguments->shard)->group("");  // not shown: refused with the way out
   add_threads_option(*command, arguments->threads);
+  add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -36,23 +36,13 @@ void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments
   session.document(read_verdict_json(reader));
 }
 
-// far more than an honest file of this size takes
-ConfinedLimits limits_for(std::filesystem::path const& file) {
-  constexpr std::uintmax_t bytes_per_second = std::uintmax_t{4} << 20, most_seconds = 1000000;
-  std::error_code unknown;
-  auto const bytes = std::filesystem::file_size(file, unknown);
-  ConfinedLimits limits{.processor_seconds = 60};
-  if (!unknown) limits.processor_seconds += static_cast<int>(std::min(bytes / bytes_per_second, most_seconds));
-  return limits;
-}
-
 ExitCode show_verification(ShowArguments const& arguments, Session const& session) {
   // in a process of its own: checksums do not keep out who computes them
   auto const read = [&arguments] {
     Verification const facts = verify_everything(arguments.file);
     return PackedWriter().text(verification_text(facts)).text(verification_json(facts)).take();
   };
-  auto const packed = run_confined(read, limits_for(arguments.file), [&arguments](std::string const& how) {
+  auto const packed = run_confined(read, limits_for_file(arguments.file, 60), [&arguments](std::string const& how) {
     return Problem{.code = ExitCode::bad_data,
                    .what = arguments.file + " is damaged: HDF5 " + how + " while reading it",
                    .help = "delete it and run the job again: the same command makes the same file"};

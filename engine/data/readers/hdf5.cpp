@@ -20,7 +20,6 @@
 
 #include "engine/base/digest.hpp"
 #include "engine/base/error.hpp"
-#include "engine/data/confined_reader.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/delimited_text.hpp"
 #include "engine/data/file_bytes.hpp"
@@ -235,7 +234,7 @@ class FileWalk {
   std::size_t n_objects_ = 0;
 };
 
-RawTable read_here(std::filesystem::path const& path) {
+RawTable read(std::filesystem::path const& path) {
   std::string bytes = read_whole_file(path);
   QuietErrors const quiet;
   H5PLset_loading_state(0);
@@ -257,12 +256,11 @@ RawTable read_here(std::filesystem::path const& path) {
   return std::move(table).finish();
 }
 
-RawTable read(std::filesystem::path const& path) { return read_confined(path, read_here, "HDF5"); }
-
 }  // namespace
 
 ReaderChoice hdf5_reader() {
-  return {"hdf5", "HDF5 or MATLAB 7.3: numeric datasets of rank 1 or 2; column names are their paths", accepts, read};
+  return {"hdf5", "HDF5 or MATLAB 7.3: numeric datasets of rank 1 or 2; column names are their paths", accepts, read,
+          "HDF5"};
 }
 
 }  // namespace torquescope

@@ -8,17 +8,13 @@
 
 #include <fmt/format.h>
 #include <matio.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <memory>
 
 #include "engine/base/digest.hpp"
 #include "engine/base/error.hpp"
-#include "engine/data/confined_reader.hpp"
+#include "engine/base/memory_file.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/recording_reader.hpp"
@@ -31,30 +27,6 @@ constexpr std::size_t most_variables = 20000;
 
 using MatFile = std::unique_ptr<mat_t, int (*)(mat_t*)>;
 using MatVariable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
-
-// bytes as a nameless file: matio reads only paths, and the file must not change between hashing and parsing
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("recording", MFD_CLOEXEC)) {
-    bool written = descriptor_ >= 0;
-    while (written && !bytes.empty()) {
-      auto const count = ::write(descriptor_, bytes.data(), bytes.size());
-      written = count > 0 || errno == EINTR;
-      if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    int const error = errno;
-    if (written) return;
-    if (descriptor_ >= 0) ::close(descriptor_);
-    throw Error(Problem{ExitCode::io, fmt::format("no memory to unpack a MAT file: {}", std::strerror(error))});
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(MemoryFile const&) = delete;
-  MemoryFile& operator=(MemoryFile const&) = delete;
-  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 bool accepts(std::filesystem::path const&, std::string const& first_bytes) {
   return first_bytes.starts_with("MATLAB 5.0 MAT-file");
@@ -143,11 +115,11 @@ void add_variable(mat_t* file, matvar_t& variable, TableBuilder& table) {
   table.add_matrix(name, values_of(variable, count), rows, columns, true);
 }
 
-RawTable read_here(std::filesystem::path const& path) {
+RawTable read(std::filesystem::path const& path) {
   auto const bytes = read_whole_file(path);
   constexpr std::uint64_t best_compression = 1032;  // of deflate; and a number takes at least a byte before it
   TableBuilder table(path.string(), sha256_hex(bytes), best_compression * bytes.size());
-  MemoryFile const copy(bytes);
+  MemoryFile const copy(bytes);  // matio reads only paths, and the file must not change after it was hashed
   MatFile const file(Mat_Open(copy.path().c_str(), MAT_ACC_RDONLY), Mat_Close);
   validate(file != nullptr, [&] {
     return bad_data(fmt::format("{} is a damaged MAT file, or was cut short", path.string()), path.string(), 0,
@@ -161,12 +133,10 @@ RawTable read_here(std::filesystem::path const& path) {
   return std::move(table).finish();
 }
 
-RawTable read(std::filesystem::path const& path) { return read_confined(path, read_here, "matio"); }
-
 }  // namespace
 
 ReaderChoice mat5_reader() {
-  return {"mat5", "MATLAB level 5 (-v6, -v7), Octave, scipy: real vectors and matrices", accepts, read};
+  return {"mat5", "MATLAB level 5 (-v6, -v7), Octave, scipy: real vectors and matrices", accepts, read, "matio"};
 }
 
 }  // namespace torquescope
