@@ -16,8 +16,7 @@ Recording as_recording(SimulatedRecording&& simulated) {
   recording.position = std::move(simulated.position);
   recording.torque = std::move(simulated.torque);
   simulated.true_torque = Eigen::VectorXd();
-  // after an exact motion it is the position itself
-  recording.reference = simulated.has_exact_motion ? recording.position : std::move(simulated.reference);
+  recording.reference = std::move(simulated.reference);
   if (simulated.has_exact_motion) {
     recording.velocity = std::move(simulated.true_velocity);
     recording.acceleration = std::move(simulated.true_acceleration);

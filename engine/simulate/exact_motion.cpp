@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/huge_pages.hpp"
 #include "engine/simulate/orthogonal_noise.hpp"
 
 namespace torquescope {
@@ -57,6 +58,7 @@ Eigen::VectorXd torque_of(std::vector<PlantTerm> const& terms, Motion const& mot
   if (has_memory(terms)) return columns_of(terms, motion) * parameters;
   Eigen::Index const n = motion.q.size();
   Eigen::VectorXd torque(n);
+  in_huge_pages(torque);
   for (Eigen::Index first = 0; first < n; first += block_samples) {
     Eigen::Index const count = std::min(block_samples, n - first);
     torque.segment(first, count) = columns_of(terms, block_of(motion, first, count)) * parameters;
@@ -67,7 +69,10 @@ Eigen::VectorXd torque_of(std::vector<PlantTerm> const& terms, Motion const& mot
 Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index samples) {
   Motion motion;
   motion.rate_hz = rate_hz;
-  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) channel->resize(samples);
+  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) {
+    channel->resize(samples);
+    in_huge_pages(*channel);
+  }
   for (Eigen::Index i = 0; i < samples; ++i) motion.time_s[i] = static_cast<double>(i) / rate_hz;
   auto const numbers = [](Eigen::VectorXd& column) {
     return std::span(column.data(), static_cast<std::size_t>(column.size()));
@@ -99,7 +104,8 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
   ColouredNoise white(key, NoiseStream::torque_white, white_std, 0.0, rate_hz);
   ColouredNoise coloured(key, NoiseStream::torque_coloured, noise.torque_coloured_std, noise.torque_coloured_s,
                          rate_hz);
-  recording.torque = recording.true_torque;
+  recording.torque.resize(recording.true_torque.size());
+  in_huge_pages(recording.torque) = recording.true_torque;
   for (double& torque : recording.torque) torque += white.next() + coloured.next();
 }
 

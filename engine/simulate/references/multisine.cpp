@@ -20,7 +20,9 @@ namespace torquescope {
 namespace {
 
 struct Line {
-  double frequency_hz, phase_turns;
+  Line(double hz, double turns)
+      : frequency_hz(hz), phase_turns(turns), inverse_omega(1.0 / (2.0 * std::numbers::pi * hz)) {}
+  double frequency_hz, phase_turns, inverse_omega;
 };
 
 class Multisine : public Reference {
@@ -35,12 +37,12 @@ class Multisine : public Reference {
   }
 
   void at_each(std::span<double const> times_s, ReferenceColumns const& points) const override {
-    for (auto const& column : {points.q, points.dq, points.ddq}) std::fill(column.begin(), column.end(), 0.0);
     for (std::size_t first = 0; first < times_s.size(); first += times_together) {
       std::size_t const count = std::min(times_together, times_s.size() - first);
-      for (Line const& line : lines_)
-        add(line, times_s.subspan(first, count),
-            {points.q.subspan(first, count), points.dq.subspan(first, count), points.ddq.subspan(first, count)});
+      ReferenceColumns const block{points.q.subspan(first, count), points.dq.subspan(first, count),
+                                   points.ddq.subspan(first, count)};
+      for (auto const& column : {block.q, block.dq, block.ddq}) std::fill(column.begin(), column.end(), 0.0);
+      for (Line const& line : lines_) add(line, times_s.subspan(first, count), block);
     }
   }
 
@@ -57,7 +59,7 @@ class Multisine : public Reference {
     sines_cosines_of_turns(std::span(turns).first(lines.size()), std::span(sines).first(lines.size()),
                            std::span(cosines).first(lines.size()));
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      sum.q += sines[k] / omega(lines[k]);
+      sum.q += sines[k] * lines[k].inverse_omega;
       sum.dq += cosines[k];
       sum.ddq -= omega(lines[k]) * sines[k];
     }
@@ -70,7 +72,7 @@ class Multisine : public Reference {
                            std::span(cosines).first(times_s.size()));
     double const w = omega(line);
     for (std::size_t i = 0; i < times_s.size(); ++i) {
-      sum.q[i] += sines[i] / w;
+      sum.q[i] += sines[i] * line.inverse_omega;
       sum.dq[i] += cosines[i];
       sum.ddq[i] -= w * sines[i];
     }
@@ -86,7 +88,7 @@ std::unique_ptr<Reference const> make_multisine(ReferenceOptions const& options,
   std::vector<double> const frequencies = reference_frequencies_hz(options);
   std::vector<Line> lines;
   for (std::size_t k = 0; k < frequencies.size(); ++k)
-    lines.push_back({frequencies[k], addressed_uniform(key, NoiseStream::reference_phase, k)});
+    lines.emplace_back(frequencies[k], addressed_uniform(key, NoiseStream::reference_phase, k));
   double const highest_hz = *std::max_element(frequencies.begin(), frequencies.end());
   return ramped_to_limits(std::make_unique<Multisine>(std::move(lines)), highest_hz, duration_s, options);
 }
