@@ -1,6 +1,7 @@
 #include "engine/simulate/exact_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -15,6 +16,7 @@ namespace {
 
 // samples whose columns are held at one time
 constexpr Eigen::Index block_samples = 4096;
+constexpr Eigen::Index noise_together = 256;
 
 // columns of every linear parameter
 Eigen::MatrixXd columns_of(std::vector<PlantTerm> const& terms, Motion const& motion) {
@@ -106,7 +108,14 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
                          rate_hz);
   recording.torque.resize(recording.true_torque.size());
   in_huge_pages(recording.torque) = recording.true_torque;
-  for (double& torque : recording.torque) torque += white.next() + coloured.next();
+  std::array<double, noise_together> of_white, of_coloured;
+  for (Eigen::Index first = 0; first < recording.torque.size(); first += noise_together) {
+    Eigen::Index const count = std::min<Eigen::Index>(noise_together, recording.torque.size() - first);
+    white.next(std::span(of_white).first(static_cast<std::size_t>(count)));
+    coloured.next(std::span(of_coloured).first(static_cast<std::size_t>(count)));
+    for (Eigen::Index i = 0; i < count; ++i)
+      recording.torque[first + i] += of_white[static_cast<std::size_t>(i)] + of_coloured[static_cast<std::size_t>(i)];
+  }
 }
 
 }  // namespace torquescope

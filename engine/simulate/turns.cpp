@@ -27,9 +27,9 @@ using Vector = hn::Vec<Doubles>;
 inline constexpr double of_sine[] = {-1.66666666666666324348e-01, 8.33333333332248946124e-03,
                                      -1.98412698298579493134e-04, 2.75573137070700676789e-06,
                                      -2.50507602534068634195e-08, 1.58969099521155010221e-10};
-inline constexpr double of_cosine[] = {4.16666666666666019037e-02,  -1.38888888888741095749e-03,
-                                       2.48015872894767294178e-05,  -2.75573143513906633035e-07,
-                                       2.08757232129817482790e-09,  -1.13596475577881948265e-11};
+inline constexpr double of_cosine[] = {4.16666666666666019037e-02, -1.38888888888741095749e-03,
+                                       2.48015872894767294178e-05, -2.75573143513906633035e-07,
+                                       2.08757232129817482790e-09, -1.13596475577881948265e-11};
 
 // by the nearer whole turn; 0 is added so that -0 becomes 0
 HWY_INLINE Vector within_half_a_turn(Vector turns) {
@@ -71,8 +71,7 @@ HWY_INLINE SineCosine sine_cosine_of(Vector turns) {
   // 1 - x^2 / 2 with what its rounding took
   Vector const half_square = hn::Mul(half, square), first = hn::Sub(one, half_square);
   Vector const lost = hn::Sub(hn::Sub(one, first), half_square);
-  Vector const cosine =
-      hn::Add(first, fused_mul_add(hn::Mul(square, square), polynomial(square, of_cosine), lost));
+  Vector const cosine = hn::Add(first, fused_mul_add(hn::Mul(square, square), polynomial(square, of_cosine), lost));
 
   // odd quarters exchange the two, then each has its sign
   auto const quarter = hn::BitCast(bits, shifted), single = hn::Set(bits, std::int64_t{1});
@@ -107,6 +106,30 @@ void all_sines(double const* turns, std::size_t n, double* sines, double* cosine
   if (with_cosines) std::copy_n(cosine, n - first, cosines + first);
 }
 
+// one vector of times; every array has room for it
+HWY_INLINE void add_line_to_vector(SineLine const& line, double const* times, double* q, double* dq, double* ddq) {
+  Doubles const d;
+  Vector const angle = hn::Mul(hn::LoadU(d, times), hn::Set(d, line.frequency_hz));
+  SineCosine const both = sine_cosine_of(hn::Add(angle, hn::Set(d, line.phase_turns)));
+  hn::StoreU(hn::Add(hn::LoadU(d, q), hn::Mul(both.sine, hn::Set(d, line.inverse_omega))), d, q);
+  hn::StoreU(hn::Add(hn::LoadU(d, dq), both.cosine), d, dq);
+  hn::StoreU(hn::Sub(hn::LoadU(d, ddq), hn::Mul(both.sine, hn::Set(d, line.omega))), d, ddq);
+}
+
+void add_line(SineLine const& line, double const* times, std::size_t n, double* q, double* dq, double* ddq) {
+  constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+  std::size_t first = 0;
+  for (; first + lanes <= n; first += lanes)
+    add_line_to_vector(line, times + first, q + first, dq + first, ddq + first);
+  if (first == n) return;
+  double padded[4][lanes] = {};
+  double* const columns[] = {q + first, dq + first, ddq + first};
+  std::copy_n(times + first, n - first, padded[3]);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(columns[k], n - first, padded[k]);
+  add_line_to_vector(line, padded[3], padded[0], padded[1], padded[2]);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(padded[k], n - first, columns[k]);
+}
+
 void sines_only(double const* turns, std::size_t n, double* sines) { all_sines<false>(turns, n, sines, nullptr); }
 void sines_and_cosines(double const* turns, std::size_t n, double* sines, double* cosines) {
   all_sines<true>(turns, n, sines, cosines);
@@ -121,6 +144,7 @@ namespace {
 
 TORQUESCOPE_EXPORT(sines_only);
 TORQUESCOPE_EXPORT(sines_and_cosines);
+TORQUESCOPE_EXPORT(add_line);
 
 }  // namespace
 
@@ -132,6 +156,12 @@ void sines_of_turns(std::span<double const> turns, std::span<double> sines) {
 void sines_cosines_of_turns(std::span<double const> turns, std::span<double> sines, std::span<double> cosines) {
   TORQUESCOPE_EXPECT(turns.size() == sines.size() && turns.size() == cosines.size());
   TORQUESCOPE_DISPATCH(sines_and_cosines)(turns.data(), turns.size(), sines.data(), cosines.data());
+}
+
+void add_sine_line(SineLine const& line, std::span<double const> times_s, std::span<double> q, std::span<double> dq,
+                   std::span<double> ddq) {
+  TORQUESCOPE_EXPECT(q.size() == times_s.size() && dq.size() == times_s.size() && ddq.size() == times_s.size());
+  TORQUESCOPE_DISPATCH(add_line)(line, times_s.data(), times_s.size(), q.data(), dq.data(), ddq.data());
 }
 
 double sine_of_turns(double turns) {

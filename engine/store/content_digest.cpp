@@ -1,6 +1,7 @@
 #include "engine/store/content_digest.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "engine/base/contract.hpp"
@@ -201,6 +202,37 @@ void ContentDigest::block(std::string const& path, std::size_t index, void const
   }
 }
 
+void ContentDigest::blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
+                           std::size_t block_bytes) {
+  Object& dataset = object(path);
+  std::size_t const n_blocks = values.size() / block_bytes;
+  TORQUESCOPE_EXPECT(values.size() % block_bytes == 0 && first_index + n_blocks <= dataset.blocks.size());
+  auto const block_at = [&](std::size_t i) { return values.subspan(i * block_bytes, block_bytes); };
+  auto const repeats = [&](std::size_t i) {
+    return i > 0 && std::memcmp(block_at(i).data(), block_at(i - 1).data(), block_bytes) == 0;
+  };
+  Sha256* const digests = dataset.blocks.data() + first_index;
+  std::size_t const none = n_blocks;
+  std::size_t single = none;  // waits for another one
+  std::vector<std::size_t> repeating;
+  for (std::size_t i = 0; i < n_blocks; ++i) {
+    if (repeats(i)) {
+      repeating.push_back(i);
+    } else if (single == none) {
+      single = i;
+    } else {
+      auto const both = sha256_of_two(block_at(single), block_at(i));
+      digests[single] = both.first;
+      digests[i] = both.second;
+      single = none;
+    }
+  }
+  if (single != none && repeating.empty())
+    return block(path, first_index + single, block_at(single).data(), block_bytes);
+  if (single != none) digests[single] = Digest().bytes(block_at(single).data(), block_bytes).raw();
+  for (std::size_t const i : repeating) digests[i] = digests[i - 1];
+}
+
 void ContentDigest::digest_waiting() {
   if (!waiting_.is_there) return;
   object(waiting_.path).blocks[waiting_.index] = Digest().bytes(waiting_.values.data(), waiting_.values.size()).raw();
@@ -236,13 +268,15 @@ ArrayDigest::ArrayDigest(ContentDigest& digest, std::string path, h5::Element el
 
 void ArrayDigest::add(std::span<std::byte const> values) {
   while (!values.empty()) {
-    bool const is_whole = begun_.empty() && values.size() >= block_bytes_;
-    auto const part = values.first(std::min(block_bytes_ - begun_.size(), values.size()));
-    values = values.subspan(part.size());
-    if (is_whole) {
-      digest_.block(path_, index_++, part.data(), part.size());
+    if (begun_.empty() && values.size() >= block_bytes_) {
+      std::size_t const n_whole = values.size() / block_bytes_;
+      digest_.blocks(path_, index_, values.first(n_whole * block_bytes_), block_bytes_);
+      index_ += n_whole;
+      values = values.subspan(n_whole * block_bytes_);
       continue;
     }
+    auto const part = values.first(std::min(block_bytes_ - begun_.size(), values.size()));
+    values = values.subspan(part.size());
     begun_.insert(begun_.end(), part.begin(), part.end());
     if (begun_.size() == block_bytes_) end();
   }

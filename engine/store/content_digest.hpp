@@ -46,6 +46,10 @@ class ContentDigest {
   bool has_dataset(std::string const& path) const;
   // row-major values of the rows of one block
   void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
+  // several blocks of block_bytes each, one after the other: none is copied, and one that repeats the one before (a
+  // column of one value) is not digested again
+  void blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
+              std::size_t block_bytes);
   void texts(std::string const& path, std::span<std::string const> texts);
 
   std::string hex(FilePart part = FilePart::content);
