@@ -77,12 +77,11 @@ double kth_smallest(ForEach const& for_each, std::size_t k, std::size_t most_kep
     std::size_t n_below = 0, n_above = 0;
     EvenSample between(most_kept);
     for_each([&](double value) {
-      if (value < low)
-        n_below += value >= least;
-      else if (value > high)
-        n_above += value <= most;
-      else
-        between.count(value);
+      // sums of comparisons: which side a value is on, no processor can foresee
+      bool const below = value<low, above = value> high;
+      n_below += below & (value >= least);
+      n_above += above & (value <= most);
+      if (!(below | above)) between.count(value);
     });
     TORQUESCOPE_ENSURE(n_below + n_above + between.n_counted() == left);
     bool const is_below = k < n_below, is_above = k >= left - n_above;

@@ -183,23 +183,34 @@ bool ContentDigest::has_dataset(std::string const& path) const {
   return known != objects_.end() && !known->second.element.empty();
 }
 
+ContentDigest::Waiting* ContentDigest::waiting_of_size(std::size_t bytes) {
+  for (auto& waiting : waiting_)
+    if (waiting.is_there && waiting.values.size() == bytes) return &waiting;
+  return nullptr;
+}
+
 void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
   Object& dataset = object(path);
   TORQUESCOPE_EXPECT(index < dataset.blocks.size());
   auto const* const first = static_cast<std::byte const*>(values);
-  if (waiting_.is_there) {
-    auto const both = sha256_of_two(waiting_.values, {first, bytes});
-    object(waiting_.path).blocks[waiting_.index] = both.first;
+  if (Waiting* const other = waiting_of_size(bytes)) {
+    auto const both = sha256_of_two(other->values, {first, bytes});
+    object(other->path).blocks[other->index] = both.first;
     dataset.blocks[index] = both.second;
-    waiting_.is_there = false;
-  } else if (bytes <= most_waiting_bytes) {
-    waiting_.is_there = true;
-    waiting_.path = path;
-    waiting_.index = index;
-    waiting_.values.assign(first, first + bytes);
-  } else {
-    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+    other->is_there = false;
+    return;
   }
+  if (bytes > most_waiting_bytes) {
+    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+    return;
+  }
+  auto const is_free = [](Waiting const& waiting) { return !waiting.is_there; };
+  auto place = std::find_if(waiting_.begin(), waiting_.end(), is_free);
+  if (place == waiting_.end()) digest_waiting(*(place = waiting_.begin()));
+  place->is_there = true;
+  place->path = path;
+  place->index = index;
+  place->values.assign(first, first + bytes);
 }
 
 void ContentDigest::blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
@@ -233,10 +244,10 @@ void ContentDigest::blocks(std::string const& path, std::size_t first_index, std
   for (std::size_t const i : repeating) digests[i] = digests[i - 1];
 }
 
-void ContentDigest::digest_waiting() {
-  if (!waiting_.is_there) return;
-  object(waiting_.path).blocks[waiting_.index] = Digest().bytes(waiting_.values.data(), waiting_.values.size()).raw();
-  waiting_.is_there = false;
+void ContentDigest::digest_waiting(Waiting& waiting) {
+  if (!waiting.is_there) return;
+  object(waiting.path).blocks[waiting.index] = Digest().bytes(waiting.values.data(), waiting.values.size()).raw();
+  waiting.is_there = false;
 }
 
 void ContentDigest::texts(std::string const& path, std::span<std::string const> texts) {
@@ -248,7 +259,7 @@ void ContentDigest::texts(std::string const& path, std::span<std::string const> 
 }
 
 std::string ContentDigest::hex(FilePart part) {
-  digest_waiting();
+  for (auto& waiting : waiting_) digest_waiting(waiting);
   Digest digest;
   for (auto const& [path, object] : objects_) {
     if (is_volatile(path) != (part == FilePart::provenance)) continue;

@@ -14,6 +14,7 @@
 // Memory     32 bytes per block and attribute; content_digest(): 4 MiB of values (or one row of a dataset, if more)
 // Threads    one at a time
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -55,7 +56,7 @@ class ContentDigest {
   std::string hex(FilePart part = FilePart::content);
 
  private:
-  // a block of values that waits for another one: two are digested in little more than the time of one
+  // a block of values that waits for another one of its size: two are digested in little more than the time of one
   struct Waiting {
     bool is_there = false;
     std::string path{};
@@ -72,10 +73,11 @@ class ContentDigest {
 
   Object& object(std::string const& path);  // with all the groups that lead to it
 
-  void digest_waiting();
+  Waiting* waiting_of_size(std::size_t bytes);
+  void digest_waiting(Waiting& waiting);
 
   std::map<std::string, Object> objects_;
-  Waiting waiting_;
+  std::array<Waiting, 2> waiting_;  // populations and fitness come in turns
 };
 
 // Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.
