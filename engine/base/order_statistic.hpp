@@ -24,14 +24,18 @@ inline constexpr std::size_t most_kept_values = std::size_t{1} << 15;
 // Every value as long as there is room, then every second, every fourth, ...
 class EvenSample {
  public:
-  explicit EvenSample(std::size_t room) : room_(std::max<std::size_t>(2, room)) {}
+  explicit EvenSample(std::size_t room) : room_(std::max<std::size_t>(2, room / 2 * 2)) {}
 
-  void count(double value) {
-    if (n_counted_++ != next_) return;
-    if (kept_.size() == room_) thin_out();
-    if (n_counted_ - 1 != next_) return;
-    kept_.push_back(value);
-    next_ += step_;
+  // the values that each visits
+  template <class Visitable>
+  void take_from(Visitable const& for_each) {
+    // both stay in registers; what is done to the sample happens seldom
+    std::size_t counted = 0, until_next = 1;
+    for_each([&](double value) {
+      ++counted;
+      if (--until_next == 0) until_next = take(value);
+    });
+    n_counted_ = counted;
   }
   std::size_t n_counted() const { return n_counted_; }
   bool has_all() const { return step_ == 1; }
@@ -44,14 +48,18 @@ class EvenSample {
   std::size_t size() const { return kept_.size(); }
 
  private:
-  void thin_out() {
-    for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = kept_[2 * i];
-    kept_.resize((kept_.size() + 1) / 2);
-    step_ *= 2;
-    next_ = kept_.size() * step_;
+  // returns how many values on the next one is wanted
+  std::size_t take(double value) {
+    if (kept_.size() == room_) {
+      for (std::size_t i = 0; 2 * i < room_; ++i) kept_[i] = kept_[2 * i];
+      kept_.resize(room_ / 2);
+      step_ *= 2;
+    }
+    kept_.push_back(value);
+    return step_;
   }
 
-  std::size_t room_, n_counted_ = 0, step_ = 1, next_ = 0;
+  std::size_t room_, n_counted_ = 0, step_ = 1;
   std::vector<double> kept_{};
 };
 
@@ -59,7 +67,7 @@ class EvenSample {
 template <class ForEach>
 double kth_smallest(ForEach const& for_each, std::size_t k, std::size_t most_kept = most_kept_values) {
   EvenSample sample(most_kept);
-  for_each([&](double value) { sample.count(value); });
+  sample.take_from(for_each);
   TORQUESCOPE_EXPECT(k < sample.n_counted());
 
   // the k-th of all is the k-th of those from `least` to `most`
@@ -76,12 +84,14 @@ double kth_smallest(ForEach const& for_each, std::size_t k, std::size_t most_kep
 
     std::size_t n_below = 0, n_above = 0;
     EvenSample between(most_kept);
-    for_each([&](double value) {
-      // sums of comparisons: which side a value is on, no processor can foresee
-      bool const below = value<low, above = value> high;
-      n_below += below & (value >= least);
-      n_above += above & (value <= most);
-      if (!(below | above)) between.count(value);
+    between.take_from([&](auto const& visit) {
+      for_each([&](double value) {
+        // sums of comparisons: which side a value is on, no processor can foresee
+        bool const below = value<low, above = value> high;
+        n_below += below & (value >= least);
+        n_above += above & (value <= most);
+        if (!(below | above)) visit(value);
+      });
     });
     TORQUESCOPE_ENSURE(n_below + n_above + between.n_counted() == left);
     bool const is_below = k < n_below, is_above = k >= left - n_above;
@@ -92,8 +102,10 @@ double kth_smallest(ForEach const& for_each, std::size_t k, std::size_t most_kep
       if (is_above) least = std::nextafter(high, std::numeric_limits<double>::infinity());
       if (is_above) k -= left - n_above;
       sample = EvenSample(most_kept);
-      for_each([&](double value) {
-        if (least <= value && value <= most) sample.count(value);
+      sample.take_from([&](auto const& visit) {
+        for_each([&](double value) {
+          if (least <= value && value <= most) visit(value);
+        });
       });
       continue;
     }

@@ -85,7 +85,7 @@ Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index sam
 
 }  // namespace
 
-void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key,
+void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key, TrueTorque truth,
                          SimulatedRecording& recording) {
   NoiseOptions const& noise = plan.noise;
   double const rate_hz = plan.simulation.rate_hz;
@@ -106,8 +106,13 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
   ColouredNoise white(key, NoiseStream::torque_white, white_std, 0.0, rate_hz);
   ColouredNoise coloured(key, NoiseStream::torque_coloured, noise.torque_coloured_std, noise.torque_coloured_s,
                          rate_hz);
-  recording.torque.resize(recording.true_torque.size());
-  in_huge_pages(recording.torque) = recording.true_torque;
+  // the noise comes on top of it: a copy only for who wants both
+  if (truth == TrueTorque::left_out) {
+    recording.torque = std::move(recording.true_torque);
+    recording.true_torque = Eigen::VectorXd();
+  } else {
+    recording.torque = recording.true_torque;
+  }
   std::array<double, noise_together> of_white, of_coloured;
   for (Eigen::Index first = 0; first < recording.torque.size(); first += noise_together) {
     Eigen::Index const count = std::min<Eigen::Index>(noise_together, recording.torque.size() - first);

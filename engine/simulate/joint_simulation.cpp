@@ -32,7 +32,8 @@ std::string digest_of(SimulatedRecording const& recording) {
 
 }  // namespace
 
-SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index) {
+SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index,
+                                  TrueTorque truth) {
   RandomKey const key{plan.simulation.seed >= 0 ? static_cast<std::uint64_t>(plan.simulation.seed) : experiment_seed,
                       index, RandomDomain::simulation};
   auto const reference = make_reference(plan.reference, plan.simulation.duration_s, key);
@@ -43,7 +44,7 @@ SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t expe
   recording.rate_hz = plan.simulation.rate_hz;
   recording.truth = truth_values(plan.plant, plan.joint);
   if (plan.simulation.mode == "inverse_dynamics")
-    record_exact_motion(plan, *reference, key, recording);
+    record_exact_motion(plan, *reference, key, truth, recording);
   else
     record_closed_loop(plan, *reference, key, recording);
 

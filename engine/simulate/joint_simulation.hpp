@@ -42,7 +42,10 @@ struct SimulatedRecording {
 };
 
 // index 0 is the recording to learn from, 1 the unseen one (plan.simulation.validate)
-SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0);
+// true_torque may stay empty, for who has no use for it: 8 bytes per sample
+enum class TrueTorque { kept, left_out };
+SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0,
+                                  TrueTorque truth = TrueTorque::kept);
 
 struct SimulatedColumn {
   std::string name;     // "q_rad"
