@@ -40,6 +40,20 @@ TEST(Digest, OfTwoIsThatOfEach) {
     }
 }
 
+TEST(Digest, OfBlocksIsThatOfTheDigestsOfEach) {
+  constexpr std::size_t block = long_digest_block_bytes;
+  std::vector<std::byte> bytes(3 * block + 1000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>((i * i + i / 77) % 251);
+  for (std::size_t size : {std::size_t{0}, std::size_t{1}, block, block + 1, 2 * block, 3 * block, bytes.size()}) {
+    Digest expected;
+    for (std::size_t first = 0; first < size; first += block) {
+      auto const one = Digest().bytes(bytes.data() + first, std::min(block, size - first)).raw();
+      expected.bytes(one.data(), one.size());
+    }
+    EXPECT_EQ(sha256_by_blocks(std::span(bytes).first(size)), expected.raw()) << size;
+  }
+}
+
 TEST(Digest, TellsWhereATextEnds) {
   EXPECT_NE(Digest().text("ab").text("c").hex(), Digest().text("a").text("bc").hex());
   std::vector<double> const numbers{1.0, -0.0};
