@@ -143,23 +143,4 @@ Sha256Pair sha256_of_two(Bytes first, Bytes second) {
   return has_sha_instructions() ? both(first, second) : Sha256Pair{one(first), one(second)};
 }
 
-Sha256 sha256_by_blocks(Bytes bytes) {
-  Digest digest;
-  auto const take = [&] {
-    auto const block = bytes.first(std::min(long_digest_block_bytes, bytes.size()));
-    bytes = bytes.subspan(block.size());
-    return block;
-  };
-  while (bytes.size() > long_digest_block_bytes) {
-    auto const first = take(), second = take();
-    auto const both = sha256_of_two(first, second);
-    digest.bytes(both.first.data(), both.first.size()).bytes(both.second.data(), both.second.size());
-  }
-  if (!bytes.empty()) {
-    auto const last = one(take());
-    digest.bytes(last.data(), last.size());
-  }
-  return digest.raw();
-}
-
 }  // namespace torquescope

@@ -16,9 +16,4 @@ struct Sha256Pair {
 
 Sha256Pair sha256_of_two(std::span<std::byte const> first, std::span<std::byte const> second);
 
-// of a long array: the SHA-256 over the SHA-256 of each of its blocks of 64 KiB, the last one of what is left; two blocks
-// at a time
-inline constexpr std::size_t long_digest_block_bytes = std::size_t{64} << 10;
-Sha256 sha256_by_blocks(std::span<std::byte const> bytes);
-
 }  // namespace torquescope

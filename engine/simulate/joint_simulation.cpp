@@ -4,7 +4,7 @@
 #include <span>
 
 #include "engine/base/contract.hpp"
-#include "engine/base/digest_pair.hpp"
+#include "engine/base/digest_batch.hpp"
 #include "engine/simulate/closed_loop.hpp"
 #include "engine/simulate/exact_motion.hpp"
 

@@ -22,7 +22,7 @@ namespace torquescope {
 
 struct SimulatedRecording {
   std::string name;    // "simulated", "simulated_unseen"
-  std::string sha256;  // of rate, number of samples and channels; by blocks (base/digest_pair.hpp)
+  std::string sha256;  // of rate, number of samples and channels; by blocks (base/digest_batch.hpp)
   JointKind joint = JointKind::revolute;
   double rate_hz = 0.0;
   // inverse_dynamics: velocity and acceleration are channels of the recording; reference and true_position are the

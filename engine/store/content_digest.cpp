@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/digest_batch.hpp"
 #include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
@@ -222,26 +223,17 @@ void ContentDigest::blocks(std::string const& path, std::size_t first_index, std
   auto const repeats = [&](std::size_t i) {
     return i > 0 && std::memcmp(block_at(i).data(), block_at(i - 1).data(), block_bytes) == 0;
   };
-  Sha256* const digests = dataset.blocks.data() + first_index;
-  std::size_t const none = n_blocks;
-  std::size_t single = none;  // waits for another one
-  std::vector<std::size_t> repeating;
-  for (std::size_t i = 0; i < n_blocks; ++i) {
-    if (repeats(i)) {
-      repeating.push_back(i);
-    } else if (single == none) {
-      single = i;
-    } else {
-      auto const both = sha256_of_two(block_at(single), block_at(i));
-      digests[single] = both.first;
-      digests[i] = both.second;
-      single = none;
-    }
-  }
-  if (single != none && repeating.empty())
-    return block(path, first_index + single, block_at(single).data(), block_bytes);
-  if (single != none) digests[single] = Digest().bytes(block_at(single).data(), block_bytes).raw();
-  for (std::size_t const i : repeating) digests[i] = digests[i - 1];
+  std::vector<std::size_t> repeating, others;
+  for (std::size_t i = 0; i < n_blocks; ++i) (repeats(i) ? repeating : others).push_back(i);
+  // a single one may as well wait for the next, unless others repeat it
+  if (others.size() == 1 && repeating.empty()) return block(path, first_index, values.data(), block_bytes);
+  std::vector<std::byte const*> texts;
+  for (std::size_t const i : others) texts.push_back(block_at(i).data());
+  std::vector<Sha256> digests(texts.size());
+  sha256_of_each(texts, block_bytes, digests.data());
+  Sha256* const first = dataset.blocks.data() + first_index;
+  for (std::size_t i = 0; i < others.size(); ++i) first[others[i]] = digests[i];
+  for (std::size_t const i : repeating) first[i] = first[i - 1];
 }
 
 void ContentDigest::digest_waiting(Waiting& waiting) {
