@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "kernels/dispatch.hpp"
@@ -117,6 +118,26 @@ TEST(Turns, HaveTheBitsOfThePlainPolynomialsOnEveryInstructionSet) {
     for (std::size_t i = 0; i < turns.size(); ++i)
       different += std::bit_cast<std::uint64_t>(sines[i]) != std::bit_cast<std::uint64_t>(plain_sine(turns[i]));
     EXPECT_EQ(different, 0U) << name;
+  }
+  kernels::release_instruction_set();
+}
+
+TEST(Turns, LinesAreAddedWithTheSameBitsOnEveryInstructionSet) {
+  SineLine const line{0.7, 0.3, 2.0 * std::numbers::pi * 0.7, 1.0 / (2.0 * std::numbers::pi * 0.7)};
+  std::vector<double> times;
+  for (int i = 0; i < 1003; ++i) times.push_back(0.0137 * i);
+  for (auto const name : kernels::supported_instruction_sets()) {
+    ASSERT_TRUE(kernels::force_instruction_set(name));
+    for (std::size_t n : {1u, 7u, 8u, 9u, 1003u}) {
+      std::vector<double> q(n, 0.1), dq(n, -0.2), ddq(n, 0.3);
+      add_sine_line(line, std::span(times).first(n), q, dq, ddq);
+      for (std::size_t i = 0; i < n; ++i) {
+        double const turns = times[i] * line.frequency_hz + line.phase_turns;
+        ASSERT_EQ(q[i], 0.1 + plain_sine(turns) * line.inverse_omega) << name << ", " << i << " of " << n;
+        ASSERT_EQ(dq[i], -0.2 + cosine_of_turns(turns)) << name << ", " << i << " of " << n;
+        ASSERT_EQ(ddq[i], 0.3 - plain_sine(turns) * line.omega) << name << ", " << i << " of " << n;
+      }
+    }
   }
   kernels::release_instruction_set();
 }
