@@ -1,89 +1,78 @@
 #include "kernels/residual_moments.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "kernels/dispatch-inl.hpp"
+#include "kernels/lane_sum.hpp"
 
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/residual_moments.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "kernels/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-inline constexpr std::size_t stride = 4;  // rows that a sum keeps apart
-using D = hn::CappedTag<double, stride>;
+using D = hn::CappedTag<double, n_lanes>;
 using V = hn::Vec<D>;
 inline constexpr D d;
 inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-inline constexpr std::size_t n_vectors = stride / vector_lanes;
+inline constexpr std::size_t n_vectors = n_lanes / vector_lanes;
 
-struct Apart {
-  V lanes[n_vectors];
+struct Lanes {
+  V part[n_vectors];
 
   HWY_INLINE void clear() {
-    for (auto& vector : lanes) vector = hn::Zero(d);
+    for (auto& vector : part) vector = hn::Zero(d);
   }
-  // of the whole groups of rows; `rest`: the rows behind them, fewer than four
-  HWY_INLINE double total(double const* rest, std::size_t n_rest, bool has_groups) const {
-    double apart[stride];
-    for (std::size_t v = 0; v < n_vectors; ++v) hn::StoreU(lanes[v], d, apart + v * vector_lanes);
-    double even = apart[0] + apart[2], odd = apart[1] + apart[3];
-    if (n_rest >= 2) {
-      even = has_groups ? even + rest[0] : rest[0];
-      odd = has_groups ? odd + rest[1] : rest[1];
-    }
-    double const both = even + odd;
-    if (n_rest % 2 == 0) return both;
-    return has_groups || n_rest == 3 ? both + rest[n_rest - 1] : rest[0];
+  HWY_INLINE void store(double* lane) const {
+    for (std::size_t v = 0; v < n_vectors; ++v) hn::StoreU(part[v], d, lane + v * vector_lanes);
   }
 };
 
 template <std::size_t count>
 HWY_INLINE void sums_of(SampleColumns const& samples, double const* parameters, double* residuals, ResidualSums* sums) {
-  std::size_t const n = samples.n_samples, R = samples.n_regressors, whole = n / stride * stride;
-  Apart sum[count], squares[count];
+  std::size_t const n = samples.n_samples, R = samples.n_regressors, whole = n / n_lanes * n_lanes;
+  Lanes sum[count], squares[count];
   for (std::size_t c = 0; c < count; ++c) {
     sum[c].clear();
     squares[c].clear();
   }
-  for (std::size_t row = 0; row < whole; row += stride) {
+  for (std::size_t row = 0; row < whole; row += n_lanes) {
     for (std::size_t v = 0; v < n_vectors; ++v) {
-      double const* const phi = samples.phi + row + v * vector_lanes;
-      V predicted[count];
-      V const first = hn::LoadU(d, phi);
-      for (std::size_t c = 0; c < count; ++c) predicted[c] = hn::Mul(first, hn::Set(d, parameters[c * R]));
-      for (std::size_t r = 1; r < R; ++r) {
-        V const column = hn::LoadU(d, phi + r * samples.leading_dimension);
+      std::size_t const from = row + v * vector_lanes;
+      V residual[count];
+      V const torque = hn::LoadU(d, samples.tau + from);
+      for (std::size_t c = 0; c < count; ++c) residual[c] = torque;
+      for (std::size_t r = 0; r < R; ++r) {
+        V const column = hn::LoadU(d, samples.phi + r * samples.leading_dimension + from);
         for (std::size_t c = 0; c < count; ++c)
-          predicted[c] = hn::Add(hn::Mul(column, hn::Set(d, parameters[c * R + r])), predicted[c]);
+          residual[c] = fused_neg_mul_add(column, hn::Set(d, parameters[c * R + r]), residual[c]);
       }
-      V const torque = hn::LoadU(d, samples.tau + row + v * vector_lanes);
       for (std::size_t c = 0; c < count; ++c) {
-        V const residual = hn::Sub(torque, predicted[c]);
-        hn::StoreU(residual, d, residuals + c * n + row + v * vector_lanes);
-        sum[c].lanes[v] = hn::Add(sum[c].lanes[v], residual);
-        squares[c].lanes[v] = hn::Add(squares[c].lanes[v], hn::Mul(residual, residual));
+        hn::StoreU(residual[c], d, residuals + c * n + from);
+        sum[c].part[v] = hn::Add(sum[c].part[v], residual[c]);
+        squares[c].part[v] = fused_mul_add(residual[c], residual[c], squares[c].part[v]);
       }
     }
   }
   for (std::size_t c = 0; c < count; ++c) {
-    double square[stride] = {};
-    double* const rest = residuals + c * n + whole;
+    double of_sum[n_lanes], of_squares[n_lanes];
+    sum[c].store(of_sum);
+    squares[c].store(of_squares);
     for (std::size_t row = whole; row < n; ++row) {
-      double predicted = samples.phi[row] * parameters[c * R];
-      for (std::size_t r = 1; r < R; ++r)
-        predicted = samples.phi[row + r * samples.leading_dimension] * parameters[c * R + r] + predicted;
-      rest[row - whole] = samples.tau[row] - predicted;
-      square[row - whole] = rest[row - whole] * rest[row - whole];
+      double residual = samples.tau[row];
+      for (std::size_t r = 0; r < R; ++r)
+        residual = std::fma(-samples.phi[row + r * samples.leading_dimension], parameters[c * R + r], residual);
+      residuals[c * n + row] = residual;
+      of_sum[row - whole] += residual;
+      of_squares[row - whole] = std::fma(residual, residual, of_squares[row - whole]);
     }
-    sums[c] = {sum[c].total(rest, n - whole, whole > 0), squares[c].total(square, n - whole, whole > 0)};
+    sums[c] = {sum_lanes(of_sum), sum_lanes(of_squares)};
   }
 }
 
@@ -100,19 +89,22 @@ void all_sums(SampleColumns const& samples, double const* parameters, std::size_
 }
 
 double all_squares_about(double const* residuals, std::size_t n, double centre) {
-  std::size_t const whole = n / stride * stride;
+  std::size_t const whole = n / n_lanes * n_lanes;
   V const middle = hn::Set(d, centre);
-  Apart squares;
+  Lanes squares;
   squares.clear();
-  for (std::size_t row = 0; row < whole; row += stride)
+  for (std::size_t row = 0; row < whole; row += n_lanes)
     for (std::size_t v = 0; v < n_vectors; ++v) {
       V const apart = hn::Sub(hn::LoadU(d, residuals + row + v * vector_lanes), middle);
-      squares.lanes[v] = hn::Add(squares.lanes[v], hn::Mul(apart, apart));
+      squares.part[v] = fused_mul_add(apart, apart, squares.part[v]);
     }
-  double square[stride] = {};
-  for (std::size_t row = whole; row < n; ++row)
-    square[row - whole] = (residuals[row] - centre) * (residuals[row] - centre);
-  return squares.total(square, n - whole, whole > 0);
+  double lane[n_lanes];
+  squares.store(lane);
+  for (std::size_t row = whole; row < n; ++row) {
+    double const apart = residuals[row] - centre;
+    lane[row - whole] = std::fma(apart, apart, lane[row - whole]);
+  }
+  return sum_lanes(lane);
 }
 
 }  // namespace torquescope::kernels::HWY_NAMESPACE

@@ -1,11 +1,11 @@
 #pragma once
 // Residuals of several candidates at once, their sum and sums of squares: all that a table of results says of a run.
 //
-// Equation   e_t = tau_t - ((phi_t1 x_1 + phi_t2 x_2) + ...);  squares = sum e_t^2, sum = sum e_t;
+// Equation   e_t = (tau_t - phi_t1 x_1) - phi_t2 x_2 - ...;  squares = sum e_t^2, sum = sum e_t;
 //            squares_about = sum (e_t - centre)^2
 // Shapes     samples as in gram.hpp; parameters: n_candidates x R; residuals: n_candidates x n_samples, both row-major
-// Bits       the same on every instruction set and for any company of candidates: no fused operations; a sum adds up rows
-//            t mod 4 apart, then (0+2), (1+3), a pair of rows left over to these, both, and a last row
+// Bits       the same on every instruction set and for any company of candidates: one rounding per multiply-add; a sum
+//            adds up rows t mod 8 apart, then ((0+4)+(2+6)) + ((1+5)+(3+7))
 // Speed      samples (a block of some thousand rows) should fit into the L2 cache: they are read for every four candidates
 // Threads    free functions; do not allocate
 

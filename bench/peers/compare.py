@@ -19,7 +19,7 @@ from seed_job import GENERATIONS, MEMBERS, RUNS, SeedJob  # noqa: E402
 SCIPY = pathlib.Path(__file__).parent / "scipy_de.py"
 COMPILED = ("pagmo_de", "nlopt_crs2", "openblas_de", "eigen_de", "textbook_de")
 OURS = ("in_time", "direct", "float32", "gram")
-WHOLE = ("direct", "float32", "gram")
+WHOLE = ("direct", "float32", "gram", "lean")
 REFERENCES = ("pagmo_de", "openblas_de", "eigen_de", "scipy_de")
 
 

@@ -43,7 +43,8 @@ struct BetweenEdges {
 void measure_movement(BetweenEdges const& motion, Excitation& facts) {
   double const threshold = moving_from * motion.dq.cwiseAbs().maxCoeff();
   int last_direction = 0;
-  Eigen::Index forward = 0;
+  // samples with positive velocity, torque, both
+  Eigen::Index forward = 0, positive = 0, both = 0;
   std::size_t n_moving = 0;
   for (Eigen::Index i = 0; i < motion.dq.size(); ++i) {
     if (std::fabs(motion.dq[i]) <= threshold) continue;
@@ -51,14 +52,17 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
     facts.reversals += last_direction == -direction;
     last_direction = direction;
     forward += direction > 0;
+    positive += motion.torque[i] > 0;
+    both += direction > 0 && motion.torque[i] > 0;
     ++n_moving;
-    bool const positive_torque = motion.torque[i] > 0;
-    facts.quadrant_share[positive_torque ? (direction > 0 ? 0 : 1) : (direction > 0 ? 3 : 2)] += 1;
   }
   if (n_moving == 0) return;
   auto const moving = static_cast<double>(n_moving);
   facts.moving_share = moving / static_cast<double>(motion.dq.size());
   facts.forward_share = static_cast<double>(forward) / moving;
+  Eigen::Index const neither = static_cast<Eigen::Index>(n_moving) - forward - positive + both;
+  Eigen::Index const samples_in[] = {both, positive - both, neither, forward - both};
+  for (std::size_t i = 0; i < 4; ++i) facts.quadrant_share[i] = static_cast<double>(samples_in[i]);
   for (double& share : facts.quadrant_share) {
     share /= moving;
     facts.quadrants += share >= visited;

@@ -21,6 +21,7 @@ class Extreme {
   explicit Extreme(double side) : side_(side) {}
   void count(double value) {
     double const v = side_ * value;
+    if (v < second_) return;  // nearly all
     if (v > first_) {
       second_ = first_;
       n_second_ = n_first_;
@@ -60,8 +61,9 @@ std::size_t samples_resting_at(std::span<double const> values, double level) {
 }  // namespace
 
 double quantisation_step(std::span<double const> values) {
-  double range = 0.0;
-  for (std::size_t i = 1; i < values.size(); ++i) range = std::max(range, std::fabs(values[i] - values[i - 1]));
+  if (values.size() < 2) return 0.0;
+  Eigen::Map<Eigen::ArrayXd const> const signal(values.data(), static_cast<Eigen::Index>(values.size()));
+  double const range = (signal.tail(signal.size() - 1) - signal.head(signal.size() - 1)).abs().maxCoeff();
   // printed digits make equal steps differ a little: what is a thousand times smaller than the largest is no step
   auto const for_each_step = [&](auto const& visit) {
     for (std::size_t i = 1; i < values.size(); ++i) {
@@ -85,10 +87,10 @@ double quantisation_step(std::span<double const> values) {
   };
   std::size_t n_single = 0;
   for_each_single([&](double) { ++n_single; });
-  double const candidate = median_of(for_each_single, n_single);
   // a real step is met again and again, and every other difference is a multiple of it
   bool const met_often = n_single * 200 >= n_steps && n_single >= 4;
   if (!met_often) return 0.0;
+  double const candidate = median_of(for_each_single, n_single);
   std::size_t multiples = 0, small = 0;
   for_each_step([&](double step) {
     double const count = step / candidate;

@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/huge_pages.hpp"
 #include "engine/effects/redundancy.hpp"
 
 namespace torquescope {
@@ -165,6 +166,7 @@ void Regressor::columns_of_term(Motion const& motion, std::size_t term, Eigen::R
 
 Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
   Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(size()));
+  in_huge_pages(phi);
   Eigen::Index first = 0;
   for (std::size_t term = 0; term < terms_.size(); ++term) {
     auto const count = static_cast<Eigen::Index>(terms_[term]->parameters().size());

@@ -9,9 +9,9 @@
 namespace torquescope {
 namespace {
 
-// residuals that are held at one time
-constexpr Eigen::Index block_rows = 8192;
-constexpr std::size_t most_together = 8;
+// residuals that are held at one time: they stay in the first cache until their squares are summed
+constexpr Eigen::Index block_rows = 1024;
+constexpr std::size_t most_together = 4;
 
 using Candidates = std::span<Eigen::VectorXd const>;
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/huge_pages.hpp"
 
 namespace torquescope {
 namespace {
@@ -23,6 +24,7 @@ Eigen::MatrixXd columns_using_up(Motion& motion, Regressor const& regressor) {
   };
   // pages of phi are taken from the system when they are written, column by column
   Eigen::MatrixXd phi(n, static_cast<Eigen::Index>(columns.size()));
+  in_huge_pages(phi);
   Eigen::Index column = 0;
   for (std::size_t term = 0; term < regressor.terms().size(); ++term) {
     bool position = false, velocity = false, acceleration = false, time = false;

@@ -42,15 +42,6 @@ std::string advice(RegressionData const& data, std::vector<std::size_t> const& m
   return listed(wanted) + " would help";
 }
 
-Eigen::MatrixXd products_of(RegressionData const& data, RowScaling const& scaling) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(data.parameters(), data.parameters());
-  for (Eigen::Index first = 0; first < data.rows(); first += reduced_block_rows) {
-    Eigen::MatrixXd const rows = scaled_rows(data, scaling, first, std::min(reduced_block_rows, data.rows() - first));
-    sum += rows.transpose() * rows;
-  }
-  return sum;
-}
-
 double condition(Eigen::VectorXd const& singular_values) {
   double const least = singular_values[singular_values.size() - 1];
   return least > 0.0 ? singular_values[0] / least : std::numeric_limits<double>::infinity();
@@ -110,7 +101,7 @@ RegressorHealth regressor_health(RegressionData const& data, Reductions const& r
     health.words = few_rows_words(data);
     return health;
   }
-  health.correlation = products_of(data, {{}, reductions.length.cwiseInverse()});
+  health.correlation = reductions.unit_columns.phi.transpose() * reductions.unit_columns.phi;
   auto const svd = right_svd(reductions.unit_columns);
   health.condition_number = condition(svd.singularValues());
   health.condition_number_raw = condition(right_svd(reductions.raw).singularValues());

@@ -51,10 +51,11 @@ ReducedRows reduce_rows(RegressionData const& data, RowScaling const& scaling, E
 
 Reductions reductions_of(RegressionData const& data) {
   Reductions reductions;
-  reductions.length = column_lengths(data);
-  for (auto& length : reductions.length) length = length > 0.0 ? length : 1.0;
-  reductions.unit_columns = reduce_rows(data, {{}, reductions.length.cwiseInverse()});
   reductions.raw = reduce_rows(data);
+  // orthogonal transformations keep lengths, and scaling a column before or after them is the same
+  reductions.length = reductions.raw.phi.colwise().norm();
+  for (auto& length : reductions.length) length = length > 0.0 ? length : 1.0;
+  reductions.unit_columns = {reductions.raw.phi * reductions.length.cwiseInverse().asDiagonal(), reductions.raw.tau};
   return reductions;
 }
 

@@ -68,8 +68,18 @@ void check_same_rate(std::vector<Recording> const& recordings, Section const& se
   }
 }
 
-void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan) {
+// a diagnosis looks at the channels again, a fit only at its rows
+enum class Channels { kept, taken };
+
+void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan, Channels channels) {
   auto simulated = simulate_recordings(plan, static_cast<std::uint64_t>(parts.experiment.seed));
+  auto const add_reference = [](Recording& recording) {
+    if (recording.reference.size() == 0) recording.reference = recording.position;  // an exact motion
+  };
+  if (channels == Channels::kept) {
+    add_reference(simulated.train);
+    for (auto& recording : simulated.validate) add_reference(recording);
+  }
   parts.train.simulated = true;
   parts.train.recordings.push_back(std::move(simulated.train));
   if (!simulated.validate.empty()) parts.validate = DataSet{std::move(simulated.validate), {}, {}, true};
@@ -88,9 +98,6 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
     check_same_rate(parts.validate->recordings, section);
   }
 }
-
-// a diagnosis looks at the channels again, a fit only at its rows
-enum class Channels { kept, taken };
 
 void forget_channels(Recording& recording) {
   for (auto* channel : {&recording.time_s, &recording.position, &recording.torque, &recording.reference,
@@ -211,11 +218,11 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   // then the data
   auto const n = static_cast<Eigen::Index>(parts->regressor->size());
   parts->truth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
   if (simulates)
-    use_simulation(*parts, plan);
+    use_simulation(*parts, plan, channels);
   else
     use_files(*parts, recording);
-  auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
   prepare(parts->train, *parts, channels);
   if (parts->validate) prepare(*parts->validate, *parts, channels);
   auto const& rows = parts->train.regression;

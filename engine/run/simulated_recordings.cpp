@@ -16,8 +16,7 @@ Recording as_recording(SimulatedRecording&& simulated) {
   recording.position = std::move(simulated.position);
   recording.torque = std::move(simulated.torque);
   simulated.true_torque = Eigen::VectorXd();
-  // after an exact motion it is the position itself
-  recording.reference = simulated.has_exact_motion ? recording.position : std::move(simulated.reference);
+  recording.reference = std::move(simulated.reference);
   if (simulated.has_exact_motion) {
     recording.velocity = std::move(simulated.true_velocity);
     recording.acceleration = std::move(simulated.true_acceleration);
@@ -39,10 +38,11 @@ SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Prob
 
 SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed) {
   SimulatedRecordings recordings;
-  SimulatedRecording train = simulate_joint(plan, seed, 0);
+  SimulatedRecording train = simulate_joint(plan, seed, 0, TrueTorque::left_out);
   for (auto const& value : train.truth) recordings.truth.emplace_back(value.name, value.value);
   recordings.train = as_recording(std::move(train));
-  if (plan.simulation.validate) recordings.validate.push_back(as_recording(simulate_joint(plan, seed, 1)));
+  if (plan.simulation.validate)
+    recordings.validate.push_back(as_recording(simulate_joint(plan, seed, 1, TrueTorque::left_out)));
   return recordings;
 }
 

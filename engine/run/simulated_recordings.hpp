@@ -22,6 +22,7 @@ struct SimulatedRecordings {
 
 // problems are appended; the plan is usable only when there are none
 SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Problem>& problems);
+// the reference of an exact motion is its position, and left out
 SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed);
 
 }  // namespace torquescope

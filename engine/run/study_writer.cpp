@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/effects/joint_form.hpp"
 
 namespace torquescope {
@@ -69,8 +71,13 @@ void write_samples(ResultWriter& writer, std::string const& group, RegressionDat
   writer.whole_numbers_in_blocks(
       group + "/recording", {n},
       [&](std::size_t first, std::span<std::int64_t> values) {
-        for (std::size_t i = 0; i < values.size(); ++i)
-          values[i] = static_cast<std::int64_t>(data.recording_of(static_cast<Eigen::Index>(first + i)));
+        for (std::size_t i = 0; i < values.size();) {
+          std::size_t const k = data.recording_of(static_cast<Eigen::Index>(first + i));
+          std::size_t const end = std::min(values.size(), static_cast<std::size_t>(data.first_row[k + 1]) - first);
+          std::fill(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(end),
+                    static_cast<std::int64_t>(k));
+          i = end;
+        }
       },
       {"1", "index of the recording"});
   writer.numbers(group + "/position", {n}, numbers_of(data.q), {length, "position"});

@@ -1,11 +1,13 @@
 #include "engine/simulate/exact_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/base/huge_pages.hpp"
 #include "engine/simulate/orthogonal_noise.hpp"
 
 namespace torquescope {
@@ -14,6 +16,7 @@ namespace {
 
 // samples whose columns are held at one time
 constexpr Eigen::Index block_samples = 4096;
+constexpr Eigen::Index noise_together = 256;
 
 // columns of every linear parameter
 Eigen::MatrixXd columns_of(std::vector<PlantTerm> const& terms, Motion const& motion) {
@@ -57,6 +60,7 @@ Eigen::VectorXd torque_of(std::vector<PlantTerm> const& terms, Motion const& mot
   if (has_memory(terms)) return columns_of(terms, motion) * parameters;
   Eigen::Index const n = motion.q.size();
   Eigen::VectorXd torque(n);
+  in_huge_pages(torque);
   for (Eigen::Index first = 0; first < n; first += block_samples) {
     Eigen::Index const count = std::min(block_samples, n - first);
     torque.segment(first, count) = columns_of(terms, block_of(motion, first, count)) * parameters;
@@ -67,7 +71,10 @@ Eigen::VectorXd torque_of(std::vector<PlantTerm> const& terms, Motion const& mot
 Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index samples) {
   Motion motion;
   motion.rate_hz = rate_hz;
-  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) channel->resize(samples);
+  for (auto* channel : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) {
+    channel->resize(samples);
+    in_huge_pages(*channel);
+  }
   for (Eigen::Index i = 0; i < samples; ++i) motion.time_s[i] = static_cast<double>(i) / rate_hz;
   auto const numbers = [](Eigen::VectorXd& column) {
     return std::span(column.data(), static_cast<std::size_t>(column.size()));
@@ -78,7 +85,7 @@ Motion exact_motion(Reference const& reference, double rate_hz, Eigen::Index sam
 
 }  // namespace
 
-void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key,
+void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key, TrueTorque truth,
                          SimulatedRecording& recording) {
   NoiseOptions const& noise = plan.noise;
   double const rate_hz = plan.simulation.rate_hz;
@@ -99,8 +106,21 @@ void record_exact_motion(SimulationPlan const& plan, Reference const& reference,
   ColouredNoise white(key, NoiseStream::torque_white, white_std, 0.0, rate_hz);
   ColouredNoise coloured(key, NoiseStream::torque_coloured, noise.torque_coloured_std, noise.torque_coloured_s,
                          rate_hz);
-  recording.torque = recording.true_torque;
-  for (double& torque : recording.torque) torque += white.next() + coloured.next();
+  // the noise comes on top of it: a copy only for who wants both
+  if (truth == TrueTorque::left_out) {
+    recording.torque = std::move(recording.true_torque);
+    recording.true_torque = Eigen::VectorXd();
+  } else {
+    recording.torque = recording.true_torque;
+  }
+  std::array<double, noise_together> of_white, of_coloured;
+  for (Eigen::Index first = 0; first < recording.torque.size(); first += noise_together) {
+    Eigen::Index const count = std::min<Eigen::Index>(noise_together, recording.torque.size() - first);
+    white.next(std::span(of_white).first(static_cast<std::size_t>(count)));
+    coloured.next(std::span(of_coloured).first(static_cast<std::size_t>(count)));
+    for (Eigen::Index i = 0; i < count; ++i)
+      recording.torque[first + i] += of_white[static_cast<std::size_t>(i)] + of_coloured[static_cast<std::size_t>(i)];
+  }
 }
 
 }  // namespace torquescope

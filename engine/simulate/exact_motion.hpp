@@ -10,7 +10,7 @@
 namespace torquescope {
 
 // `key.run` is the index of the recording
-void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key,
+void record_exact_motion(SimulationPlan const& plan, Reference const& reference, RandomKey const& key, TrueTorque truth,
                          SimulatedRecording& recording);
 
 }  // namespace torquescope

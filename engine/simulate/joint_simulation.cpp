@@ -1,13 +1,39 @@
 #include "engine/simulate/joint_simulation.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "engine/base/contract.hpp"
-#include "engine/base/digest.hpp"
+#include "engine/base/digest_batch.hpp"
 #include "engine/simulate/closed_loop.hpp"
 #include "engine/simulate/exact_motion.hpp"
 
 namespace torquescope {
 
-SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index) {
+namespace {
+
+// of what a job can see: rate, number of samples (both say the time) and every channel, an array of two names once
+std::string digest_of(SimulatedRecording const& recording) {
+  Digest digest;
+  auto const samples = static_cast<double>(recording.time_s.size());
+  digest.numbers({&recording.rate_hz, 1}).numbers({&samples, 1});
+  std::vector<Eigen::VectorXd const*> digested{&recording.time_s};
+  for (auto const& column : columns(recording)) {
+    if (column.channel.empty()) continue;
+    digest.text(column.channel).text(column.name);
+    if (std::find(digested.begin(), digested.end(), column.values) != digested.end()) continue;
+    digested.push_back(column.values);
+    auto const n = static_cast<std::size_t>(column.values->size());
+    Sha256 const of_values = sha256_by_blocks(std::as_bytes(std::span(column.values->data(), n)));
+    digest.bytes(of_values.data(), of_values.size());
+  }
+  return digest.hex();
+}
+
+}  // namespace
+
+SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index,
+                                  TrueTorque truth) {
   RandomKey const key{plan.simulation.seed >= 0 ? static_cast<std::uint64_t>(plan.simulation.seed) : experiment_seed,
                       index, RandomDomain::simulation};
   auto const reference = make_reference(plan.reference, plan.simulation.duration_s, key);
@@ -18,15 +44,11 @@ SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t expe
   recording.rate_hz = plan.simulation.rate_hz;
   recording.truth = truth_values(plan.plant, plan.joint);
   if (plan.simulation.mode == "inverse_dynamics")
-    record_exact_motion(plan, *reference, key, recording);
+    record_exact_motion(plan, *reference, key, truth, recording);
   else
     record_closed_loop(plan, *reference, key, recording);
 
-  Digest digest;
-  digest.numbers({&recording.rate_hz, 1});
-  for (auto const& column : columns(recording))
-    digest.text(column.name).numbers({column.values->data(), static_cast<std::size_t>(column.values->size())});
-  recording.sha256 = digest.hex();
+  recording.sha256 = digest_of(recording);
   return recording;
 }
 

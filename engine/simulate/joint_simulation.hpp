@@ -22,7 +22,7 @@ namespace torquescope {
 
 struct SimulatedRecording {
   std::string name;    // "simulated", "simulated_unseen"
-  std::string sha256;  // of rate and channels
+  std::string sha256;  // of rate, number of samples and channels; by blocks (base/digest_batch.hpp)
   JointKind joint = JointKind::revolute;
   double rate_hz = 0.0;
   // inverse_dynamics: velocity and acceleration are channels of the recording; reference and true_position are the
@@ -42,7 +42,10 @@ struct SimulatedRecording {
 };
 
 // index 0 is the recording to learn from, 1 the unseen one (plan.simulation.validate)
-SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0);
+// true_torque may stay empty, for who has no use for it: 8 bytes per sample
+enum class TrueTorque { kept, left_out };
+SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0,
+                                  TrueTorque truth = TrueTorque::kept);
 
 struct SimulatedColumn {
   std::string name;     // "q_rad"

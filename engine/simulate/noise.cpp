@@ -84,4 +84,9 @@ double ColouredNoise::next() {
   return value_;
 }
 
+void ColouredNoise::next(std::span<double> values) {
+  if (std_ == 0.0) return std::fill(values.begin(), values.end(), 0.0);
+  for (double& value : values) value = next();
+}
+
 }  // namespace torquescope

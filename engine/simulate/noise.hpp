@@ -51,6 +51,7 @@ class ColouredNoise {
  public:
   ColouredNoise(RandomKey const& key, NoiseStream stream, double std, double correlation_s, double rate_hz);
   double next();
+  void next(std::span<double> values);  // as many
 
  private:
   RandomKey key_;

@@ -34,19 +34,26 @@ class Ramped : public Reference {
   ReferencePoint at(double time_s) const override { return ramped(time_s, oscillation_->at(time_s)); }
 
   void at_each(std::span<double const> times_s, ReferenceColumns const& points) const override {
-    oscillation_->at_each(times_s, points);
-    for (std::size_t i = 0; i < times_s.size(); ++i)
-      points.set(i, ramped(times_s[i], {points.q[i], points.dq[i], points.ddq[i]}));
+    // both in a stretch that stays in the cache
+    for (std::size_t first = 0; first < times_s.size(); first += times_together) {
+      std::size_t const count = std::min(times_together, times_s.size() - first);
+      auto const times = times_s.subspan(first, count);
+      ReferenceColumns const block{points.q.subspan(first, count), points.dq.subspan(first, count),
+                                   points.ddq.subspan(first, count)};
+      oscillation_->at_each(times, block);
+      for (std::size_t i = 0; i < count; ++i) block.set(i, ramped(times[i], {block.q[i], block.dq[i], block.ddq[i]}));
+    }
   }
 
  private:
+  static constexpr std::size_t times_together = 512;
+
   ReferencePoint ramped(double time_s, ReferencePoint const& p) const {
-    ReferencePoint w{1.0, 0.0, 0.0};
-    if (ramp_s_ > 0.0) {
-      w = smooth_step(time_s / ramp_s_);
-      w.dq /= ramp_s_;
-      w.ddq /= ramp_s_ * ramp_s_;
-    }
+    if (ramp_s_ == 0.0 || time_s >= ramp_s_)
+      return {centre_ + scale_ * p.q, scale_ * p.dq, scale_ * p.ddq};
+    ReferencePoint w = smooth_step(time_s / ramp_s_);
+    w.dq /= ramp_s_;
+    w.ddq /= ramp_s_ * ramp_s_;
     return {centre_ + scale_ * (w.q * p.q), scale_ * (w.q * p.dq + w.dq * p.q),
             scale_ * (w.q * p.ddq + 2.0 * w.dq * p.dq + w.ddq * p.q)};
   }

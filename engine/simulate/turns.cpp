@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "engine/base/contract.hpp"
@@ -13,6 +14,8 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "kernels/fused-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -20,21 +23,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Doubles = hn::ScalableTag<double>;
 using Vector = hn::Vec<Doubles>;
 
-// a / b for a whole number b below 512, rounded like the division. With y = 1 / b rounded, q = a y is within two units in
-// the last place of the quotient, a - q b is exact, and one correction leaves an error far below 1 / (2 b) of a unit: no
-// quotient of a double by such a b is nearer than that to the middle between two doubles. Only where there is no
-// fused multiply-add, and for quotients below the normal numbers (whose sine is its argument), is it the division itself
-HWY_INLINE Vector divided(Vector a, double b) {
-  Doubles const d;
-#if HWY_NATIVE_FMA
-  Vector const inverse = hn::Set(d, 1.0 / b);
-  Vector const quotient = hn::Mul(a, inverse);
-  Vector const rest = hn::NegMulAdd(quotient, hn::Set(d, b), a);
-  return hn::MulAdd(rest, inverse, quotient);
-#else
-  return hn::Div(a, hn::Set(d, b));
-#endif
-}
+// (sin x - x) / x^3 and (cos x - 1 + x^2 / 2) / x^4 as polynomials of x^2 on [-pi/4, pi/4] (fdlibm k_sin, k_cos)
+inline constexpr double of_sine[] = {-1.66666666666666324348e-01, 8.33333333332248946124e-03,
+                                     -1.98412698298579493134e-04, 2.75573137070700676789e-06,
+                                     -2.50507602534068634195e-08, 1.58969099521155010221e-10};
+inline constexpr double of_cosine[] = {4.16666666666666019037e-02, -1.38888888888741095749e-03,
+                                       2.48015872894767294178e-05, -2.75573143513906633035e-07,
+                                       2.08757232129817482790e-09, -1.13596475577881948265e-11};
 
 // by the nearer whole turn; 0 is added so that -0 becomes 0
 HWY_INLINE Vector within_half_a_turn(Vector turns) {
@@ -43,61 +38,96 @@ HWY_INLINE Vector within_half_a_turn(Vector turns) {
   return hn::Add(rest, hn::Zero(d));
 }
 
-template <std::size_t n_vectors>
-HWY_INLINE void sines_of_vectors(Vector (&values)[n_vectors]) {
+// coefficients[0] + z (coefficients[1] + z (...))
+template <std::size_t n>
+HWY_INLINE Vector polynomial(Vector z, double const (&coefficients)[n]) {
   Doubles const d;
-  Vector const one = hn::Set(d, 1.0), quarter = hn::Set(d, 0.25), half = hn::Set(d, 0.5);
-  Vector x[n_vectors], negative_square[n_vectors], sum[n_vectors];
-  for (std::size_t i = 0; i < n_vectors; ++i) {
-    // one turn about zero, then the quarter in which the series is short: sin(pi - x) = sin(x)
-    Vector rest = within_half_a_turn(values[i]);
-    rest = hn::IfThenElse(hn::Gt(rest, quarter), hn::Sub(half, rest), rest);
-    rest = hn::IfThenElse(hn::Lt(rest, hn::Neg(quarter)), hn::Sub(hn::Neg(half), rest), rest);
-    x[i] = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi), rest);
-    negative_square[i] = hn::Neg(hn::Mul(x[i], x[i]));
-    sum[i] = hn::Zero(d);
-  }
-  // x - x^3/3! + ... to x^23: below 1e-20 at a quarter turn
-  for (int n = 22; n >= 2; n -= 2) {
-    double const factor = n * (n + 1);
-    for (std::size_t i = 0; i < n_vectors; ++i)
-      sum[i] = divided(hn::Mul(hn::Add(sum[i], one), negative_square[i]), factor);
-  }
-  for (std::size_t i = 0; i < n_vectors; ++i) values[i] = hn::Add(x[i], hn::Mul(x[i], sum[i]));
+  Vector value = hn::Set(d, coefficients[n - 1]);
+  for (std::size_t k = n - 1; k-- > 0;)
+    value = kernels::HWY_NAMESPACE::fused_mul_add(value, z, hn::Set(d, coefficients[k]));
+  return value;
 }
 
-constexpr std::size_t side_by_side = 2;  // of sines, and as many of cosines: what one waits for the others use
+struct SineCosine {
+  Vector sine, cosine;
+};
+
+// what a single angle waits for, the next ones use: the loop over an array overlaps them
+HWY_INLINE SineCosine sine_cosine_of(Vector turns) {
+  using kernels::HWY_NAMESPACE::fused_mul_add;
+  Doubles const d;
+  hn::RebindToSigned<Doubles> const bits;
+  Vector const one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
+
+  // turns = whole + quarters / 4 + rest without rounding, |rest| <= 1 / 8; the number of quarters in the last bits
+  Vector const within = within_half_a_turn(turns);
+  Vector const round_to_integer = hn::Set(d, 0x1.8p52);
+  Vector const shifted = hn::Add(hn::Mul(within, hn::Set(d, 4.0)), round_to_integer);
+  Vector const quarters = hn::Sub(shifted, round_to_integer);
+  Vector const rest = hn::Sub(within, hn::Mul(quarters, hn::Set(d, 0.25)));
+  Vector const x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi), rest), square = hn::Mul(x, x);
+
+  Vector const sine = fused_mul_add(hn::Mul(x, square), polynomial(square, of_sine), x);
+  // 1 - x^2 / 2 with what its rounding took
+  Vector const half_square = hn::Mul(half, square), first = hn::Sub(one, half_square);
+  Vector const lost = hn::Sub(hn::Sub(one, first), half_square);
+  Vector const cosine = hn::Add(first, fused_mul_add(hn::Mul(square, square), polynomial(square, of_cosine), lost));
+
+  // odd quarters exchange the two, then each has its sign
+  auto const quarter = hn::BitCast(bits, shifted), single = hn::Set(bits, std::int64_t{1});
+  auto const is_odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(quarter, single))));
+  auto const sign = [&](auto count) {
+    return hn::BitCast(d, hn::ShiftLeft<62>(hn::And(count, hn::Set(bits, std::int64_t{2}))));
+  };
+  return {hn::Xor(hn::IfThenElse(is_odd, cosine, sine), sign(quarter)),
+          hn::Xor(hn::IfThenElse(is_odd, sine, cosine), sign(hn::Add(quarter, single)))};
+}
 
 template <bool with_cosines>
-HWY_INLINE void sines_of_block(double const* turns, double* sines, double* cosines) {
+HWY_INLINE void store(SineCosine const& both, double* sines, double* cosines) {
   Doubles const d;
-  std::size_t const lanes = hn::Lanes(d);
-  constexpr std::size_t n_vectors = with_cosines ? 2 * side_by_side : side_by_side;
-  Vector values[n_vectors];
-  for (std::size_t i = 0; i < side_by_side; ++i) {
-    values[i] = hn::LoadU(d, turns + i * lanes);
-    if constexpr (with_cosines) values[side_by_side + i] = hn::Add(within_half_a_turn(values[i]), hn::Set(d, 0.25));
-  }
-  sines_of_vectors(values);
-  for (std::size_t i = 0; i < side_by_side; ++i) {
-    hn::StoreU(values[i], d, sines + i * lanes);
-    if constexpr (with_cosines) hn::StoreU(values[side_by_side + i], d, cosines + i * lanes);
-  }
+  hn::StoreU(both.sine, d, sines);
+  if constexpr (with_cosines) hn::StoreU(both.cosine, d, cosines);
 }
 
 template <bool with_cosines>
 void all_sines(double const* turns, std::size_t n, double* sines, double* cosines) {
-  constexpr std::size_t most_lanes = hn::MaxLanes(Doubles());
-  std::size_t const block = side_by_side * hn::Lanes(Doubles());
+  Doubles const d;
+  constexpr std::size_t lanes = hn::MaxLanes(Doubles());
   std::size_t first = 0;
-  for (; first + block <= n; first += block)
-    sines_of_block<with_cosines>(turns + first, sines + first, with_cosines ? cosines + first : nullptr);
+  for (; first + lanes <= n; first += lanes)
+    store<with_cosines>(sine_cosine_of(hn::LoadU(d, turns + first)), sines + first,
+                        with_cosines ? cosines + first : nullptr);
   if (first == n) return;
-  double rest[side_by_side * most_lanes] = {}, sine[side_by_side * most_lanes], cosine[side_by_side * most_lanes];
+  double rest[lanes] = {}, sine[lanes], cosine[lanes];
   std::copy_n(turns + first, n - first, rest);
-  sines_of_block<with_cosines>(rest, sine, cosine);
+  store<with_cosines>(sine_cosine_of(hn::LoadU(d, rest)), sine, cosine);
   std::copy_n(sine, n - first, sines + first);
   if (with_cosines) std::copy_n(cosine, n - first, cosines + first);
+}
+
+// one vector of times; every array has room for it
+HWY_INLINE void add_line_to_vector(SineLine const& line, double const* times, double* q, double* dq, double* ddq) {
+  Doubles const d;
+  Vector const angle = hn::Mul(hn::LoadU(d, times), hn::Set(d, line.frequency_hz));
+  SineCosine const both = sine_cosine_of(hn::Add(angle, hn::Set(d, line.phase_turns)));
+  hn::StoreU(hn::Add(hn::LoadU(d, q), hn::Mul(both.sine, hn::Set(d, line.inverse_omega))), d, q);
+  hn::StoreU(hn::Add(hn::LoadU(d, dq), both.cosine), d, dq);
+  hn::StoreU(hn::Sub(hn::LoadU(d, ddq), hn::Mul(both.sine, hn::Set(d, line.omega))), d, ddq);
+}
+
+void add_line(SineLine const& line, double const* times, std::size_t n, double* q, double* dq, double* ddq) {
+  constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+  std::size_t first = 0;
+  for (; first + lanes <= n; first += lanes)
+    add_line_to_vector(line, times + first, q + first, dq + first, ddq + first);
+  if (first == n) return;
+  double padded[4][lanes] = {};
+  double* const columns[] = {q + first, dq + first, ddq + first};
+  std::copy_n(times + first, n - first, padded[3]);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(columns[k], n - first, padded[k]);
+  add_line_to_vector(line, padded[3], padded[0], padded[1], padded[2]);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(padded[k], n - first, columns[k]);
 }
 
 void sines_only(double const* turns, std::size_t n, double* sines) { all_sines<false>(turns, n, sines, nullptr); }
@@ -114,9 +144,7 @@ namespace {
 
 TORQUESCOPE_EXPORT(sines_only);
 TORQUESCOPE_EXPORT(sines_and_cosines);
-
-// by the nearer whole turn, so that a quarter can be added without rounding the angle
-double ahead_by_a_quarter(double turns) { return (turns - std::floor(turns + 0.5)) + 0.25; }
+TORQUESCOPE_EXPORT(add_line);
 
 }  // namespace
 
@@ -130,13 +158,23 @@ void sines_cosines_of_turns(std::span<double const> turns, std::span<double> sin
   TORQUESCOPE_DISPATCH(sines_and_cosines)(turns.data(), turns.size(), sines.data(), cosines.data());
 }
 
+void add_sine_line(SineLine const& line, std::span<double const> times_s, std::span<double> q, std::span<double> dq,
+                   std::span<double> ddq) {
+  TORQUESCOPE_EXPECT(q.size() == times_s.size() && dq.size() == times_s.size() && ddq.size() == times_s.size());
+  TORQUESCOPE_DISPATCH(add_line)(line, times_s.data(), times_s.size(), q.data(), dq.data(), ddq.data());
+}
+
 double sine_of_turns(double turns) {
   double sine = 0.0;
   sines_of_turns({&turns, 1}, {&sine, 1});
   return sine;
 }
 
-double cosine_of_turns(double turns) { return sine_of_turns(ahead_by_a_quarter(turns)); }
+double cosine_of_turns(double turns) {
+  double sine = 0.0, cosine = 0.0;
+  sines_cosines_of_turns({&turns, 1}, {&sine, 1}, {&cosine, 1});
+  return cosine;
+}
 
 }  // namespace torquescope
 #endif  // HWY_ONCE

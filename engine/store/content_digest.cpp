@@ -1,9 +1,11 @@
 #include "engine/store/content_digest.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/digest_batch.hpp"
 #include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
@@ -182,29 +184,62 @@ bool ContentDigest::has_dataset(std::string const& path) const {
   return known != objects_.end() && !known->second.element.empty();
 }
 
+ContentDigest::Waiting* ContentDigest::waiting_of_size(std::size_t bytes) {
+  for (auto& waiting : waiting_)
+    if (waiting.is_there && waiting.values.size() == bytes) return &waiting;
+  return nullptr;
+}
+
 void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
   Object& dataset = object(path);
   TORQUESCOPE_EXPECT(index < dataset.blocks.size());
   auto const* const first = static_cast<std::byte const*>(values);
-  if (waiting_.is_there) {
-    auto const both = sha256_of_two(waiting_.values, {first, bytes});
-    object(waiting_.path).blocks[waiting_.index] = both.first;
+  if (Waiting* const other = waiting_of_size(bytes)) {
+    auto const both = sha256_of_two(other->values, {first, bytes});
+    object(other->path).blocks[other->index] = both.first;
     dataset.blocks[index] = both.second;
-    waiting_.is_there = false;
-  } else if (bytes <= most_waiting_bytes) {
-    waiting_.is_there = true;
-    waiting_.path = path;
-    waiting_.index = index;
-    waiting_.values.assign(first, first + bytes);
-  } else {
-    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+    other->is_there = false;
+    return;
   }
+  if (bytes > most_waiting_bytes) {
+    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
+    return;
+  }
+  auto const is_free = [](Waiting const& waiting) { return !waiting.is_there; };
+  auto place = std::find_if(waiting_.begin(), waiting_.end(), is_free);
+  if (place == waiting_.end()) digest_waiting(*(place = waiting_.begin()));
+  place->is_there = true;
+  place->path = path;
+  place->index = index;
+  place->values.assign(first, first + bytes);
 }
 
-void ContentDigest::digest_waiting() {
-  if (!waiting_.is_there) return;
-  object(waiting_.path).blocks[waiting_.index] = Digest().bytes(waiting_.values.data(), waiting_.values.size()).raw();
-  waiting_.is_there = false;
+void ContentDigest::blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
+                           std::size_t block_bytes) {
+  Object& dataset = object(path);
+  std::size_t const n_blocks = values.size() / block_bytes;
+  TORQUESCOPE_EXPECT(values.size() % block_bytes == 0 && first_index + n_blocks <= dataset.blocks.size());
+  auto const block_at = [&](std::size_t i) { return values.subspan(i * block_bytes, block_bytes); };
+  auto const repeats = [&](std::size_t i) {
+    return i > 0 && std::memcmp(block_at(i).data(), block_at(i - 1).data(), block_bytes) == 0;
+  };
+  std::vector<std::size_t> repeating, others;
+  for (std::size_t i = 0; i < n_blocks; ++i) (repeats(i) ? repeating : others).push_back(i);
+  // a single one may as well wait for the next, unless others repeat it
+  if (others.size() == 1 && repeating.empty()) return block(path, first_index, values.data(), block_bytes);
+  std::vector<std::byte const*> texts;
+  for (std::size_t const i : others) texts.push_back(block_at(i).data());
+  std::vector<Sha256> digests(texts.size());
+  sha256_of_each(texts, block_bytes, digests.data());
+  Sha256* const first = dataset.blocks.data() + first_index;
+  for (std::size_t i = 0; i < others.size(); ++i) first[others[i]] = digests[i];
+  for (std::size_t const i : repeating) first[i] = first[i - 1];
+}
+
+void ContentDigest::digest_waiting(Waiting& waiting) {
+  if (!waiting.is_there) return;
+  object(waiting.path).blocks[waiting.index] = Digest().bytes(waiting.values.data(), waiting.values.size()).raw();
+  waiting.is_there = false;
 }
 
 void ContentDigest::texts(std::string const& path, std::span<std::string const> texts) {
@@ -216,7 +251,7 @@ void ContentDigest::texts(std::string const& path, std::span<std::string const> 
 }
 
 std::string ContentDigest::hex(FilePart part) {
-  digest_waiting();
+  for (auto& waiting : waiting_) digest_waiting(waiting);
   Digest digest;
   for (auto const& [path, object] : objects_) {
     if (is_volatile(path) != (part == FilePart::provenance)) continue;
@@ -236,13 +271,15 @@ ArrayDigest::ArrayDigest(ContentDigest& digest, std::string path, h5::Element el
 
 void ArrayDigest::add(std::span<std::byte const> values) {
   while (!values.empty()) {
-    bool const is_whole = begun_.empty() && values.size() >= block_bytes_;
-    auto const part = values.first(std::min(block_bytes_ - begun_.size(), values.size()));
-    values = values.subspan(part.size());
-    if (is_whole) {
-      digest_.block(path_, index_++, part.data(), part.size());
+    if (begun_.empty() && values.size() >= block_bytes_) {
+      std::size_t const n_whole = values.size() / block_bytes_;
+      digest_.blocks(path_, index_, values.first(n_whole * block_bytes_), block_bytes_);
+      index_ += n_whole;
+      values = values.subspan(n_whole * block_bytes_);
       continue;
     }
+    auto const part = values.first(std::min(block_bytes_ - begun_.size(), values.size()));
+    values = values.subspan(part.size());
     begun_.insert(begun_.end(), part.begin(), part.end());
     if (begun_.size() == block_bytes_) end();
   }

@@ -14,6 +14,7 @@
 // Memory     32 bytes per block and attribute; content_digest(): 4 MiB of values (or one row of a dataset, if more)
 // Threads    one at a time
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -46,12 +47,16 @@ class ContentDigest {
   bool has_dataset(std::string const& path) const;
   // row-major values of the rows of one block
   void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
+  // several blocks of block_bytes each, one after the other: none is copied, and one that repeats the one before (a
+  // column of one value) is not digested again
+  void blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
+              std::size_t block_bytes);
   void texts(std::string const& path, std::span<std::string const> texts);
 
   std::string hex(FilePart part = FilePart::content);
 
  private:
-  // a block of values that waits for another one: two are digested in little more than the time of one
+  // a block of values that waits for another one of its size: two are digested in little more than the time of one
   struct Waiting {
     bool is_there = false;
     std::string path{};
@@ -68,10 +73,11 @@ class ContentDigest {
 
   Object& object(std::string const& path);  // with all the groups that lead to it
 
-  void digest_waiting();
+  Waiting* waiting_of_size(std::size_t bytes);
+  void digest_waiting(Waiting& waiting);
 
   std::map<std::string, Object> objects_;
-  Waiting waiting_;
+  std::array<Waiting, 2> waiting_;  // populations and fitness come in turns
 };
 
 // Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.

@@ -121,6 +121,10 @@ std::vector<std::string> ResultReader::children(std::string const& group) const 
   });
 }
 
+h5::Shape ResultReader::shape(std::string const& path) const {
+  return guarded(path, [&] { return h5::describe(h5::open_object(file_, path)).shape; });
+}
+
 ResultReader::Numbers ResultReader::numbers(std::string const& path) const {
   return guarded(path, [&] { return read_array<Numbers>(file_, path, h5::Element::number); });
 }

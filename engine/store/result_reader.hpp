@@ -38,6 +38,8 @@ class ResultReader {
   bool exists(std::string const& path) const;
   std::vector<std::string> children(std::string const& group) const;  // names sorted by bytes
 
+  // of a dataset, whatever it holds; its values are not read
+  h5::Shape shape(std::string const& path) const;
   Numbers numbers(std::string const& path) const;
   WholeNumbers whole_numbers(std::string const& path) const;
   // rows [first, first + count) of the first dimension alone; 65 when there are fewer

@@ -72,13 +72,15 @@ EstimatorSummary read_estimator(ResultReader const& reader, std::string const& n
   return summary;
 }
 
+std::size_t samples_of(h5::Shape const& shape) { return shape.empty() ? 1 : shape.front(); }
+
 DataSummary read_data(ResultReader const& reader, std::string const& group) {
   DataSummary summary;
   summary.recordings =
       reader.find_attribute<std::vector<std::string>>(group, "recordings").value_or(std::vector<std::string>{});
   // without its samples a result says how many there were
   summary.samples = reader.exists(group + "/time")
-                        ? static_cast<std::int64_t>(reader.numbers(group + "/time").values.size())
+                        ? static_cast<std::int64_t>(samples_of(reader.shape(group + "/time")))
                         : reader.attribute<std::int64_t>(group, "samples");
   summary.rate_hz = number_or_nan(reader, group, "rate_hz");
   summary.kept_rate_hz = number_or_nan(reader, group, "kept_rate_hz");

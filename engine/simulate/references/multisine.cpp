@@ -19,13 +19,9 @@ namespace torquescope {
 
 namespace {
 
-struct Line {
-  double frequency_hz, phase_turns;
-};
-
 class Multisine : public Reference {
  public:
-  explicit Multisine(std::vector<Line> lines) : lines_(std::move(lines)) {}
+  explicit Multisine(std::vector<SineLine> lines) : lines_(std::move(lines)) {}
 
   ReferencePoint at(double time_s) const override {
     ReferencePoint sum;
@@ -35,12 +31,13 @@ class Multisine : public Reference {
   }
 
   void at_each(std::span<double const> times_s, ReferenceColumns const& points) const override {
-    for (auto const& column : {points.q, points.dq, points.ddq}) std::fill(column.begin(), column.end(), 0.0);
     for (std::size_t first = 0; first < times_s.size(); first += times_together) {
       std::size_t const count = std::min(times_together, times_s.size() - first);
-      for (Line const& line : lines_)
-        add(line, times_s.subspan(first, count),
-            {points.q.subspan(first, count), points.dq.subspan(first, count), points.ddq.subspan(first, count)});
+      ReferenceColumns const block{points.q.subspan(first, count), points.dq.subspan(first, count),
+                                   points.ddq.subspan(first, count)};
+      for (auto const& column : {block.q, block.dq, block.ddq}) std::fill(column.begin(), column.end(), 0.0);
+      for (SineLine const& line : lines_)
+        add_sine_line(line, times_s.subspan(first, count), block.q, block.dq, block.ddq);
     }
   }
 
@@ -48,35 +45,19 @@ class Multisine : public Reference {
   static constexpr std::size_t side_by_side = 32;
   static constexpr std::size_t times_together = 256;
 
-  static double angle(Line const& line, double time_s) { return line.frequency_hz * time_s + line.phase_turns; }
-  static double omega(Line const& line) { return 2.0 * std::numbers::pi * line.frequency_hz; }
-
-  static void add(std::span<Line const> lines, double time_s, ReferencePoint& sum) {
+  static void add(std::span<SineLine const> lines, double time_s, ReferencePoint& sum) {
     std::array<double, side_by_side> turns, sines, cosines;
-    for (std::size_t k = 0; k < lines.size(); ++k) turns[k] = angle(lines[k], time_s);
+    for (std::size_t k = 0; k < lines.size(); ++k) turns[k] = lines[k].frequency_hz * time_s + lines[k].phase_turns;
     sines_cosines_of_turns(std::span(turns).first(lines.size()), std::span(sines).first(lines.size()),
                            std::span(cosines).first(lines.size()));
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      sum.q += sines[k] / omega(lines[k]);
+      sum.q += sines[k] * lines[k].inverse_omega;
       sum.dq += cosines[k];
-      sum.ddq -= omega(lines[k]) * sines[k];
+      sum.ddq -= lines[k].omega * sines[k];
     }
   }
 
-  static void add(Line const& line, std::span<double const> times_s, ReferenceColumns const& sum) {
-    std::array<double, times_together> turns, sines, cosines;
-    for (std::size_t i = 0; i < times_s.size(); ++i) turns[i] = angle(line, times_s[i]);
-    sines_cosines_of_turns(std::span(turns).first(times_s.size()), std::span(sines).first(times_s.size()),
-                           std::span(cosines).first(times_s.size()));
-    double const w = omega(line);
-    for (std::size_t i = 0; i < times_s.size(); ++i) {
-      sum.q[i] += sines[i] / w;
-      sum.dq[i] += cosines[i];
-      sum.ddq[i] -= w * sines[i];
-    }
-  }
-
-  std::vector<Line> lines_;
+  std::vector<SineLine> lines_;
 };
 
 }  // namespace
@@ -84,9 +65,11 @@ class Multisine : public Reference {
 std::unique_ptr<Reference const> make_multisine(ReferenceOptions const& options, double duration_s,
                                                 RandomKey const& key) {
   std::vector<double> const frequencies = reference_frequencies_hz(options);
-  std::vector<Line> lines;
-  for (std::size_t k = 0; k < frequencies.size(); ++k)
-    lines.push_back({frequencies[k], addressed_uniform(key, NoiseStream::reference_phase, k)});
+  std::vector<SineLine> lines;
+  for (std::size_t k = 0; k < frequencies.size(); ++k) {
+    double const omega = 2.0 * std::numbers::pi * frequencies[k];
+    lines.push_back({frequencies[k], addressed_uniform(key, NoiseStream::reference_phase, k), omega, 1.0 / omega});
+  }
   double const highest_hz = *std::max_element(frequencies.begin(), frequencies.end());
   return ramped_to_limits(std::make_unique<Multisine>(std::move(lines)), highest_hz, duration_s, options);
 }

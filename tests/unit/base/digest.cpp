@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/digest_batch.hpp"
 #include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
@@ -38,6 +39,37 @@ TEST(Digest, OfTwoIsThatOfEach) {
       EXPECT_EQ(both.first, Digest().bytes(first.data(), a).raw()) << a << " and " << b;
       EXPECT_EQ(both.second, Digest().bytes(second.data(), b).raw()) << a << " and " << b;
     }
+}
+
+TEST(Digest, OfManyIsThatOfEach) {
+  for (std::size_t size : {0, 1, 55, 56, 63, 64, 119, 120, 128, 1000})
+    for (std::size_t count : {0, 1, 2, 9, 10, 15, 16, 17, 27, 43}) {
+      std::vector<std::vector<std::byte>> texts(count, std::vector<std::byte>(size + 1));
+      std::vector<std::byte const*> places;
+      for (std::size_t t = 0; t < count; ++t) {
+        for (std::size_t i = 0; i < size; ++i) texts[t][i] = static_cast<std::byte>((i * i + 31 * t) % 251);
+        places.push_back(texts[t].data());
+      }
+      std::vector<Sha256> digests(count);
+      sha256_of_each(places, size, digests.data());
+      for (std::size_t t = 0; t < count; ++t)
+        ASSERT_EQ(digests[t], Digest().bytes(places[t], size).raw())
+            << t << " of " << count << ", " << size << " bytes";
+    }
+}
+
+TEST(Digest, OfBlocksIsThatOfTheDigestsOfEach) {
+  constexpr std::size_t block = long_digest_block_bytes;
+  std::vector<std::byte> bytes(3 * block + 1000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>((i * i + i / 77) % 251);
+  for (std::size_t size : {std::size_t{0}, std::size_t{1}, block, block + 1, 2 * block, 3 * block, bytes.size()}) {
+    Digest expected;
+    for (std::size_t first = 0; first < size; first += block) {
+      auto const one = Digest().bytes(bytes.data() + first, std::min(block, size - first)).raw();
+      expected.bytes(one.data(), one.size());
+    }
+    EXPECT_EQ(sha256_by_blocks(std::span(bytes).first(size)), expected.raw()) << size;
+  }
 }
 
 TEST(Digest, TellsWhereATextEnds) {

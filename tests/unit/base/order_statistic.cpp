@@ -45,6 +45,18 @@ TEST(KthSmallest, OfManyEqualNumbersIsOneOfThem) {
   expect_sorted_order(std::vector<double>(1000, 1.0 / 3.0), 3);
 }
 
+TEST(KthSmallest, IsThatOfSortingWhereASampleMisleads) {
+  // every 2nd, 4th, ... value is large: an even sample sees few of the others
+  auto values = magnitudes(4096);
+  for (std::size_t i = 0; i < values.size(); i += 16) values[i] += 1e30;
+  expect_sorted_order(values, 64);
+  // and sorted either way
+  std::sort(values.begin(), values.end());
+  expect_sorted_order(values, 64);
+  std::reverse(values.begin(), values.end());
+  expect_sorted_order(values, 64);
+}
+
 TEST(KthSmallest, OrdersTheSmallestAndTheLargest) {
   using limits = std::numeric_limits<double>;
   expect_sorted_order({limits::infinity(), 0.0, limits::denorm_min(), limits::min(), limits::max(), 1.0}, 1);

@@ -18,23 +18,20 @@ std::vector<double> numbers(std::size_t n, double phase) {
   return x;
 }
 
+double lanes_added(double const (&lane)[8]) {
+  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
 double documented_sum(std::vector<double> const& x) {
-  std::size_t const n = x.size(), whole = n / 4 * 4;
-  if (n == 0) return 0.0;
-  if (n == 1) return x[0];
-  double even = x[0], odd = x[1];
-  if (n >= 4) {
-    double apart[4] = {x[0], x[1], x[2], x[3]};
-    for (std::size_t i = 4; i < whole; ++i) apart[i % 4] += x[i];
-    even = apart[0] + apart[2];
-    odd = apart[1] + apart[3];
-    if (n - whole >= 2) {
-      even += x[whole];
-      odd += x[whole + 1];
-    }
-  }
-  double const both = even + odd;
-  return n % 2 == 1 ? both + x[n - 1] : both;
+  double lane[8] = {};
+  for (std::size_t t = 0; t < x.size(); ++t) lane[t % 8] += x[t];
+  return lanes_added(lane);
+}
+
+double documented_squares(std::vector<double> const& x) {
+  double lane[8] = {};
+  for (std::size_t t = 0; t < x.size(); ++t) lane[t % 8] = std::fma(x[t], x[t], lane[t % 8]);
+  return lanes_added(lane);
 }
 
 class ResidualMoments : public EveryInstructionSet {};
@@ -50,19 +47,18 @@ TEST_P(ResidualMoments, AreSummedInTheDocumentedOrderWhateverTheCompany) {
         residual_sums({phi.data(), leading_dimension, tau.data(), n, R}, x.data(), n_candidates, residuals.data(),
                       sums.data());
         for (std::size_t c = 0; c < n_candidates; ++c) {
-          std::vector<double> residual(n), square(n), about(n);
+          std::vector<double> residual(n), about(n);
           double const centre = 0.123;
           for (std::size_t t = 0; t < n; ++t) {
-            double predicted = phi[t] * x[c * R];
-            for (std::size_t r = 1; r < R; ++r) predicted = phi[t + r * leading_dimension] * x[c * R + r] + predicted;
-            residual[t] = tau[t] - predicted;
-            square[t] = residual[t] * residual[t];
-            about[t] = (residual[t] - centre) * (residual[t] - centre);
+            residual[t] = tau[t];
+            for (std::size_t r = 0; r < R; ++r)
+              residual[t] = std::fma(-phi[t + r * leading_dimension], x[c * R + r], residual[t]);
+            about[t] = residual[t] - centre;
             ASSERT_EQ(residuals[c * n + t], residual[t]);
           }
           ASSERT_EQ(sums[c].sum, documented_sum(residual)) << n << " rows, candidate " << c << " of " << n_candidates;
-          ASSERT_EQ(sums[c].squares, documented_sum(square)) << n << " rows";
-          ASSERT_EQ(squares_about(residual.data(), n, centre), documented_sum(about)) << n << " rows";
+          ASSERT_EQ(sums[c].squares, documented_squares(residual)) << n << " rows";
+          ASSERT_EQ(squares_about(residual.data(), n, centre), documented_squares(about)) << n << " rows";
         }
       }
 }

@@ -104,6 +104,25 @@ TEST(SimulatedRecording, IsTheSameWhateverWasSimulatedBefore) {
   EXPECT_EQ(first.torque, again.torque);
 }
 
+TEST(SimulatedRecording, WithoutItsTruthIsTheSameRecording) {
+  auto plan = seed_plan();
+  plan.noise.torque_std = 0.1;
+  auto const whole = simulate_joint(plan, 5);
+  auto const lean = simulate_joint(plan, 5, 0, TrueTorque::left_out);
+  EXPECT_EQ(lean.true_torque.size(), 0);
+  EXPECT_EQ(lean.torque, whole.torque);
+  EXPECT_EQ(lean.sha256, whole.sha256);
+}
+
+TEST(SimulatedRecording, DigestSeesEveryChannel) {
+  auto plan = seed_plan();
+  auto const quiet = simulate_joint(plan, 5);
+  plan.noise.torque_std = 1e-9;
+  auto const noisy = simulate_joint(plan, 5);
+  EXPECT_EQ(noisy.position, quiet.position);
+  EXPECT_NE(noisy.sha256, quiet.sha256);
+}
+
 TEST(SimulatedRecording, DiffersBySeedAndIndex) {
   auto const plan = seed_plan();
   auto const here = simulate_joint(plan, 5);

@@ -31,6 +31,24 @@ TEST(ContentDigest, OfTheWriterIsThatOfTheFile) {
   }
 }
 
+TEST(ContentDigest, OfBlocksThatRepeatIsThatOfTheFile) {
+  test::TemporaryFolder const folder;
+  constexpr std::size_t per_block = digest_block_bytes / sizeof(double);
+  // which value each block holds: several in a row alike, single ones between and at the end
+  for (std::vector<int> const& values : {std::vector<int>{1, 1, 1, 1}, {1, 2, 2, 3}, {1, 1, 2}, {1, 2, 3}, {2, 1, 1}}) {
+    std::vector<double> column;
+    for (int const value : values) column.insert(column.end(), per_block, value);
+    for (std::size_t rest : {std::size_t{0}, std::size_t{5}}) {
+      column.insert(column.end(), rest, 7.0);
+      ResultWriter writer(folder / "R.h5");
+      example::write_job(writer);
+      writer.numbers("/column", {column.size()}, column, {"1", "column"});
+      std::string const written = writer.finish();
+      EXPECT_EQ(verify_result(folder / "R.h5"), written) << column.size();
+    }
+  }
+}
+
 // the digest of a small file that `change` had a hand in
 std::string digest_with(std::function<void(ResultWriter&)> const& change) {
   test::TemporaryFolder const folder;
