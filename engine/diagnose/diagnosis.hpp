@@ -3,7 +3,8 @@
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
 // Unknown    NaN: not measured (no unseen recording, no repeated laps, no reference to simulate with)
-// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp)
+// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all but rests where `rows`
+//            says so
 // Threads    plain records
 // Source     DESIGN.md section 1 (verdict JSON); PHYSICS.md section 2 (abstention ladder)
 
@@ -162,7 +163,8 @@ struct JointDiagnosis {
   std::vector<TorqueTrace> traces{};     // the unseen recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
-  std::string loop_source;  // "identified", "approximated", "tracking"
+  std::string rows = "moving one way";  // or "with reversals" (friction_buildup.hpp): what errors and pictures are of
+  std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
   double friction_wander =

@@ -143,6 +143,7 @@ class JointWork {
     auto const& rows = stage.comparison.rows;
     joint_.baseline = estimate_parameters(stage).baseline;
     joint_.train_relerr = relative_error(stage.comparison.recording);
+    if (selection_.keeps_reversals) joint_.rows = "with reversals";
     joint_.loop_source = source_word(stage.twin->loop.source);
     joint_.loop_remark = stage.twin->loop.remark;
     joint_.torque_noise = stage.twin->loop.loop.torque_noise.std;

@@ -216,6 +216,7 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);
   writer.attribute(group, "budget_noise", joint.budget.noise);
   text_list(writer, group, "nuisances", joint.nuisances);
+  writer.attribute(group, "rows", joint.rows);
   writer.attribute(group, "loop_source", joint.loop_source);
   writer.attribute(group, "loop_remark", joint.loop_remark);
   writer.attribute(group, "torque_noise", joint.torque_noise);

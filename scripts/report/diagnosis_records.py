@@ -164,6 +164,7 @@ class Joint:
     budget_missing_physics: float
     budget_unexplained: float
     budget_noise: float
+    rows: str  # "moving one way" or "with reversals": what errors and pictures are of
     loop_source: str
     loop_remark: str
     torque_noise: float

@@ -169,7 +169,8 @@ def next_steps(study, joint):
 
 def how_found(joint):
     """[(what, value)] for the fold: the twins and the loop they were simulated with."""
-    told = [("clean twins", q.whole(joint.twins) if joint.twins else "not made"), ("control loop", joint.loop_source),
+    told = [("clean twins", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows),
+            ("control loop", joint.loop_source),
             ("about the loop", joint.loop_remark)]
     for what, value in (("torque noise", joint.torque_noise), ("disturbance", joint.disturbance),
                         ("mismatch beyond the twins, rms", joint.mismatch_rms), ("the same after", joint.left_rms)):

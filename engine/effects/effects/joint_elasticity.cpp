@@ -1,15 +1,19 @@
 // Flexible transmission: part of the inertia hangs on the motor by a spring and a damper.
 //
-// Equation   tau = J_l y'', y'' + 2 zeta w y' + w^2 y = -ddq: y is the load relative to the motor, w = 2 pi f;
+// Equation   tau = J_l y'', y'' + 2 zeta w y' + w^2 y (1 + c (y / y_0)^2) = -ddq: y is the load relative to the motor, w = 2 pi f;
+//            y_0 = a / w^2 is the wind-up that the acceleration a = torque rms / inertia makes of a straight spring;
 //            the rigid part J_l ddq is in the baseline's inertia
-// Memory     y and y', exact for an acceleration that runs straight between two samples
+// Memory     y and y', for c = 0 exact for an acceleration that runs straight between two samples; what stiffens is a kick before
+//            and after each step (Strang), of second order
+// Stiffening gears of thin steel are softest when they are not loaded; without c a gap would be the better fit, and its name wrong
 // Why        an operator, not jerk and snap: a series of derivatives fails once the resonance lies in the band
 // Parameters load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; elasticity_frequency f [Hz]: of the load with the
-//            motor held (antiresonance of the joint); elasticity_damping zeta [1]
+//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c >= 0 [1]
 // Signature  frequency: a narrow band fixed in time, rung by jerk
 // Confused   delay, actuator_lag far below f
-// Source     Spong 1987; Wernholt 2007; LESSONS.md item 10
+// Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,10 +24,12 @@ namespace {
 
 class LoadOnSpring final : public EffectMemory {
  public:
-  LoadOnSpring(double frequency_hz, double damping)
+  // acceleration: a; 0: the spring is straight
+  LoadOnSpring(double frequency_hz, double damping, double hardening, double acceleration)
       : omega_(2.0 * std::numbers::pi * frequency_hz),
         decay_(damping * omega_),
-        ringing_(omega_ * std::sqrt(1.0 - damping * damping)) {}
+        ringing_(omega_ * std::sqrt(1.0 - damping * damping)),
+        per_square_(acceleration > 0.0 ? hardening * std::pow(omega_ * omega_ / acceleration, 2) : 0.0) {}
 
   // as if the acceleration had been the same for long
   void start(JointState const& state) override {
@@ -33,8 +39,28 @@ class LoadOnSpring final : public EffectMemory {
   }
 
   void advance(JointState const& state, double step_s) override {
-    if (step_s != step_s_) remember_step(step_s);
+    if (step_s != whole_step_s_) remember_step(step_s);
     double const jerk = (state.ddq - ddq_) / step_s;
+    for (int part = 0; part < parts_; ++part) {
+      dy_ -= 0.5 * step_s_ * stiffened();
+      coast(jerk);
+      dy_ -= 0.5 * step_s_ * stiffened();
+    }
+    ddq_ = state.ddq;
+  }
+
+  void row(JointState const& state, std::span<double> out) const override {
+    out[0] = -(2.0 * decay_ * dy_ + omega_ * omega_ * y_ + stiffened()) - state.ddq;
+  }
+
+ private:
+  static constexpr double most_stiffening = 25.0;  // times as stiff as unloaded: no gear goes further
+
+  // acceleration of the load by what the spring has more than a straight one
+  double stiffened() const { return omega_ * omega_ * y_ * std::min(per_square_ * y_ * y_, most_stiffening); }
+
+  // one part of the step on a straight spring
+  void coast(double jerk) {
     double const square = omega_ * omega_;
 
     // what remains after the motion that follows a straight acceleration rings freely
@@ -46,25 +72,25 @@ class LoadOnSpring final : public EffectMemory {
     double const drung =
         faded_ * ((quadrature * ringing_ - decay_ * free) * cosine_ - (free * ringing_ + decay_ * quadrature) * sine_);
 
-    y_ = rung + follow + dfollow * step_s;
+    y_ = rung + follow + dfollow * step_s_;
     dy_ = drung + dfollow;
-    ddq_ = state.ddq;
+    ddq_ += jerk * step_s_;
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = -(2.0 * decay_ * dy_ + omega_ * omega_ * y_) - state.ddq;
-  }
-
- private:
   void remember_step(double step_s) {
-    step_s_ = step_s;
-    faded_ = std::exp(-decay_ * step_s);
-    cosine_ = std::cos(ringing_ * step_s);
-    sine_ = std::sin(ringing_ * step_s);
+    // kicks are stable up to 2 rad of the stiffest spring's swing
+    double const swing = per_square_ > 0.0 ? omega_ * std::sqrt(most_stiffening) * step_s : 0.0;
+    parts_ = std::max(1, static_cast<int>(std::ceil(swing)));
+    whole_step_s_ = step_s;
+    step_s_ = step_s / parts_;
+    faded_ = std::exp(-decay_ * step_s_);
+    cosine_ = std::cos(ringing_ * step_s_);
+    sine_ = std::sin(ringing_ * step_s_);
   }
 
-  double omega_, decay_, ringing_;
-  double step_s_ = 0.0, faded_ = 1.0, cosine_ = 1.0, sine_ = 0.0;
+  double omega_, decay_, ringing_, per_square_;
+  int parts_ = 1;
+  double whole_step_s_ = 0.0, step_s_ = 0.0, faded_ = 1.0, cosine_ = 1.0, sine_ = 0.0;
   double ddq_ = 0.0, y_ = 0.0, dy_ = 0.0;
 };
 
@@ -74,20 +100,22 @@ class JointElasticity final : public MemoryEffect {
       : MemoryEffect(
             {.name = "joint_elasticity",
              .title = "flexible transmission between motor and load",
-             .equation = "J_l y'', y'' + 2 zeta w y' + w^2 y = -ddq, w = 2 pi f",
+             .equation = "J_l y'', y'' + 2 zeta w y' + w^2 y (1 + c (y / y0)^2) = -ddq, w = 2 pi f",
              .source = "Spong 1987; Wernholt 2007",
              .separated_by = "a multisine or chirp up to twice the resonance",
              .parameters = {{"load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
                             shape_parameter("elasticity_frequency", "Hz", "Hz", {0.05, RelativeTo::cutoff_frequency},
                                             {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
-                            shape_parameter("elasticity_damping", "1", "1", {0.005}, {0.2}, Spacing::logarithmic)},
+                            shape_parameter("elasticity_damping", "1", "1", {0.005}, {0.2}, Spacing::logarithmic),
+                            shape_parameter("elasticity_hardening", "1", "1", {0.0}, {8.0}, Spacing::linear)},
              .families = {EffectFamily::acceleration},
              .signature = {SignatureAxis::frequency, SignatureAxis::acceleration},
              .parity = Parity::even}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&) const override {
-    return std::make_unique<LoadOnSpring>(shape[0], shape[1]);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
+    double const acceleration = scales.inertia > 0.0 ? scales.torque_rms / scales.inertia : 0.0;
+    return std::make_unique<LoadOnSpring>(shape[0], shape[1], shape[2], acceleration);
   }
 };
 

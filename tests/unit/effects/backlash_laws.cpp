@@ -43,7 +43,7 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
   scales.inertia = 0.4;
   scales.gravity_cos = 4.0;  // 10 rad/s2 at q = 0, more than the motion asks for
   auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1}, scales);
-  auto const spring = find_effect("joint_elasticity")->runner(std::vector<double>{0.3, 20.0, 0.1}, scales);
+  auto const spring = find_effect("joint_elasticity")->runner(std::vector<double>{0.3, 20.0, 0.1, 0.0}, scales);
   for (int i = 0; i < 5000; ++i) {
     double const t = 1e-3 * i;
     JointState const state{.time_s = t, .ddq = 3.0 * std::sin(20.0 * t)};

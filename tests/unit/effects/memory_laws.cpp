@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -191,7 +192,8 @@ TEST(JointElasticity, ResonatesAtTheStatedFrequency) {
   double const natural_hz = 12.0, damping = 0.05, rate_hz = 20000.0;
   auto const response = [&](double drive_hz) {
     double const omega = 2.0 * std::numbers::pi * drive_hz;
-    auto const memory = find_effect("joint_elasticity")->runner(std::vector<double>{1.0, natural_hz, damping}, plain);
+    auto const memory =
+        find_effect("joint_elasticity")->runner(std::vector<double>{1.0, natural_hz, damping, 0.0}, plain);
     double sine = 0.0, cosine = 0.0;
     auto const settled = static_cast<int>(3.0 * rate_hz);                         // exp(-11) of the start is left
     auto const whole = static_cast<int>(std::lround(10.0 * rate_hz / drive_hz));  // ten periods
@@ -214,9 +216,39 @@ TEST(JointElasticity, ResonatesAtTheStatedFrequency) {
   EXPECT_NEAR(std::abs(response(natural_hz)), 1.0 / (2.0 * damping), 0.01);
 }
 
+TEST(JointElasticity, StiffensAsTheTextbookLawInTinySteps) {
+  double const natural_hz = 8.0, damping = 0.05, hardening = 3.0, step_s = 1e-3;
+  JointScales scales;
+  scales.inertia = 0.1;
+  scales.torque_rms = 2.0;  // 20 rad/s2
+  double const omega = 2.0 * std::numbers::pi * natural_hz, windup = 20.0 / (omega * omega);
+  auto const drive = [](double t) { return 25.0 * std::sin(2.0 * std::numbers::pi * 5.0 * t); };
+  auto const memory =
+      find_effect("joint_elasticity")->runner(std::vector<double>{1.0, natural_hz, damping, hardening}, scales);
+  constexpr int finer = 2000;
+  double y = -drive(0.0) / (omega * omega), dy = 0.0, difference = 0.0, size = 0.0, stiffest = 0.0;
+  for (int i = 0; i <= 2000; ++i) {
+    for (int k = 0; i > 0 && k < finer; ++k) {
+      double const h = step_s / finer, t = step_s * (i - 1) + h * (k + 0.5);
+      double const stiffness = omega * omega * (1.0 + hardening * y * y / (windup * windup));
+      dy += h * (-drive(t) - 2.0 * damping * omega * dy - stiffness * y);
+      y += h * dy;
+    }
+    double const stiffening = hardening * y * y / (windup * windup);
+    stiffest = std::max(stiffest, stiffening);
+    double const t = step_s * i;
+    double const expected = -2.0 * damping * omega * dy - omega * omega * y * (1.0 + stiffening) - drive(t);
+    double const got = memory->torque({.time_s = t, .ddq = drive(t)}, i > 0 ? step_s : 0.0);
+    difference += std::pow(got - expected, 2);
+    size += expected * expected;
+  }
+  EXPECT_GT(stiffest, 1.0);  // more than twice as stiff as at rest
+  EXPECT_LT(std::sqrt(difference / size), 0.01);
+}
+
 TEST(JointElasticity, VanishesForAStiffJoint) {
   auto motion = test::motion_of(test::smooth_state, 4000, 1000.0);
-  auto const phi = test::columns_of(*find_effect("joint_elasticity"), {motion}, {300.0, 0.1});
+  auto const phi = test::columns_of(*find_effect("joint_elasticity"), {motion}, {300.0, 0.1, 0.0});
   EXPECT_LT(phi.norm(), 1e-3 * motion.ddq.norm());  // (2 Hz / 300 Hz)^2
 }
 

@@ -72,6 +72,7 @@ TEST(DiagnosisFile, GivesBackWhatOnlyThePageTells) {
   EXPECT_EQ(a.augmented_cv_relerr, b.augmented_cv_relerr);
   EXPECT_EQ(a.train_floor_relerr, b.train_floor_relerr);
   EXPECT_EQ(a.nuisances, b.nuisances);
+  EXPECT_EQ(a.rows, b.rows);
   EXPECT_EQ(a.loop_source, b.loop_source);
   EXPECT_EQ(a.loop_remark, b.loop_remark);
   EXPECT_EQ(a.torque_noise, b.torque_noise);
