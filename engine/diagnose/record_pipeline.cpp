@@ -42,13 +42,28 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   return record;
 }
 
-// columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle
+// columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle. What two
+// waves of the same effect have in common is there once: friction that changes along the travel has one slope
 std::vector<Eigen::Index> RecordPipeline::present_columns(Eigen::MatrixXd const& columns) const {
   auto const baseline = static_cast<Eigen::Index>(model_.regressor().size());
   std::vector<Eigen::Index> present;
   for (Eigen::Index k = 0; k < columns.cols(); ++k)
-    if (k < baseline || !columns.col(k).isZero(0.0)) present.push_back(k);
+    if (k < baseline || !(columns.col(k).isZero(0.0) || is_repeated(columns, k))) present.push_back(k);
   return present;
+}
+
+bool RecordPipeline::is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const {
+  constexpr double rounding = 1e-9;
+  auto const& effects = model_.effects();
+  auto const first = [&](std::size_t i) { return static_cast<Eigen::Index>(model_.first_parameter(i)); };
+  std::size_t own = 0;
+  while (own + 1 < effects.size() && first(own + 1) <= column) ++own;
+  for (std::size_t i = 0; i < own; ++i) {
+    if (effects[i].effect != effects[own].effect) continue;
+    Eigen::Index const other = first(i) + column - first(own);
+    if ((columns.col(column) - columns.col(other)).norm() <= rounding * columns.col(column).norm()) return true;
+  }
+  return false;
 }
 
 void RecordPipeline::restrict_to(std::vector<Eigen::Index> kept_rows) {

@@ -92,6 +92,7 @@ class RecordPipeline {
 
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
+  bool is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
   // least squares on these columns; the record is borrowed, and as it was afterwards
   Eigen::VectorXd solved_with(ProcessedRecord& record, std::vector<Eigen::Index> const& present,

@@ -194,3 +194,36 @@ TEST(JointModel, FindsNothingInTwinsThatLackTheEffect) {
   Fits const none = fits_of(recording, stribeck_model().twin_joint(with(baseline(), 0.0)), pipeline);
   EXPECT_LT((none.all - fits.all).cwiseAbs().maxCoeff(), 1e-9);
 }
+
+// a Stribeck curve cannot be negative: where least squares would make it so, the fit is that of the baseline alone
+TEST(JointModel, GivesNoNegativeValueToAParameterThatCannotHaveOne) {
+  Recording const recording = simulated(-0.5 * stribeck_torque, 5);
+  Eigen::VectorXd const fit = pipeline_of(stribeck_model(), recording).process(recording).parameters;
+  Eigen::VectorXd const alone = pipeline_of(JointModel(clean_regressor()), recording).process(recording).parameters;
+  EXPECT_EQ(fit[4], 0.0);
+  EXPECT_LT((fit.head(4) - alone).norm(), 1e-12 * alone.norm());
+}
+
+// two waves of friction along the travel have one slope between them
+TEST(JointModel, FitsAColumnThatTwoWavesShareOnce) {
+  auto joint = clean_joint();
+  joint.plan.plant = plant({{"inertia", 0.036},
+                            {"viscous", 0.164},
+                            {"coulomb", coulomb},
+                            {"offset", -0.125},
+                            {"position_friction_slope", 0.1},
+                            {"position_friction_cos", 0.2},
+                            {"position_friction_sin", -0.1},
+                            {"position_friction_order", 4.0}});
+  Recording const recording = recorded(simulate_joint(joint.plan, 6));
+  Effect const* friction = find_effect("position_dependent_friction");
+  JointModel const model(clean_regressor(), reference(), {{friction, {4.0}}, {friction, {8.0}}});
+  Eigen::VectorXd const fit = pipeline_of(model, recording).process(recording).parameters;
+  ASSERT_EQ(fit.size(), 10);
+  EXPECT_NEAR(fit[4], 0.1, 0.02);
+  EXPECT_NEAR(fit[5], 0.2, 0.02);
+  EXPECT_NEAR(fit[6], -0.1, 0.02);
+  EXPECT_EQ(fit[7], 0.0);
+  EXPECT_NEAR(fit[8], 0.0, 0.02);
+  EXPECT_NEAR(fit[9], 0.0, 0.02);
+}
