@@ -26,7 +26,7 @@ constexpr std::size_t n_refined = 5;
 class Search {
  public:
   Search(StageSetting setting, SelectionOptions const& options, StageSink const& progress)
-      : setting_(setting), options_(options), progress_(progress) {}
+      : setting_(std::move(setting)), options_(options), progress_(progress) {}
 
   Selection run() {
     tell("twins", 0, setting_.twins);

@@ -76,12 +76,14 @@ void RecordPipeline::weigh_with(std::shared_ptr<NoiseWeights const> weights) {
   if (whitens() && !fixed_rows_.empty()) fixed_wander_ = weights_->wander_on(fixed_rows_);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is a view, and what it looks at is changed
 void RecordPipeline::whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const {
   if (!whitens()) return;
   if (kept_rows == fixed_rows_) return weights_->apply(signals, kept_rows, fixed_wander_);
   weights_->apply(signals, kept_rows, weights_->wander_on(kept_rows));
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): as above
 void RecordPipeline::whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals,
                                  std::vector<Eigen::Index> const& kept_rows) const {
   if (whitens()) weights_->rows().apply(signals, kept_rows);
