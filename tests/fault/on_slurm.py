@@ -1,6 +1,8 @@
 """A job of 40 runs in four shards on a real Slurm, which this test starts itself: engines are killed and stopped, tasks go back into
 the queue, an urgent job takes the node away, and in the end one merge makes the file that nobody disturbed.
 
+By night also the limit of time of a task, which takes Slurm half a minute to notice.
+
 Counts: 6 kills (TORQUESCOPE_FAULTS / 10). FAULT_SEED repeats a chance, though not Slurm's.
 """
 
@@ -73,15 +75,49 @@ class OnSlurm(study.FaultTest):
     def queue(self):
         return self.slurm.said("squeue", "-h", "-r", "-o", "%j %T")
 
-    def test_kills_requeues_preemption_and_one_merge(self):
-        folder = self.folder()
+    def submit(self, folder, shards, limit):
         ended = study.Ended(subprocess.Popen(
-            [study.PROGRAM, "submit", "job.toml", "--out", "r.h5", "--shards", str(SHARDS), "--time", "00:10:00",
+            [study.PROGRAM, "submit", "job.toml", "--out", "r.h5", "--shards", str(shards), "--time", limit,
              "--save-every", "0.2"], cwd=folder.path, env=study.environment(
                  {"SLURM_CONF": self.slurm.environment["SLURM_CONF"], "PATH": private_slurm.PATH}),
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE))
         self.assert_ended(ended, 0)
-        self.assertIn(f"{SHARDS} shards as job", ended.said)
+        return ended.said
+
+    def restarts(self):
+        """Of all tasks of the study's arrays together, and what Slurm said."""
+        told = self.slurm.said("scontrol", "show", "job", "-o")
+        return sum(int(n) for name, n in re.findall(r"JobName=(\S+) .*? Restarts=(\d+)", told) if name == "forty"), told
+
+    @unittest.skipUnless(KILLS >= 60, "waits a minute or two for Slurm's clock: scripts/test --night")
+    def test_a_limit_of_time_sends_the_task_back_and_it_goes_on(self):
+        folder = self.folder()
+        before = self.restarts()[0]
+        self.submit(folder, 1, "00:01:00")
+        began = time.monotonic()
+        while not (folder.segments() and (frozen := self.frozen(self.engines(folder)))):
+            self.assertLess(time.monotonic() - began, MOST_SECONDS, self.logs(folder))
+            time.sleep(0.02)
+        # a task is asked two minutes before its limit, so at once here; Slurm looks at its clock every half minute or so, lets a
+        # frozen engine go on and tells it to end
+        while frozen[0] in self.engines(folder):
+            self.assertLess(time.monotonic() - began, MOST_SECONDS, self.logs(folder))
+            time.sleep(0.2)
+        asked = time.monotonic() - began
+        self.assertFalse(os.path.exists(folder / "r.h5"), "the engine had ended before it was asked to")
+        while not os.path.exists(folder / "r.h5"):
+            self.assertLess(time.monotonic() - began, MOST_SECONDS + asked, f"{self.queue()}\n{self.logs(folder)}")
+            time.sleep(0.2)
+        with open(folder / "r.h5", "rb") as one, open(self.whole / "r.h5", "rb") as other:
+            self.assertTrue(one.read() == other.read(), "differs from the uninterrupted one")
+        self.assertGreaterEqual(self.restarts()[0], before + 1, self.logs(folder))
+        print(f"real Slurm: asked after {asked:.0f} s by the limit of time, back in the queue, "
+              f"{time.monotonic() - began:.0f} s, byte-identical", file=sys.stderr)
+
+    def test_kills_requeues_preemption_and_one_merge(self):
+        folder = self.folder()
+        already = self.restarts()[0]
+        self.assertIn(f"{SHARDS} shards as job", self.submit(folder, SHARDS, "00:10:00"))
 
         began = time.monotonic()
         kills, in_the_way = {signal.SIGKILL: 0, signal.SIGTERM: 0}, []
@@ -112,8 +148,8 @@ class OnSlurm(study.FaultTest):
             merged = file.read()
         self.assertEqual(merged.count("wrote"), 1, merged)
         self.assertIn("40 of 40 runs were done", " ".join(merged.split()))
-        told = self.slurm.said("scontrol", "show", "job", "-o")
-        restarts = sum(int(count) for name, count in re.findall(r"JobName=(\S+) .*? Restarts=(\d+)", told) if name == "forty")
+        restarts, told = self.restarts()
+        restarts -= already
         # the urgent job wanted all of the node, where engines were frozen: it ran because Slurm took the node from each of them,
         # and each had to begin again
         urgent = re.search(r"JobName=urgent .*?JobState=(\S+) .*?NumCPUs=(\d+)", told)
