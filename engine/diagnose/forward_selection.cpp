@@ -183,8 +183,7 @@ class Search {
     }
     // the twins must confirm at least a third of what the projection promised: where parts knock against each other twins
     // that are right in all but a little repeat no more of it
-    constexpr double confirmed = 1.0 / 3.0;
-    if (energy_about_true_mean(*next) > energy_about_true_mean(stage_) - confirmed * gain) {
+    if (energy_about_true_mean(*next) > energy_about_true_mean(stage_) - confirmed_share * gain) {
       reject(effect, "twins with it leave as much as twins without it");
       return false;
     }

@@ -77,6 +77,7 @@ struct Selection {
   double whole() const;  // first_excess under the weights of the last step, above 0
 };
 
+inline constexpr double confirmed_share = 1.0 / 3.0;       // of a promised gain, by twins with the effect
 inline constexpr double least_share_of_whole = 0.002;      // an effect's energy, of what was missing at first
 inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
 inline constexpr double smallest_omnibus_z = 4.0;

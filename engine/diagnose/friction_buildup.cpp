@@ -15,7 +15,6 @@ namespace torquescope {
 namespace {
 
 constexpr double most_of_it = 0.5;
-constexpr double confirmed = 1.0 / 3.0;
 
 // friction that remembers where it turned, and nothing else
 bool is_buildup(Effect const& effect) {
@@ -199,7 +198,7 @@ class SecondLook {
     start << known, refined.parameters;
     own.levels->parameters = start;
     auto draft = refined_draft(own, before().reference(), std::move(effects));
-    double const promised = confirmed * refined.gain;
+    double const promised = confirmed_share * refined.gain;
     if (!draft || energy_about_true_mean(*draft) > energy_about_true_mean(rows_) - promised) return false;
     own.levels = levels_of(*draft->twin);
     auto next = make_stage(own, draft->model());

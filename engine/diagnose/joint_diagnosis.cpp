@@ -110,7 +110,8 @@ class JointWork {
   Remainder judge_with_reversals(StageSetting& setting) {
     Remainder remainder = judge_remainder(selection_, final_stage());
     if (remainder.is_unexplained && !selection_.accepted.empty()) return remainder;
-    if (!look_at_reversals(setting, input_.selection, selection_, progress_)) return remainder;
+    look_at_reversals(setting, input_.selection, selection_, progress_);
+    if (!selection_.keeps_reversals) return remainder;
     setting.keeps_reversals = true;
     return judge_remainder(selection_, final_stage());
   }
