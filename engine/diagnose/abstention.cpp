@@ -1,6 +1,7 @@
 #include "engine/diagnose/abstention.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace torquescope {
 namespace {
@@ -37,6 +38,18 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   auto const& strongest = result.axes.front();
   if (strongest.share > most_of_it && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;
   return result;
+}
+
+std::vector<UnexplainedPart> largest_parts(std::vector<MapAxis> const& map) {
+  constexpr std::size_t enough = 5;
+  std::vector<std::pair<double, UnexplainedPart>> parts;
+  for (auto const& axis : map)
+    for (auto const& region : axis.regions)
+      parts.push_back({axis.energy_share * region.energy_share, {region.where, region.energy_share}});
+  std::stable_sort(parts.begin(), parts.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
+  std::vector<UnexplainedPart> largest;
+  for (std::size_t i = 0; i < std::min(enough, parts.size()); ++i) largest.push_back(parts[i].second);
+  return largest;
 }
 
 }  // namespace torquescope
