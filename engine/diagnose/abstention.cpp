@@ -8,7 +8,7 @@ namespace {
 
 constexpr double worth_a_word = 0.03;  // of the first excess
 constexpr double smallest_z = 5.0;
-constexpr double most_of_it = 0.5;
+constexpr double most_of_what_is_left = 0.5;
 constexpr double enough_named = 2.0 / 3.0;
 constexpr double some_structure = 0.2;
 
@@ -36,7 +36,7 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   if (!is_named_enough && result.axes.front().share > some_structure) result.is_unexplained = true;
   // weaker axes follow the strongest one: on a short motion everything is a function of everything
   auto const& strongest = result.axes.front();
-  if (strongest.share > most_of_it && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;
+  if (strongest.share > most_of_what_is_left && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;
   return result;
 }
 
