@@ -11,6 +11,7 @@ constexpr double smallest_z = 5.0;
 constexpr double most_of_what_is_left = 0.5;
 constexpr double enough_named = 2.0 / 3.0;
 constexpr double some_structure = 0.2;
+constexpr double surely_left_z = 3.0, most_of_the_whole = 0.5;
 
 bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
   return std::any_of(model.effects().begin(), model.effects().end(), [&](ShapedEffect const& one) {
@@ -28,7 +29,8 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   result.share = std::max(0.0, final.energy.excess) / first;
   result.is_significant =
       final.energy.z > smallest_z && mismatch_share(final) > smallest_mismatch_share && result.share > worth_a_word;
-  if (selection.accepted.empty()) result.is_unexplained = true;
+  result.is_most_left = !selection.accepted.empty() && result.share > most_of_the_whole && final.energy.z > surely_left_z;
+  result.is_unexplained = selection.accepted.empty() || result.is_most_left;
   if (!result.is_significant) return result;
   CandidateColumns const columns(*final.pipeline, final.comparison, final.reference(), final.parameters());
   result.axes = generic_axes(columns, final.energy.excess);

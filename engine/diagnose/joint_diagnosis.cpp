@@ -110,7 +110,8 @@ class JointWork {
   // what the names leave; where that has no structure of its own, the reversals are looked at as well
   Remainder judge_with_reversals(StageSetting& setting) {
     Remainder remainder = judge_remainder(selection_, final_stage());
-    if (remainder.is_unexplained && !selection_.accepted.empty()) return remainder;
+    bool const has_structure = remainder.is_unexplained && !remainder.is_most_left;
+    if (has_structure && !selection_.accepted.empty()) return remainder;
     look_at_reversals(setting, input_.selection, selection_, progress_);
     if (!selection_.keeps_reversals) return remainder;
     setting.keeps_reversals = true;
@@ -261,7 +262,7 @@ class JointWork {
     }
     if (remainder.is_unexplained || is_refuted_) {
       diagnosis_.verdict = Verdict::unexplained;
-      withdraw(remainder.is_unexplained);
+      withdraw(remainder);
       return;
     }
     mark_equivalent(joint_.candidates, joint_.effects);
@@ -276,10 +277,16 @@ class JointWork {
   }
 
   // nothing that was named stands
-  void withdraw(bool leaves_too_much) {
-    if (!leaves_too_much) joint_.refutation = refutation_clause(joint_);
-    withdraw_names(joint_.candidates, leaves_too_much ? "withdrawn: it leaves too much that has a structure of its own"
-                                                      : "withdrawn: it makes the prediction of unseen data worse");
+  void withdraw(Remainder const& remainder) {
+    std::string why = "it leaves too much that has a structure of its own";
+    if (!remainder.is_unexplained) {
+      joint_.refutation = refutation_clause(joint_);
+      why = "it makes the prediction of unseen data worse";
+    } else if (remainder.is_most_left) {
+      joint_.refutation = too_little_clause(joint_, 1.0 - std::min(1.0, remainder.share));
+      why = "it explains less than half";
+    }
+    withdraw_names(joint_.candidates, "withdrawn: " + why);
     joint_.budget.unexplained += joint_.budget.missing_physics;
     joint_.budget.missing_physics = 0.0;
     joint_.effects.clear();

@@ -166,9 +166,19 @@ std::string none_reason(JointDiagnosis const& joint) {
   return text;
 }
 
+std::vector<std::string> names_of(JointDiagnosis const& joint) {
+  std::vector<std::string> names;
+  for (auto const& effect : joint.effects) names.push_back(effect.name);
+  return names;
+}
+
+std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
+  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
+                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
+}
+
 std::string unexplained_reason(JointDiagnosis const& joint) {
-  auto const tested = std::count_if(joint.candidates.begin(), joint.candidates.end(),
-                                    [](Candidate const& one) { return one.decision != Decision::not_tested; });
+  auto const tested = n_tested(joint);
   std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
                                    : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
                                                              : std::string("no known effect fits it");
@@ -226,9 +236,13 @@ std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effe
   return effect_clauses(joint, effect, false);
 }
 
+std::string too_little_clause(JointDiagnosis const& joint, double share) {
+  return fmt::format("{}, the closest of {} known effects, {} {} of what is missing", joined(names_of(joint), "and"),
+                     n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
+}
+
 std::string refutation_clause(JointDiagnosis const& joint) {
-  std::vector<std::string> names;
-  for (auto const& effect : joint.effects) names.push_back(effect.name);
+  auto const names = names_of(joint);
   bool const is_one = names.size() == 1;
   return fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}, where twins with {} promise {}",
                      joined(names, "and"), is_one ? "takes" : "take", percent_text(joint.validation_relerr),

@@ -140,6 +140,23 @@ TEST_F(Abstention, NamesFallWhenTooLittleIsNamedAndTheRestHasStructure) {
   EXPECT_TRUE(found.is_unexplained);
 }
 
+TEST_F(Abstention, NamesFallWhenTheyExplainLessThanHalfWhateverTheRestLooksLike) {
+  // a function of nothing: what a law with a memory leaves
+  Eigen::Index const n = stage.comparison.rows.size();
+  leave(0.1,
+        Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::sin(0.37 * static_cast<double>(i * i)); }));
+  ASSERT_GT(stage.energy.z, 5.0);
+  EXPECT_FALSE(judge_remainder(selection_of(2.1, true), stage).is_unexplained);
+  Remainder const found = judge_remainder(selection_of(1.9, true), stage);
+  EXPECT_TRUE(found.is_most_left);
+  EXPECT_TRUE(found.is_unexplained);
+}
+
+TEST_F(Abstention, NamesStandWhenAllButTheyIsWithinChance) {
+  ASSERT_LT(stage.energy.z, 3.0);
+  EXPECT_FALSE(judge_remainder(selection_of(1.5, true), stage).is_unexplained);
+}
+
 // long enough that time and the torque so far do not know the position
 class LongAbstention : public Abstention {
  protected:

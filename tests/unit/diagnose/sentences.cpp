@@ -107,6 +107,16 @@ TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
       "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
 }
 
+TEST(ReasonSentence, OfNamesThatExplainTooLittleSaysHowMuch) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  JointDiagnosis closest = diagnosis.joints[0];
+  closest.effects = {effect_of(*find_effect("breakaway_dwell"), 0.2)};
+  diagnosis.joints[0].refutation = too_little_clause(closest, 0.331);
+  EXPECT_THAT(reason_sentence(diagnosis),
+              EndsWith("but breakaway dwell, the closest of 34 known effects, explains 33.1 % of "
+                       "what is missing."));
+}
+
 TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
   EXPECT_EQ(reason_sentence(example::invented_insufficient()),
             "Only one direction of motion was recorded. Viscous and coulomb cannot be told apart. Record both "
