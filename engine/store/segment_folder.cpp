@@ -83,9 +83,9 @@ void remove_segments(fs::path const& result) {
   fs::path const folder = segment_folder_of(result);
   std::error_code ignored;
   for (auto const& name : files_in(folder, ignored)) {
-    if (name.extension() == ".h5")
+    if (name.extension() == ".h5" || name.extension() == ".twins")
       ::unlink(name.c_str());
-    else if (name.extension() == ".lock" || name.filename().string().find(".h5.tmp.") != std::string::npos)
+    else if (name.extension() == ".lock" || name.filename().string().find(".tmp.") != std::string::npos)
       remove_if_abandoned(name);
   }
   ::rmdir(folder.c_str());

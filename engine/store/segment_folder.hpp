@@ -43,7 +43,7 @@ class SegmentNames {
 // finished segments, sorted by name; none when there is no folder
 std::vector<std::filesystem::path> segments_in(std::filesystem::path const& folder);
 
-// once the result is whole: all segments, what killed processes left of unfinished ones, and the folder unless it holds
+// once the result is whole: all segments and twins, what killed processes left of unfinished ones, and the folder unless it holds
 // something else; and what killed processes left of the result itself. A file that a living process writes stays.
 void remove_segments(std::filesystem::path const& result);
 
