@@ -96,10 +96,9 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   try {
     Diagnosis const diagnosis =
         diagnose_into_file(experiment, request, [&] { return diagnose_joint(job.input(), sink); });
-    if (shard) {
-      if (request.tell) request.tell("shard", shard->twins().account());
-      remove_segments(request.output);
-    }
+    if (shard && request.tell) request.tell("shard", shard->twins().account());
+    // also those of shards that were killed, when one process made it all in the end
+    if (shard || twin_parts_in(segment_folder_of(request.output)) > 0) remove_segments(request.output);
     return diagnosis;
   } catch (TwinsAbandoned const&) {
     throw stopped(request, shard ? &*shard : nullptr);

@@ -117,6 +117,9 @@ class Twins(study.FaultTest):
         ended = folder.run(*shard(0, 2))
         self.assert_ended(ended, 73)
         self.assertIn("shard 0/2 of r.h5 is at work already", ended.said)
+        ended = folder.run("status", "r.h5")
+        self.assert_ended(ended, 0)
+        self.assertRegex(ended.out, r"a diagnosis: \d+ parts of its twins are safe in r\.h5\.parts")
         process.kill()
         study.Ended(process)
 

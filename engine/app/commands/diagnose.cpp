@@ -181,7 +181,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
       "  torquescope diagnose lab.toml --all --out lab_diagnosis.h5\n"
       "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n"
-      "  torquescope diagnose lab.toml --shard 0/2 & torquescope diagnose lab.toml --shard 1/2\n");
+      "  for i in 0 1; do torquescope diagnose lab.toml --shard $i/2 & done; wait\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
