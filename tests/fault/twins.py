@@ -18,6 +18,9 @@ JOB = study.simulated_job.job(experiment={"name": "twins"}, model={"terms": ["in
                               diagnose={"twins": 60, "effects": ["spring"]}, **MORE)
 
 
+KILLS = min(200, int(os.environ.get("TORQUESCOPE_FAULTS", "6")))
+
+
 def shard(index, count):
     return ("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--shard", f"{index}/{count}")
 
@@ -66,7 +69,7 @@ class Twins(study.FaultTest):
         folder = self.folder()
         beside = folder.start(*shard(1, 2))
         kills = 0
-        while beside.poll() is None:
+        while beside.poll() is None and kills < KILLS:
             ended = folder.stopped_after(self.chance.uniform(0.05, 0.4 * self.seconds), signal.SIGKILL, *shard(0, 2))
             self.assertIn(ended.code, (0, -signal.SIGKILL), ended.err)
             kills += ended.code != 0
