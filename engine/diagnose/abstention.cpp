@@ -1,13 +1,14 @@
 #include "engine/diagnose/abstention.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace torquescope {
 namespace {
 
 constexpr double worth_a_word = 0.03;  // of the first excess
 constexpr double smallest_z = 5.0;
-constexpr double most_of_it = 0.5;
+constexpr double most_of_what_is_left = 0.5;
 constexpr double enough_named = 2.0 / 3.0;
 constexpr double some_structure = 0.2;
 
@@ -35,8 +36,20 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   if (!is_named_enough && result.axes.front().share > some_structure) result.is_unexplained = true;
   // weaker axes follow the strongest one: on a short motion everything is a function of everything
   auto const& strongest = result.axes.front();
-  if (strongest.share > most_of_it && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;
+  if (strongest.share > most_of_what_is_left && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;
   return result;
+}
+
+std::vector<UnexplainedPart> largest_parts(std::vector<MapAxis> const& map) {
+  constexpr std::size_t enough = 5;
+  std::vector<std::pair<double, UnexplainedPart>> parts;
+  for (auto const& axis : map)
+    for (auto const& region : axis.regions)
+      parts.push_back({axis.energy_share * region.energy_share, {region.where, region.energy_share}});
+  std::stable_sort(parts.begin(), parts.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
+  std::vector<UnexplainedPart> largest;
+  for (std::size_t i = 0; i < std::min(enough, parts.size()); ++i) largest.push_back(parts[i].second);
+  return largest;
 }
 
 }  // namespace torquescope

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/forward_selection.hpp"
 #include "engine/diagnose/generic_axes.hpp"
 
@@ -24,5 +25,8 @@ struct Remainder {
 };
 
 Remainder judge_remainder(Selection const& selection, ModelStage const& final);
+
+// regions of a map, those with most energy first, five at most: where to look for what has no name
+std::vector<UnexplainedPart> largest_parts(std::vector<MapAxis> const& map);
 
 }  // namespace torquescope

@@ -21,8 +21,9 @@ double own_energy(ModelStage const& stage, std::size_t i) {
   return (group.r * linear).squaredNorm();
 }
 
-void drop_superfluous(StageSetting const& setting, Selection& selection, ModelStage& stage) {
+void drop_superfluous(StageSetting const& setting, Selection& selection) {
   while (selection.accepted.size() > 1) {
+    ModelStage const& stage = *selection.final;
     std::size_t weakest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
@@ -40,7 +41,7 @@ void drop_superfluous(StageSetting const& setting, Selection& selection, ModelSt
     if (!next) return;
     selection.rejected.push_back({selection.accepted[weakest].effect, "superfluous beside the effects named after it"});
     selection.accepted.erase(selection.accepted.begin() + at);
-    stage = std::move(*next);
+    selection.final = std::make_shared<ModelStage const>(std::move(*next));
   }
 }
 
@@ -66,11 +67,11 @@ AcceptedEffect taken_over(AcceptedEffect const& from, Rival const& rival, Select
   return taken;
 }
 
-void swap_within_families(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
-                          ModelStage& stage) {
+void swap_within_families(StageSetting const& setting, SelectionOptions const& options, Selection& selection) {
   constexpr double clearly_more = 1.03;
   ShapeSearch const search = shape_search(options.shape_optimiser, setting.seed);
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
+    ModelStage const& stage = *selection.final;
     auto const relatives = relatives_of(selection.accepted[i].effect, selection);
     auto const rivals = rivals_of(stage, i, relatives, search, setting.threads);
     if (rivals.empty() || rivals.front().gain_ratio < clearly_more) continue;
@@ -81,16 +82,15 @@ void swap_within_families(StageSetting const& setting, SelectionOptions const& o
     selection.rejected.push_back({selection.accepted[i].effect, "explains less than " + rivals.front().effect->name() +
                                                                     " beside the effects named after it"});
     selection.accepted[i] = taken_over(selection.accepted[i], rivals.front(), selection);
-    stage = std::move(*next);
+    selection.final = std::make_shared<ModelStage const>(std::move(*next));
   }
 }
 
 }  // namespace
 
-void revise_selection(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
-                      ModelStage& stage) {
-  drop_superfluous(setting, selection, stage);
-  if (selection.accepted.size() > 1) swap_within_families(setting, options, selection, stage);
+void revise_selection(StageSetting const& setting, SelectionOptions const& options, Selection& selection) {
+  drop_superfluous(setting, selection);
+  if (selection.accepted.size() > 1) swap_within_families(setting, options, selection);
 }
 
 }  // namespace torquescope

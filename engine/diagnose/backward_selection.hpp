@@ -12,8 +12,7 @@
 
 namespace torquescope {
 
-// selection.accepted belongs to the effects of the stage's model, in their order, before and after
-void revise_selection(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
-                      ModelStage& stage);
+// selection.accepted belongs to the effects of the final model, in their order, before and after
+void revise_selection(StageSetting const& setting, SelectionOptions const& options, Selection& selection);
 
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 namespace torquescope {
 namespace {
 
-constexpr Eigen::Index n_blocks = 10;
+constexpr Eigen::Index n_folds = 10;
 
 // what the fit outside [from, to) leaves inside it
 double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::Index from, Eigen::Index to,
@@ -35,8 +35,8 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
 double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows) {
   TORQUESCOPE_EXPECT(signal.size() >= fewest_rows && columns.rows() == signal.size());
   double sum = 0.0;
-  for (Eigen::Index block = 0; block < n_blocks; ++block)
-    sum += left_inside(signal, columns, signal.size() * block / n_blocks, signal.size() * (block + 1) / n_blocks,
+  for (Eigen::Index block = 0; block < n_folds; ++block)
+    sum += left_inside(signal, columns, signal.size() * block / n_folds, signal.size() * (block + 1) / n_folds,
                        guard_rows);
   return sum;
 }
@@ -48,17 +48,17 @@ BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const&
   Eigen::MatrixXd both(mismatch.size(), model.cols() + effect.cols());
   both << model, effect;
   BlockedGain result;
-  for (Eigen::Index block = 0; block < n_blocks; ++block) {
-    Eigen::Index const from = mismatch.size() * block / n_blocks, to = mismatch.size() * (block + 1) / n_blocks;
+  for (Eigen::Index block = 0; block < n_folds; ++block) {
+    Eigen::Index const from = mismatch.size() * block / n_folds, to = mismatch.size() * (block + 1) / n_folds;
     double const gain =
         left_inside(mismatch, model, from, to, guard_rows) - left_inside(mismatch, both, from, to, guard_rows);
     result.per_block.push_back(gain);
     result.gain += gain;
   }
-  double const mean = result.gain / static_cast<double>(n_blocks);
+  double const mean = result.gain / static_cast<double>(n_folds);
   double squares = 0.0;
   for (double gain : result.per_block) squares += (gain - mean) * (gain - mean);
-  double const error = std::sqrt(squares / static_cast<double>(n_blocks * (n_blocks - 1)));
+  double const error = std::sqrt(squares / static_cast<double>(n_folds * (n_folds - 1)));
   result.t = error > 0.0 ? mean / error : 0.0;
   return result;
 }

@@ -49,11 +49,11 @@ void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect
         candidate.decision = Decision::equivalent;
 }
 
-void withdraw_names(std::vector<Candidate>& candidates) {
+void withdraw_names(std::vector<Candidate>& candidates, std::string const& reason) {
   for (auto& candidate : candidates)
     if (candidate.decision == Decision::named || candidate.decision == Decision::measurement) {
       candidate.decision = Decision::rejected;
-      candidate.reason = "withdrawn: it leaves too much that has a structure of its own";
+      candidate.reason = reason;
     }
 }
 

@@ -4,6 +4,7 @@
 // Order      by what they explain of the mismatch; without a mismatch by how far they are beyond chance
 // Threads    free functions
 
+#include <string>
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
@@ -17,6 +18,6 @@ std::vector<Candidate> candidate_table(Selection const& selection);
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects);
 
 // nothing that was named stands
-void withdraw_names(std::vector<Candidate>& candidates);
+void withdraw_names(std::vector<Candidate>& candidates, std::string const& reason);
 
 }  // namespace torquescope

@@ -158,6 +158,7 @@ struct JointDiagnosis {
   double train_floor_relerr = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
+  std::string refutation{};  // of names that unseen recordings spoke against: a clause; told in the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
   std::vector<std::string> nuisances{};  // what was refitted on the head of the unseen recording
   std::vector<TorqueTrace> traces{};     // the unseen recordings, else the training ones

@@ -12,8 +12,8 @@
 // Weights    every accepted effect gets rows weighed anew (noise_weights.hpp), for what is missing passes for noise in part;
 //            energies of earlier steps are counted in the unit of the last (energy_unit)
 // Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds; the
-//            largest gain wins, a lesser one with fewer parameters
-//            when it gives 97 % of it. It must explain a quarter of what is left and 0.2 % of the whole, have a
+//            largest gain wins, a lesser one that gives 97 % of it when it is another wave of a named effect or has fewer
+//            parameters. It must explain a quarter of what is left and 0.2 % of the whole, have a
 //            plausible shape, help where it acts (region_consistency.hpp) and improve blocks of time it was not fitted to (t >= 2,
 //            or by half of its gain); what happens once cannot
 //            do that, and must explain a quarter of the whole. As soon as an effect of
@@ -21,11 +21,13 @@
 //            it may at most (friction_wander.hpp, by itself)
 // Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least a third of what
 //            the projection promised
+// Doubt      a second line from where another effect was nearly as good (rival_lines.hpp)
 // End        backward and swap (backward_selection.hpp)
 // Threads    as the stages
 // Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,9 +71,9 @@ struct Selection {
   WanderReading wander = WanderReading::beside_motion;  // that the twins were made with
   std::vector<AcceptedEffect> accepted{};               // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
-  ModelStage baseline;           // without effects
-  ModelStage final;              // with all of them; a second copy of the baseline's when there are none
-  std::int64_t evaluations = 0;  // of shapes
+  std::shared_ptr<ModelStage const> baseline{};  // without effects
+  std::shared_ptr<ModelStage const> final{};     // with all of them; the baseline when there are none
+  std::int64_t evaluations = 0;                  // of shapes
 
   bool has_accepted(Effect const* effect) const;
   double whole() const;  // first_excess under the weights of the last step, above 0

@@ -14,7 +14,9 @@
 namespace torquescope {
 namespace {
 
-constexpr double most_of_it = 0.5;
+// Of what is left beside the nuisance, by projection, and of all that is missing at reversals, by twins. Projection looks
+// along the motion that the model without the effect gives: within a tick of the encoder that is not the one friction made
+constexpr double enough_to_try = 0.25, most_of_it = 0.5;
 
 // friction that remembers where it turned, and nothing else
 bool is_buildup(Effect const& effect) {
@@ -60,8 +62,8 @@ class SecondLook {
   SecondLook(StageSetting const& setting, SelectionOptions const& options, Selection& selection,
              StageSink const& progress)
       : setting_(setting), options_(options), selection_(selection), progress_(progress) {
-    setting_.weights = selection.final.pipeline->weights();
-    setting_.loop = std::make_shared<RecordedLoop const>(selection.final.twin->loop);
+    setting_.weights = selection.final->pipeline->weights();
+    setting_.loop = std::make_shared<RecordedLoop const>(selection.final->twin->loop);
     setting_.wander = selection.wander;
   }
 
@@ -93,7 +95,7 @@ class SecondLook {
 
   // What the mask left of such friction may have got its name already. It is asked for anew, beside all other names
   bool leave_out_buildup() {
-    auto const& final = selection_.final;
+    auto const& final = *selection_.final;
     Eigen::VectorXd const& all = final.parameters();
     auto const n_baseline = static_cast<Eigen::Index>(setting_.regressor.size());
     std::vector<double> kept(all.data(), all.data() + n_baseline);
@@ -117,7 +119,7 @@ class SecondLook {
   }
 
   // the model so far, on masked rows
-  ModelStage const& before() const { return without_ ? *without_ : selection_.final; }
+  ModelStage const& before() const { return without_ ? *without_ : *selection_.final; }
 
   // recording and twins of the model so far, on rows with reversals
   bool compare(std::size_t twins) {
@@ -158,7 +160,7 @@ class SecondLook {
     if (trials.empty()) return std::nullopt;
     found.trial = simplest_of(std::move(trials));
     auto const& best = found.trial.refined;
-    bool const holds = best.gain > most_of_others && best.gain > most_of_it * left_beside(columns.nuisance()) &&
+    bool const holds = best.gain > most_of_others && best.gain > enough_to_try * left_beside(columns.nuisance()) &&
                        best.effect->is_plausible(best.shape, columns.scales()) &&
                        helps_elsewhere(found.trial.cv, best.gain);
     return holds ? std::optional(std::move(found)) : std::nullopt;
@@ -198,24 +200,24 @@ class SecondLook {
     start << known, refined.parameters;
     own.levels->parameters = start;
     auto draft = refined_draft(own, before().reference(), std::move(effects));
-    double const promised = confirmed_share * refined.gain;
-    if (!draft || energy_about_true_mean(*draft) > energy_about_true_mean(rows_) - promised) return false;
+    if (!draft || energy_about_true_mean(*draft) > energy_about_true_mean(rows_) - most_of_it * rows_.energy.excess)
+      return false;
     own.levels = levels_of(*draft->twin);
     auto next = make_stage(own, draft->model());
     auto baseline = baseline_with_reversals();
     progress_told(setting_.twins);
-    if (!next || !baseline || energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - promised)
+    if (!next || !baseline ||
+        energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - confirmed_share * refined.gain)
       return false;
     put(std::move(found), std::move(*baseline), std::move(*next));
-    if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_, selection_.final);
+    if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_);
     return true;
   }
 
   std::optional<ModelStage> baseline_with_reversals() const {
-    auto const& masked = selection_.accepted.empty() ? selection_.final : selection_.baseline;
     StageSetting own = setting_;
-    own.levels = levels_of(*selection_.final.twin);
-    own.levels->parameters = masked.twin->baseline.parameters;
+    own.levels = levels_of(*selection_.final->twin);
+    own.levels->parameters = selection_.baseline->twin->baseline.parameters;
     return make_stage(own, setting_.regressor);
   }
 
@@ -240,8 +242,8 @@ class SecondLook {
     selection_.keeps_reversals = true;
     selection_.accepted.push_back({trial.refined.effect, trial.scan, trial.q, trial.refined.gain, trial.cv.gain,
                                    std::numeric_limits<double>::quiet_NaN()});
-    selection_.baseline = std::move(baseline);
-    selection_.final = std::move(final);
+    selection_.baseline = std::make_shared<ModelStage const>(std::move(baseline));
+    selection_.final = std::make_shared<ModelStage const>(std::move(final));
   }
 
   void progress_told(std::size_t done) const {

@@ -8,7 +8,8 @@
 //            side with the speed is not known, and not asked. Friction that builds up changes its side late: it remembers
 // Gate       omnibus z above 4 and mismatch above 0.25 % of the torque's rms, as in the search; first with few twins
 // Named      the one of the two that explains more, when no other effect explains more than it, q is at the level, it takes more
-//            than half of what is left beside the nuisance, helps on other blocks, and twins with it confirm a third of that.
+//            than a quarter of what is left beside the nuisance, helps on other blocks, and with it twins lose more than half
+//            of all that is missing on these rows. Against the baseline twins must still confirm a third of its gain.
 //            The two are relatives: whether the other fits as well is asked as for every name (equivalent_effects.hpp)
 // Then       rows at reversals stay in: baseline and final model are fitted, shown and checked on unseen data with them, and what
 //            was named before must still be of use

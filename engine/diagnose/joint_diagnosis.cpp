@@ -20,6 +20,7 @@
 #include "engine/diagnose/sentences.hpp"
 #include "engine/diagnose/simulator_gap.hpp"
 #include "engine/diagnose/unseen_record.hpp"
+#include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
 namespace {
@@ -137,8 +138,8 @@ class JointWork {
     return why;
   }
 
-  ModelStage const& final_stage() const { return selection_.final; }
-  ModelStage const& baseline() const { return selection_.accepted.empty() ? selection_.final : selection_.baseline; }
+  ModelStage const& final_stage() const { return *selection_.final; }
+  ModelStage const& baseline() const { return *selection_.baseline; }
 
   void describe_baseline() {
     auto const& stage = baseline();
@@ -189,14 +190,16 @@ class JointWork {
 
   void check_on_unseen(StageSetting const& setting) {
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
-    double torque = 0.0, before = 0.0, after = 0.0, floor = 0.0;
+    UnseenEnergies sum;
+    double torque = 0.0;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : input_.validate) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
       torque += result.energy;
-      before += result.before_energy;
-      after += result.after_energy;
-      floor += result.floor * result.floor * result.energy;
+      sum.before += result.before_energy;
+      sum.after += result.after_energy;
+      sum.floor += result.floor * result.floor * result.energy;
+      sum.moved += result.moved_energy;
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.without[i] - result.after_energy;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
@@ -208,12 +211,13 @@ class JointWork {
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
-    joint_.validation_relerr = std::sqrt(before / torque);
-    joint_.augmented_validation_relerr = std::sqrt(after / torque);
-    if (std::isfinite(floor)) joint_.floor_relerr = std::sqrt(floor / torque);
+    joint_.validation_relerr = std::sqrt(sum.before / torque);
+    joint_.augmented_validation_relerr = std::sqrt(sum.after / torque);
+    if (std::isfinite(sum.floor)) joint_.floor_relerr = std::sqrt(sum.floor / torque);
+    is_refuted_ = must_carry_over(selection_.accepted) && speak_against(sum);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / before;
+      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / sum.before;
     }
   }
 
@@ -245,26 +249,20 @@ class JointWork {
         1.0 - joint_.budget.parameter_error - joint_.budget.missing_physics - joint_.budget.unexplained;
   }
 
-  void list_unexplained() {
-    auto const left = mismatch_map(final_stage().comparison.rows, final_stage().reference().scales, input_.threads);
-    std::vector<std::pair<double, UnexplainedPart>> parts;
-    for (auto const& axis : left)
-      for (auto const& region : axis.regions)
-        parts.push_back({axis.energy_share * region.energy_share, {region.where, region.energy_share}});
-    std::stable_sort(parts.begin(), parts.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
-    constexpr std::size_t enough = 5;
-    for (std::size_t i = 0; i < std::min(enough, parts.size()); ++i) joint_.unexplained.push_back(parts[i].second);
-  }
-
   void decide(Remainder const& remainder) {
     if (!selection_.is_gate_open) {
       diagnosis_.verdict = Verdict::none;
       return;
     }
-    if (remainder.is_significant || remainder.is_unexplained) list_unexplained();
-    if (remainder.is_unexplained) {
+    if (remainder.is_significant || remainder.is_unexplained) {
+      auto const& final = final_stage();
+      joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));
+    } else if (is_refuted_) {
+      joint_.unexplained = largest_parts(joint_.map);
+    }
+    if (remainder.is_unexplained || is_refuted_) {
       diagnosis_.verdict = Verdict::unexplained;
-      withdraw();
+      withdraw(remainder.is_unexplained);
       return;
     }
     mark_equivalent(joint_.candidates, joint_.effects);
@@ -279,8 +277,10 @@ class JointWork {
   }
 
   // nothing that was named stands
-  void withdraw() {
-    withdraw_names(joint_.candidates);
+  void withdraw(bool leaves_too_much) {
+    if (!leaves_too_much) joint_.refutation = refutation_clause(joint_);
+    withdraw_names(joint_.candidates, leaves_too_much ? "withdrawn: it leaves too much that has a structure of its own"
+                                                      : "withdrawn: it makes the prediction of unseen data worse");
     joint_.budget.unexplained += joint_.budget.missing_physics;
     joint_.budget.missing_physics = 0.0;
     joint_.effects.clear();
@@ -295,6 +295,7 @@ class JointWork {
   Selection selection_;
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   double parameter_share_ = 0.0;
+  bool is_refuted_ = false;  // what was named, by unseen recordings
 };
 
 }  // namespace

@@ -7,7 +7,8 @@
 //            unexplained                something is missing and nothing fits; or the named effects leave more than 3 % of it,
 //                                       beyond chance, and either the smooth function that holds most of that holds more than half and
 //                                       is of an axis which is none of theirs, or they explain less than two thirds of the whole while a
-//                                       smooth function holds a fifth of what is left: then they are withdrawn
+//                                       smooth function holds a fifth of what is left, or unseen recordings speak against them
+//                                       (unseen_refutation.hpp): then they are withdrawn
 //            named, one_of_class        the rest; a class when another effect fits as well (equivalent_effects.hpp)
 // Errors     Error 78 for a filter that does not suit the recording; everything a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number

@@ -29,7 +29,7 @@ NamedEffect described(Selection const& selection, std::size_t i, std::vector<Par
   auto const& accepted = selection.accepted[i];
   auto const& effect = *accepted.effect;
   double const residual = selection.first_energy.residual;
-  EffectAccount account = account_of(selection.final, i);
+  EffectAccount account = account_of(*selection.final, i);
   NamedEffect named;
   named.name = effect.name();
   named.family = word(effect.family());
@@ -69,7 +69,7 @@ std::size_t number_of(Selection const& selection, std::size_t i) {
 }  // namespace
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
-  ModelEstimate const estimate = estimate_parameters(selection.final);
+  ModelEstimate const estimate = estimate_parameters(*selection.final);
   double const residual = selection.first_energy.residual;
   NamedEffects result;
   result.parameters = estimate.baseline;
@@ -87,7 +87,7 @@ NamedEffects name_effects(Selection const& selection, ShapeSearch const& search,
       continue;
     }
     NamedEffect named = described(selection, i, parameters);
-    for (auto const& rival : rivals_of(selection.final, i, rivals_for(accepted, selection), search, threads))
+    for (auto const& rival : rivals_of(*selection.final, i, rivals_for(accepted, selection), search, threads))
       if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
     result.effects.push_back(std::move(named));
   }

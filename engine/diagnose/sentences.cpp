@@ -169,8 +169,9 @@ std::string none_reason(JointDiagnosis const& joint) {
 std::string unexplained_reason(JointDiagnosis const& joint) {
   auto const tested = std::count_if(joint.candidates.begin(), joint.candidates.end(),
                                     [](Candidate const& one) { return one.decision != Decision::not_tested; });
-  std::string const nothing_fits =
-      tested > 0 ? fmt::format("none of {} known effects fits it", tested) : std::string("no known effect fits it");
+  std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
+                                   : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
+                                                             : std::string("no known effect fits it");
   std::string text;
   if (joint.unexplained.empty()) {
     text = fmt::format("The residual of joint {} is not what clean twins have ({}), but {}.", joint.joint,
@@ -223,6 +224,16 @@ std::string joint_reason(Verdict verdict, JointDiagnosis const& joint) {
 
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect) {
   return effect_clauses(joint, effect, false);
+}
+
+std::string refutation_clause(JointDiagnosis const& joint) {
+  std::vector<std::string> names;
+  for (auto const& effect : joint.effects) names.push_back(effect.name);
+  bool const is_one = names.size() == 1;
+  return fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}, where twins with {} promise {}",
+                     joined(names, "and"), is_one ? "takes" : "take", percent_text(joint.validation_relerr),
+                     percent_text(joint.augmented_validation_relerr), is_one ? "it" : "them",
+                     percent_text(joint.floor_relerr));
 }
 
 std::string reason_sentence(Diagnosis const& diagnosis) {

@@ -19,6 +19,10 @@ namespace torquescope {
 // excluded)."
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect);
 
+// of names that are to be withdrawn because of unseen recordings: "backlash, which would explain it, takes the unseen relerr from
+// 2.2 % to 2.5 %, where twins with it promise 1.6 %"
+std::string refutation_clause(JointDiagnosis const& joint);
+
 // of the whole verdict: the effects' sentences and "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; what is left when
 // nothing is named; what to do when the recording cannot tell
 std::string reason_sentence(Diagnosis const& diagnosis);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -13,8 +14,14 @@ namespace {
 
 class Refinement {
  public:
-  Refinement(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch)
-      : columns_(columns), effect_(*scan.effect), ranges_(scan.grid.ranges), mismatch_(mismatch) {
+  // begins at a point of the scan's grid
+  Refinement(CandidateColumns const& columns, EffectScan const& scan, std::size_t point,
+             Eigen::VectorXd const& mismatch, bool only_plausible = false)
+      : columns_(columns),
+        effect_(*scan.effect),
+        ranges_(scan.grid.ranges),
+        mismatch_(mismatch),
+        only_plausible_(only_plausible) {
     best_.effect = scan.effect;
     auto const bounds = effect_.linear_bounds(columns.scales());
     least_.resize(static_cast<Eigen::Index>(bounds.size()));
@@ -23,7 +30,7 @@ class Refinement {
       least_[static_cast<Eigen::Index>(k)] = bounds[k].lower;
       most_[static_cast<Eigen::Index>(k)] = bounds[k].upper;
     }
-    try_shape(scan.shape);
+    try_shape(scan.grid.point(point));
   }
 
   RefinedEffect take() && {
@@ -84,6 +91,7 @@ class Refinement {
   void keep(std::vector<double> const& shape, BoundedGain const& gain) {
     ++best_.evaluations;
     if (best_.evaluations > 1 && gain.gain <= best_.gain) return;
+    if (only_plausible_ && !effect_.is_plausible(shape, columns_.scales())) return;
     best_.shape = shape;
     best_.gain = gain.gain;
     best_.improvements.push_back({best_.evaluations, gain.gain});
@@ -130,9 +138,36 @@ class Refinement {
   Effect const& effect_;
   std::vector<ParameterRange> const& ranges_;
   Eigen::VectorXd const& mismatch_;
+  bool only_plausible_ = false;
   Eigen::VectorXd least_{}, most_{};  // plausible sizes of the linear parameters
   RefinedEffect best_{};
 };
+
+RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::size_t point, ShapeSearch const& search,
+                           int threads) {
+  if (scan.effect->n_shape() > 0) {
+    refinement.search_in(scan.grid.box(point), search, static_cast<std::uint32_t>(point), threads);
+    refinement.polish();
+  }
+  return std::move(refinement).take();
+}
+
+// the plausible point of the grid that explains most
+std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
+                                                Eigen::VectorXd const& mismatch) {
+  std::optional<std::size_t> best;
+  double most = 0.0;
+  for (std::size_t k = 0; k < scan.grid.size(); ++k) {
+    auto const shape = scan.grid.point(k);
+    if (!scan.effect->is_plausible(shape, columns.scales())) continue;
+    OrthonormalGroup const group = columns.group(*scan.effect, shape);
+    double const gain = bounded_gain(group, inner_products(group.q, mismatch)).gain;
+    if (gain <= most) continue;
+    most = gain;
+    best = k;
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -152,11 +187,15 @@ ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
-  Refinement refinement(columns, scan, mismatch);
-  if (scan.effect->n_shape() == 0) return std::move(refinement).take();
-  refinement.search_in(scan.grid.box(scan.best_point), search, static_cast<std::uint32_t>(scan.best_point), threads);
-  refinement.polish();
-  return std::move(refinement).take();
+  constexpr double nearly_all = 0.9;
+  RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
+  if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
+  auto const point = best_plausible_point(columns, scan, mismatch);
+  if (!point) return best;
+  RefinedEffect plausible = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
+  if (plausible.gain < nearly_all * best.gain) return best;
+  plausible.evaluations += best.evaluations;
+  return plausible;
 }
 
 }  // namespace torquescope

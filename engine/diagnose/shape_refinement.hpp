@@ -44,7 +44,8 @@ struct RefinedEffect {
   std::vector<Improvement> improvements{};
 };
 
-// mismatch: n rows
+// mismatch: n rows. Where the best shape is none that the effect could have (Effect::is_plausible), the best that it could have
+// if that explains nine tenths of it, which is what the form of a law may cost; else the best of all, for the caller to refuse
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads);
 

@@ -17,7 +17,7 @@ void prefer_what_repeats(std::vector<Trial>& trials) {
   }
 }
 
-void prefer_fewer_parameters(std::vector<Trial>& trials) {
+void prefer_the_simpler(std::vector<Trial>& trials) {
   constexpr double nearly_all = 0.97;
   if (trials.empty()) return;
   double const enough = nearly_all * trials.front().refined.gain;
@@ -25,6 +25,7 @@ void prefer_fewer_parameters(std::vector<Trial>& trials) {
     return trial.refined.gain < enough || is_event(trial) != is_event(trials.front());
   });
   std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
+    if (a.is_named != b.is_named) return a.is_named;
     return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
   });
 }
@@ -35,7 +36,7 @@ std::vector<Trial> in_order_of_trial(std::vector<Trial> trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](Trial const& a, Trial const& b) { return a.refined.gain > b.refined.gain; });
   prefer_what_repeats(trials);
-  prefer_fewer_parameters(trials);
+  prefer_the_simpler(trials);
   return trials;
 }
 

@@ -3,12 +3,13 @@
 //
 // Order      most gain first. Something that acts all the time and explains half as much on blocks it was not fitted to comes
 //            before what happens once, for that fits any one peak and can be checked nowhere else. Among those that give 97 %
-//            of the first one's gain, fewer parameters first
+//            of the first one's gain, another wave of what is named already first, then fewer parameters
 // Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so that its
 //            spread says nothing
 // Threads    free functions
 // Source     LESSONS items 9, 11 and 17 of our own prototype
 
+#include <limits>
 #include <vector>
 
 #include "engine/diagnose/blocked_cv.hpp"
@@ -20,7 +21,10 @@ struct Trial {
   EffectScan scan;
   double q = 1.0;
   RefinedEffect refined;
-  BlockedGain cv;
+  BlockedGain cv{};
+  bool is_named = false;  // already: another wave of it is no new kind of physics
+  double region_share =
+      std::numeric_limits<double>::quiet_NaN();  // of its gain, where it acts (region_consistency.hpp)
 };
 
 std::vector<Trial> in_order_of_trial(std::vector<Trial> trials);

@@ -50,8 +50,8 @@ double head_offset(Eigen::VectorXd const& residual) {
   return std::abs(mean) > beyond * error ? mean : 0.0;
 }
 
-// Where a counter begins to count is another place in each recording, so a wave that is locked to the position keeps its
-// size and order and may turn its phase: to the one that fits the head best, when that is beyond chance.
+// Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its size
+// and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
 bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
   constexpr int directions = 360;
   constexpr double beyond = 9.0;  // three standard deviations, squared
@@ -76,16 +76,14 @@ bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen:
   return true;
 }
 
-// a cosine and a sine of the position, and nothing else
-bool is_position_wave(Effect const& effect) {
-  return effect.n_linear() == 2 && effect.n_shape() == 1 && effect.parameters()[effect.n_linear()].is_order();
-}
+// a cosine and a sine, and nothing else
+bool is_plain_wave(Effect const& effect) { return effect.n_linear() == 2 && effect.n_shape() == 1 && effect.is_wave(); }
 
 void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
                 std::vector<std::string>& nuisances) {
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_position_wave(*effects[i].effect)) continue;
+    if (!is_plain_wave(*effects[i].effect)) continue;
     auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
     Eigen::VectorXd const left = record.torque - record.columns * parameters;
     if (turn_phase(record.columns.middleCols(first, 2), left, parameters.segment(first, 2)))
@@ -209,6 +207,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   result.energy = before.torque.squaredNorm();
   result.before_energy = left_before.squaredNorm();
   result.after_energy = left_after.squaredNorm();
+  result.moved_energy = (left_before - left_after).squaredNorm();
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i) {
     auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(i));
     auto const width = static_cast<Eigen::Index>(augmented.model().effects()[i].effect->n_linear());

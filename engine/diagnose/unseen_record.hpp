@@ -7,7 +7,7 @@
 // Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
 //            errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
 //            named both are one and take none
-// Phase      of waves locked to the position: turned to what fits the first 5 % best when that is beyond three standard
+// Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond three standard
 //            deviations, size and order kept, and said so
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
 // Floor      relerr of 16 twins of this recording under the final model, with the same parameters
@@ -23,6 +23,7 @@ namespace torquescope {
 struct UnseenResult {
   double floor = unknown;                                        // relerr
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
+  double moved_energy = 0.0;                                     // of the difference between both predictions
   std::vector<double> without{};                                 // residual energy with all effects but one, per effect
   TorqueTrace trace{};
   ForwardSimulation forward{};

@@ -8,15 +8,15 @@
 namespace torquescope {
 namespace {
 
-constexpr Eigen::Index block_rows = 8192;
+constexpr Eigen::Index rows_at_a_time = 8192;
 
 // visit(scores, fresh) of blocks of a recording's rows; the rows before the last `fresh` ones (at most `before`) belong to
 // the block before
 template <class Visit>
 void for_each_block(RowScores const& rows, std::size_t recording, Eigen::Index before, Visit const& visit) {
   Eigen::Index const begin = rows.first_row[recording], end = rows.first_row[recording + 1];
-  for (Eigen::Index first = begin; first < end; first += block_rows) {
-    Eigen::Index const from = std::max(begin, first - before), to = std::min(first + block_rows, end);
+  for (Eigen::Index first = begin; first < end; first += rows_at_a_time) {
+    Eigen::Index const from = std::max(begin, first - before), to = std::min(first + rows_at_a_time, end);
     Eigen::MatrixXd const scores =
         rows.psi.segment(from, to - from).asDiagonal() * rows.phi.middleRows(from, to - from);
     visit(scores, to - first);

@@ -10,7 +10,7 @@ namespace torquescope {
 namespace {
 
 // residuals that are held at one time: they stay in the first cache until their squares are summed
-constexpr Eigen::Index block_rows = 1024;
+constexpr Eigen::Index rows_per_block = 1024;
 constexpr std::size_t most_together = 4;
 
 using Candidates = std::span<Eigen::VectorXd const>;
@@ -40,10 +40,10 @@ std::vector<PredictionMetrics> prediction_metrics(RegressionData const& data, Ca
   std::vector<PredictionMetrics> metrics(candidates.size());
   std::vector<double> spread(candidates.size(), 0.0);  // sum of squares about the mean of the rows so far
   std::vector<double> residuals(std::min(most_together, candidates.size()) *
-                                static_cast<std::size_t>(std::min(block_rows, data.rows())));
+                                static_cast<std::size_t>(std::min(rows_per_block, data.rows())));
   kernels::ResidualSums sums[most_together];
-  for (Eigen::Index first = 0; first < data.rows(); first += block_rows) {
-    Eigen::Index const count = std::min(block_rows, data.rows() - first);
+  for (Eigen::Index first = 0; first < data.rows(); first += rows_per_block) {
+    Eigen::Index const count = std::min(rows_per_block, data.rows() - first);
     auto const rows = static_cast<std::size_t>(count);
     kernels::SampleColumns const block{data.phi.data() + first, static_cast<std::size_t>(data.phi.outerStride()),
                                        data.tau.data() + first, rows, R};

@@ -12,6 +12,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(torquescope_flags INTERFACE
     -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
+# GCC looks for memory to free from 256 MB on and finds little: a twentieth of the time of a file with Eigen, which takes 1.1 GB
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(torquescope_flags INTERFACE --param=ggc-min-heapsize=500000)
+endif()
 if(TORQUESCOPE_CONTRACTS)
   target_compile_definitions(torquescope_flags INTERFACE TORQUESCOPE_CONTRACTS=1)
 endif()
@@ -39,8 +43,9 @@ function(layer name)
 endfunction()
 
 # compile_together(TARGET N): N files of a target at a time, where many small ones read the same large headers. A cold build
-# takes minutes less; presets dev and tidy go file by file, which is quicker after a change and sees every missing include
-option(TORQUESCOPE_TOGETHER "compile several files of some layers at a time" ON)
+# takes minutes less (a layer on Eigen three tenths); presets dev and tidy go file by file, which is quicker after a change and
+# sees every missing include
+option(TORQUESCOPE_TOGETHER "compile several files of most layers at a time" ON)
 function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
@@ -68,20 +73,28 @@ function(choices target kind)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/choices)
 endfunction()
 
+# half of the time of linking 170 tests; Debian's binutils bring it
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold TORQUESCOPE_GOLD)
+endif()
+
 # what preset tsan builds and runs: the tests labelled `threads`
 add_custom_target(threaded_tests)
 
-# unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, labelled by its first folder
+# unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, labelled by its first folder. COST:
+# its seconds, where they are more than ten; ctest starts the longest tests first, so that none is left alone at the end
 function(unit_test folder name)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "" "TIMEOUT;COST" "LINKS;LABELS" ${ARGN})
   string(REPLACE "/" "_" flat ${folder})
   set(target test_${flat}_${name})
   add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${folder}/${name}.cpp)
-  target_link_libraries(${target} PRIVATE torquescope_flags ${TEST_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE torquescope_flags ${TEST_LINKS} test_support GTest::gtest GTest::gmock GTest::gtest_main)
   # gtest at -O3 doubles the time of a build and finds nothing more: what is tested keeps its own flags
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   # read once for all tests: a quarter of the time of their build
   target_precompile_headers(${target} REUSE_FROM test_headers)
+  target_link_options(${target} PRIVATE $<$<BOOL:${TORQUESCOPE_GOLD}>:-fuse-ld=gold>)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE TORQUESCOPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${flat}.${name} COMMAND ${target})
@@ -90,6 +103,9 @@ function(unit_test folder name)
                        ENVIRONMENT "OMP_WAIT_POLICY=passive;${TORQUESCOPE_SANITIZER_ENVIRONMENT}")
   if("threads" IN_LIST TEST_LABELS)
     add_dependencies(threaded_tests ${target})
+  endif()
+  if(TEST_COST)
+    set_tests_properties(${flat}.${name} PROPERTIES COST ${TEST_COST})
   endif()
   if(TEST_TIMEOUT)
     set_tests_properties(${flat}.${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT})

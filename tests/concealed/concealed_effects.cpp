@@ -1,16 +1,11 @@
 #include "concealed/concealed_effects.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "concealed/joint_units.hpp"
+#include "concealed/one_turn.hpp"
 
 namespace concealed {
-namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
-}  // namespace
 
 EffectMaker lorentzian_stribeck_of(double rise_of_coulomb, double speed_of_peak) {
   return [=](JointDesign const& joint) -> ConcealedEffect {
@@ -54,7 +49,7 @@ EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double
     double const load = load_of_inertia * joint.baseline.inertia;
     double const motor = joint.baseline.inertia - load;
     double const half_gap = half_gap_of_range * joint.limits.range;
-    double const omega = two_pi * contact_hz;
+    double const omega = one_turn * contact_hz;
     double const stiffness = omega * omega * load * motor / (load + motor);
     // a blow at a tenth of the peak speed loses about half of its speed (Hunt, Crossley: 1 - e = 2/3 damping/stiffness v)
     double const damping = 0.75 * stiffness / (0.1 * joint.limits.speed);

@@ -4,13 +4,9 @@
 
 #include "concealed/concealed_effects.hpp"
 #include "concealed/joint_units.hpp"
+#include "concealed/one_turn.hpp"
 
 namespace concealed {
-namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
-}  // namespace
 
 EffectMaker rope_of(double torque_at_range_of_coulomb, double rest_of_range, double rub_share,
                     double distance_of_range) {
@@ -56,7 +52,7 @@ EffectMaker gear_error_of(double amplitude_of_range, double order, double phase)
 
 EffectMaker flexible_gear_of(double load_of_inertia, double frequency_hz, double damping) {
   return [=](JointDesign const& joint) -> ConcealedEffect {
-    double const load = load_of_inertia * joint.baseline.inertia, omega = two_pi * frequency_hz;
+    double const load = load_of_inertia * joint.baseline.inertia, omega = one_turn * frequency_hz;
     double const stiffness = omega * omega * load;
     // wound up by the strokes' acceleration the gear is half as stiff again
     double const wound = joint.limits.speed / speed_up_s / (omega * omega);
@@ -107,13 +103,13 @@ EffectMaker picked_up_load_of(double load_of_inertia, double time_s) {
 
 EffectMaker hidden_shaft_of(double amplitude_of_coulomb, double hz, double turns_per_range) {
   return [=](JointDesign const& joint) -> ConcealedEffect {
-    return {
-        "",
-        {},
-        "unbalanced shaft of another drive behind a slipping belt",
-        false,
-        hidden_shaft(amplitude_of_coulomb * joint.baseline.coulomb, hz, two_pi * turns_per_range / joint.limits.range),
-        {}};
+    return {"",
+            {},
+            "unbalanced shaft of another drive behind a slipping belt",
+            false,
+            hidden_shaft(amplitude_of_coulomb * joint.baseline.coulomb, hz,
+                         one_turn * turns_per_range / joint.limits.range),
+            {}};
   };
 }
 

@@ -1,15 +1,13 @@
 #include "concealed/drawable_effects.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "concealed/drawn_rig.hpp"
+#include "concealed/one_turn.hpp"
 
 namespace concealed {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 double log_between(Random& random, double low, double high) {
   return std::exp(random.between(std::log(low), std::log(high)));
@@ -18,10 +16,10 @@ double log_between(Random& random, double low, double high) {
 // poles and teeth: whole numbers per turn of the encoder; a slide's screw or pulley turns once per lead
 double drawn_order(Random& random, JointDesign const& joint, int fewest, int most) {
   int const counts = fewest + static_cast<int>(random.index(static_cast<std::size_t>(most - fewest + 1)));
-  return joint.revolute ? counts : (1 + counts % 3) * turn / joint.travel_per_turn;
+  return joint.revolute ? counts : (1 + counts % 3) * one_turn / joint.travel_per_turn;
 }
 
-double drawn_angle(Random& random) { return random.between(0.0, turn); }
+double drawn_angle(Random& random) { return random.between(0.0, one_turn); }
 
 // shapes of friction
 std::vector<DrawableEffect> friction() {

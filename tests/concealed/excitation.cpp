@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "concealed/noise.hpp"
+#include "concealed/one_turn.hpp"
 
 namespace concealed {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double fade_s = 1.0;  // multisine in and out
 
 double fade(double t, double length) {
@@ -120,7 +119,7 @@ void Excitation::add_multisine(double length, std::uint64_t seed) {
   double const lowest_hz = 0.13, highest_hz = 2.1;
   for (int i = 0; i < n_sines; ++i) {
     double const hz = lowest_hz * std::pow(highest_hz / lowest_hz, (i + 0.5 * random.uniform()) / (n_sines - 0.5));
-    sines.push_back({1.0 / (two_pi * hz), two_pi * hz, two_pi * random.uniform()});
+    sines.push_back({1.0 / (one_turn * hz), one_turn * hz, one_turn * random.uniform()});
   }
   auto sum_of = [](std::vector<Sine> const& all) -> Shape {
     return [all](double t) {

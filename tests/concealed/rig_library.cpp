@@ -1,13 +1,12 @@
 // The named joints, loops and noises of the case list.
-#include <numbers>
 #include <stdexcept>
+
+#include "concealed/one_turn.hpp"
 
 #include "concealed/rig.hpp"
 
 namespace concealed {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 template <class Item>
 Item const& find(std::vector<Item> const& items, std::string const& name, char const* kind) {
@@ -26,19 +25,19 @@ JointDesign joint_named(std::string const& name) {
        {.inertia = 0.115, .viscous = 0.74, .coulomb = 0.92, .offset = 0.06},
        {.range = 1.2, .speed = 2.2},
        14.0,
-       turn},
+       one_turn},
       {"wrist",
        true,
        {.inertia = 0.0052, .viscous = 0.024, .coulomb = 0.131, .offset = -0.008},
        {.range = 2.1, .speed = 5.5},
        1.6,
-       turn},
+       one_turn},
       {"shoulder",
        true,
        {.inertia = 0.68, .viscous = 2.6, .coulomb = 3.4, .offset = 0.12, .gravity_sin = 7.1, .gravity_cos = 0.9},
        {.range = 1.4, .speed = 1.7},
        60.0,
-       turn},
+       one_turn},
       {"stage",
        false,
        {.inertia = 57.0, .viscous = 148.0, .coulomb = 26.5, .offset = -2.2},
@@ -50,7 +49,7 @@ JointDesign joint_named(std::string const& name) {
        {.inertia = 2.3, .viscous = 6.5, .coulomb = 6.8, .offset = -0.2},
        {.range = 2.4, .speed = 1.5},
        150.0,
-       turn},
+       one_turn},
       {"belt",
        false,
        {.inertia = 6.2, .viscous = 21.0, .coulomb = 8.5, .offset = 0.3},

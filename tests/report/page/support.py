@@ -31,6 +31,7 @@ KINDS = tuple(make_result.KINDS)
 BOARDS = tuple(make_board.KINDS)
 # the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
 EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
+PAGES = os.environ.get("TORQUESCOPE_PAGES")
 VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
 VARIED = tuple(vary_diagnosis.KINDS) if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
@@ -63,7 +64,9 @@ def study(kind):
 
 @lru_cache(maxsize=None)
 def page(kind):
-    """Path of the built page."""
+    """Path of the built page: ctest's (make_pages.py), or one of this process."""
+    if PAGES:
+        return Path(PAGES) / f"{kind}.html"
     import board
     import build
     import build_board

@@ -50,14 +50,15 @@ class BackwardSelection : public testing::Test {
           effects.push_back({scan.effect, scan.shape});
           selection.accepted.push_back({scan.effect, scan, 0.0, scan.gain, scan.gain});
         }
-    stage = refined_stage(setting, first.reference(), std::move(effects)).value();
+    selection.final =
+        std::make_shared<ModelStage const>(refined_stage(setting, first.reference(), std::move(effects)).value());
   }
 
   std::vector<std::string> names() const {
     std::vector<std::string> found;
     for (auto const& one : selection.accepted) found.push_back(one.effect->name());
     std::vector<std::string> in_model;
-    for (auto const& one : stage.model().effects()) in_model.push_back(one.effect->name());
+    for (auto const& one : selection.final->model().effects()) in_model.push_back(one.effect->name());
     EXPECT_EQ(found, in_model);
     return found;
   }
@@ -68,21 +69,20 @@ class BackwardSelection : public testing::Test {
   StageSetting const setting{recording, clean_regressor(), filter, section, 24, 1, 2};
   SelectionOptions const options{};
   Selection selection;
-  ModelStage stage;
 };
 
 }  // namespace
 
 TEST_F(BackwardSelection, KeepsWhatIsRight) {
   accept({"gravity", "stribeck"});
-  revise_selection(setting, options, selection, stage);
+  revise_selection(setting, options, selection);
   EXPECT_EQ(names(), (std::vector<std::string>{"gravity", "stribeck"}));
   EXPECT_TRUE(selection.rejected.empty());
 }
 
 TEST_F(BackwardSelection, TakesOutWhatTheOthersExplain) {
   accept({"asymmetric_viscous", "gravity", "stribeck"});
-  revise_selection(setting, options, selection, stage);
+  revise_selection(setting, options, selection);
   EXPECT_EQ(names(), (std::vector<std::string>{"gravity", "stribeck"}));
   ASSERT_EQ(selection.rejected.size(), 1U);
   EXPECT_EQ(selection.rejected.front().effect->name(), "asymmetric_viscous");
@@ -90,10 +90,10 @@ TEST_F(BackwardSelection, TakesOutWhatTheOthersExplain) {
 
 TEST_F(BackwardSelection, PutsTheRightRelativeInTheWrongOnesPlace) {
   accept({"spring", "stribeck"});
-  double const before = stage.mismatch().squaredNorm();
-  revise_selection(setting, options, selection, stage);
+  double const before = selection.final->mismatch().squaredNorm();
+  revise_selection(setting, options, selection);
   EXPECT_EQ(names(), (std::vector<std::string>{"gravity", "stribeck"}));
-  EXPECT_LT(stage.mismatch().squaredNorm(), 0.5 * before);
+  EXPECT_LT(selection.final->mismatch().squaredNorm(), 0.5 * before);
   ASSERT_EQ(selection.rejected.size(), 1U);
   EXPECT_NE(selection.rejected.front().reason.find("gravity"), std::string::npos);
 }

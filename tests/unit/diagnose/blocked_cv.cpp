@@ -5,12 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
 #include "engine/data/zero_phase.hpp"
+#include "support/decompositions.hpp"
 
 namespace torquescope {
 namespace {
@@ -71,7 +72,7 @@ TEST(BlockedGain, OfAnEffectThatIsThereIsItsEnergy) {
     auto const [noise, model, effect] = drawn(set);
     BlockedGain const found = blocked_gain(noise + 0.5 * effect.col(0), model, effect, guard);
     EXPECT_GT(found.t, 2.0) << set;
-    Eigen::VectorXd const beside = effect - model * model.colPivHouseholderQr().solve(effect);
+    Eigen::VectorXd const beside = test::left_beside(model, effect);
     // the cross term with the noise is 2 * 0.5 * ||beside|| * N(0, 1)
     double const energy = 0.25 * beside.squaredNorm();
     EXPECT_NEAR(found.gain, energy, 4.0 * std::sqrt(energy) * 2.0) << set;

@@ -5,13 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "engine/base/random_stream.hpp"
+#include "support/decompositions.hpp"
 
 namespace torquescope {
 namespace {
@@ -100,7 +101,7 @@ TEST(BoundedGain, OfFreeParametersIsLeastSquares) {
     problem.non_negative.assign(problem.non_negative.size(), false);
     Eigen::MatrixXd all(problem.y.size(), problem.nuisance_columns.cols() + problem.columns.cols());
     all << problem.nuisance_columns, problem.columns;
-    Eigen::VectorXd const theta = all.colPivHouseholderQr().solve(problem.y);
+    Eigen::VectorXd const theta = test::least_squares(all, problem.y);
     EXPECT_LT((problem.gain().parameters - theta.tail(problem.columns.cols())).cwiseAbs().maxCoeff(), rounding) << set;
   }
 }
@@ -125,9 +126,8 @@ TEST(OrthonormalGroup, IsOrthonormalAndSpansTheColumnsLessTheNuisance) {
     Eigen::MatrixXd const unit = Eigen::MatrixXd::Identity(group.rank(), group.rank());
     EXPECT_LT((group.q.transpose() * group.q - unit).cwiseAbs().maxCoeff(), rounding);
     EXPECT_LT((nuisance.transpose() * group.q).cwiseAbs().maxCoeff(), rounding);
-    Eigen::MatrixXd const beside =
-        problem.columns -
-        problem.nuisance_columns * problem.nuisance_columns.colPivHouseholderQr().solve(problem.columns);
+    Eigen::MatrixXd beside = problem.columns;
+    for (auto column : beside.colwise()) column = test::left_beside(problem.nuisance_columns, column);
     EXPECT_LT((group.q * group.r - beside).cwiseAbs().maxCoeff(), rounding);
   }
 }
@@ -223,7 +223,7 @@ double best_in_box(Eigen::MatrixXd const& x, Eigen::VectorXd const& y, double lo
       else
         theta[k] = digits % 3 == 1 ? lower : upper;
     }
-    if (!free.empty()) theta(free) = x(Eigen::all, free).colPivHouseholderQr().solve(y - x * theta);
+    if (!free.empty()) theta(free) = test::least_squares(x(Eigen::all, free), y - x * theta);
     if ((theta.array() < lower - rounding).any() || (theta.array() > upper + rounding).any()) continue;
     most = std::max(most, y.squaredNorm() - (y - x * theta).squaredNorm());
   }

@@ -1,7 +1,7 @@
 #pragma once
 // p-values of a few statistics on clean recordings: uniform when the twins are what they should be.
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "engine/diagnose/disturbance_level.hpp"
 #include "engine/diagnose/twin_batch.hpp"
+#include "support/decompositions.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
 namespace torquescope::test {
@@ -19,8 +20,7 @@ using Statistics = std::array<double, statistic_names.size()>;
 
 // energy of the residual along what a column has beside the baseline
 inline double gain(RecordPipeline const& pipeline, ProcessedRecord const& record, Eigen::VectorXd const& full_rate) {
-  Eigen::VectorXd column = pipeline.filtered(full_rate, record);
-  column -= record.columns * record.columns.colPivHouseholderQr().solve(column);
+  Eigen::VectorXd const column = left_beside(record.columns, pipeline.filtered(full_rate, record));
   double const along = column.dot(record.residual);
   return along * along / column.squaredNorm();
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "support/decompositions.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
@@ -49,9 +50,7 @@ class ColumnExportTest : public testing::Test {
 double explained(Eigen::MatrixXd const& columns, Eigen::MatrixXd const& beside, Eigen::VectorXd const& signal) {
   Eigen::MatrixXd both(beside.rows(), beside.cols() + columns.cols());
   both << beside, columns;
-  auto const left = [&](Eigen::MatrixXd const& of) {
-    return (signal - of * of.colPivHouseholderQr().solve(signal)).squaredNorm();
-  };
+  auto const left = [&](Eigen::MatrixXd const& of) { return test::left_beside(of, signal).squaredNorm(); };
   return left(beside) - left(both);
 }
 
@@ -99,8 +98,8 @@ TEST_F(ColumnExportTest, TheUnseenRecordingHasTheSameColumns) {
     auto const& train_record = result.train;
     Eigen::MatrixXd fitted(train_record.torque.size(), train_record.regressor.cols() + 1);
     fitted << train_record.regressor, train_record.candidates[i];
-    Eigen::VectorXd const parameters = fitted.colPivHouseholderQr().solve(train_record.torque);
-    Eigen::VectorXd const baseline = train_record.regressor.colPivHouseholderQr().solve(train_record.torque);
+    Eigen::VectorXd const parameters = test::least_squares(fitted, train_record.torque);
+    Eigen::VectorXd const baseline = test::least_squares(train_record.regressor, train_record.torque);
     Eigen::MatrixXd seen(unseen.torque.size(), fitted.cols());
     seen << unseen.regressor, unseen.candidates[i];
     EXPECT_LT((unseen.torque - seen * parameters).norm(), 0.5 * (unseen.torque - unseen.regressor * baseline).norm());

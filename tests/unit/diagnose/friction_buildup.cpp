@@ -27,13 +27,14 @@ class FrictionBuildup : public testing::Test {
   // as if the masked search had found nothing
   static Selection nothing_found(StageSetting const& setting, SelectionOptions const& options) {
     Selection selection;
-    selection.final = make_stage(setting, clean_regressor()).value();
-    CandidateColumns const columns(*selection.final.pipeline, selection.final.comparison, selection.final.reference(),
-                                   selection.final.parameters());
+    selection.baseline = selection.final =
+        std::make_shared<ModelStage const>(make_stage(setting, clean_regressor()).value());
+    CandidateColumns const columns(*selection.final->pipeline, selection.final->comparison,
+                                   selection.final->reference(), selection.final->parameters());
     selection.first_scan = scan_candidates(columns, options.candidates, 2);
     selection.first_q.assign(selection.first_scan.size(), 1.0);
     selection.first_cv_gain.assign(selection.first_scan.size(), 0.0);
-    selection.first_energy = selection.final.energy;
+    selection.first_energy = selection.final->energy;
     return selection;
   }
 
@@ -78,10 +79,10 @@ TEST_F(FrictionBuildup, IsFoundWhereNothingElseShows) {
   ASSERT_EQ(selection.accepted.size(), 1U);
   EXPECT_EQ(selection.accepted.front().effect->name(), "presliding");
   // on rows with reversals the model takes away nearly all that twins without it lack
-  EXPECT_LT(selection.final.energy.excess, 0.1 * selection.baseline.energy.excess);
+  EXPECT_LT(selection.final->energy.excess, 0.1 * selection.baseline->energy.excess);
   // share of the Coulomb friction and distance
-  EXPECT_NEAR(selection.final.parameters()[4], share, 0.1 * share);
-  EXPECT_NEAR(selection.final.model().effects().front().shape.front(), distance, 0.1 * distance);
+  EXPECT_NEAR(selection.final->parameters()[4], share, 0.1 * share);
+  EXPECT_NEAR(selection.final->model().effects().front().shape.front(), distance, 0.1 * distance);
 }
 
 TEST_F(FrictionBuildup, IsNotASharpSign) {

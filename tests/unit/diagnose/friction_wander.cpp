@@ -54,9 +54,20 @@ class FrictionWanders : public testing::Test {
     return select_effects(setting, options, {});
   }
 
-  Recording steady = steady_recording();
-  RecordPipeline pipeline = clean_pipeline(steady);
-  BaselineTwin made = made_from(steady, pipeline);
+  struct Clean {
+    Recording recording = steady_recording();
+    RecordPipeline pipeline = clean_pipeline(recording);
+    BaselineTwin twin = made_from(recording, pipeline);
+  };
+  // nobody changes it: made once for all tests
+  static Clean const& clean() {
+    static Clean const made_once;
+    return made_once;
+  }
+
+  Recording const& steady = clean().recording;
+  RecordPipeline const& pipeline = clean().pipeline;
+  BaselineTwin const& made = clean().twin;
 };
 
 }  // namespace

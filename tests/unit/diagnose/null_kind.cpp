@@ -9,6 +9,7 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/problem/hac.hpp"
+#include "support/decompositions.hpp"
 
 using namespace torquescope;
 
@@ -36,7 +37,7 @@ TwinComparison comparison_of(double memory) {
   record.columns.col(0).setOnes();
   record.columns.col(1) = Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
   record.torque = autoregression(memory, 1);
-  record.parameters = record.columns.colPivHouseholderQr().solve(record.torque);
+  record.parameters = test::least_squares(record.columns, record.torque);
   record.residual = record.torque - record.columns * record.parameters;
   comparison.rows.residual = record.residual;
   comparison.rows.twins = Eigen::MatrixXd::Constant(n, draws, 7.0);
@@ -108,8 +109,7 @@ TEST(NullKind, TheVarianceOfAStatisticIsItsNeweyWestEstimate) {
   auto comparison = comparison_of(0.8);
   auto const& residual = comparison.recording.residual;
   auto const& columns = comparison.recording.columns;
-  Eigen::VectorXd statistic = autoregression(0.8, 2);
-  statistic -= columns * columns.colPivHouseholderQr().solve(statistic);
+  Eigen::VectorXd const statistic = test::left_beside(columns, autoregression(0.8, 2));
   std::vector<Eigen::Index> const whole{0, n};
   auto const span = static_cast<double>(andrews_lags({columns, residual, whole}) + 1);
   ASSERT_GT(span, 5.0);

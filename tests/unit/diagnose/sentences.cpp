@@ -93,6 +93,20 @@ TEST(ReasonSentence, OfSomethingElseSaysWhereItIsAndThatNothingFits) {
       "34 known effects fits it.");
 }
 
+TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  JointDiagnosis refuted = diagnosis.joints[0];
+  refuted.effects = {effect_of(*find_effect("backlash"), 0.2)};
+  refuted.validation_relerr = 0.0222;
+  refuted.augmented_validation_relerr = 0.0247;
+  refuted.floor_relerr = 0.0157;
+  diagnosis.joints[0].refutation = refutation_clause(refuted);
+  EXPECT_EQ(
+      reason_sentence(diagnosis),
+      "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, where clean twins have none, but backlash, "
+      "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
+}
+
 TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
   EXPECT_EQ(reason_sentence(example::invented_insufficient()),
             "Only one direction of motion was recorded. Viscous and coulomb cannot be told apart. Record both "

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "engine/base/random_stream.hpp"
+#include "support/decompositions.hpp"
 
 namespace torquescope {
 namespace {
@@ -135,7 +136,7 @@ double lost(Eigen::ArrayXd const& x, double wave, double grid_point, double phas
   Eigen::MatrixXd basis(x.size(), 2);
   basis << (grid_point * x).sin(), (grid_point * x).cos();
   Eigen::VectorXd const planted = (wave * x + phase).sin();
-  Eigen::VectorXd const left = planted - basis * basis.colPivHouseholderQr().solve(planted);
+  Eigen::VectorXd const left = test::left_beside(basis, planted);
   return left.squaredNorm() / planted.squaredNorm();
 }
 

@@ -50,6 +50,18 @@ TEST(TrialOrder, FewerParametersWinWhenTheyExplainNearlyAsMuch) {
             (Names{"stribeck", "asymmetric_viscous"}));
 }
 
+TEST(TrialOrder, AnotherWaveOfWhatIsNamedComesBeforeANewNameThatExplainsAsMuch) {
+  ASSERT_LT(find_effect("cogging")->parameters().size(),
+            find_effect("position_dependent_friction")->parameters().size());
+  Trial again = trial("position_dependent_friction", 0.98, 0.98);
+  again.is_named = true;
+  EXPECT_EQ(names(in_order_of_trial({trial("cogging", 1.0, 1.0), again})),
+            (Names{"position_dependent_friction", "cogging"}));
+  again.refined.gain = 0.96;
+  EXPECT_EQ(names(in_order_of_trial({trial("cogging", 1.0, 1.0), again})),
+            (Names{"cogging", "position_dependent_friction"}));
+}
+
 TEST(TrialOrder, HelpsElsewhereByItsSpreadOrByHalfOfItsGain) {
   EXPECT_TRUE(helps_elsewhere({.gain = 0.1, .t = 2.1}, 1.0));
   EXPECT_TRUE(helps_elsewhere({.gain = 0.6, .t = 0.5}, 1.0));

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 
 #include "engine/diagnose/map_axes.hpp"
 #include "engine/diagnose/wave_cells.hpp"
+#include "support/decompositions.hpp"
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
@@ -18,7 +19,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 double explained(Eigen::VectorXd const& x, Eigen::VectorXd const& phase) {
   Eigen::MatrixXd columns(x.size(), 2);
   columns << phase.array().cos().matrix(), phase.array().sin().matrix();
-  Eigen::VectorXd const left = x - columns * columns.colPivHouseholderQr().solve(x);
+  Eigen::VectorXd const left = test::left_beside(columns, x);
   return x.squaredNorm() - left.squaredNorm();
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "support/decompositions.hpp"
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
@@ -18,7 +19,7 @@ constexpr Eigen::Index block_sizes[] = {1, 3, 64, 501, 1999, 2000, 5000};
 
 Eigen::VectorXd solve_in_blocks(RegressionData const& data, Eigen::Index block_rows) {
   auto const reduced = reduce_rows(data, {}, block_rows);
-  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(reduced.phi).solve(reduced.tau);
+  return test::least_squares(reduced.phi, reduced.tau);
 }
 
 // modified Gram-Schmidt of [phi | tau] in long double: 11 bits more, and loops that take a compiler no time
@@ -85,8 +86,7 @@ TEST(RowReduction, IsAsExactAsTheQrOfTheWholeOnManyRows) {
     auto const oracle = solve_in_long_double(data);
     Eigen::VectorXd const length = column_lengths(data);
     Eigen::MatrixXd const scaled = data.phi * length.cwiseInverse().asDiagonal();
-    Eigen::VectorXd const whole =
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(scaled).solve(data.tau).cwiseQuotient(length);
+    Eigen::VectorXd const whole = test::least_squares(scaled, data.tau).cwiseQuotient(length);
     of_whole += error(whole, data, oracle) / 8.0;
     of_blocks += error(solve_weighted(data, {}), data, oracle) / 8.0;
     EXPECT_LT(error(solve_weighted(data, {}), data, oracle), roundings(100'000, reduced_block_rows));
@@ -113,7 +113,7 @@ TEST(RowReduction, WeighsRowsAndColumns) {
   auto const oracle = solve_in_long_double(scaled);
   for (Eigen::Index const block_rows : block_sizes) {
     auto const reduced = reduce_rows(data, {weight, factor}, block_rows);
-    Eigen::VectorXd const found = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(reduced.phi).solve(reduced.tau);
+    Eigen::VectorXd const found = test::least_squares(reduced.phi, reduced.tau);
     EXPECT_LT(error(found, scaled, oracle), roundings(2000, block_rows)) << block_rows;
   }
   EXPECT_LT((column_lengths(data, weight) - (weight.asDiagonal() * data.phi).colwise().norm().transpose()).norm(),

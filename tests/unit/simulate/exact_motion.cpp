@@ -7,6 +7,7 @@
 
 #include "engine/effects/regressor.hpp"
 #include "engine/simulate/joint_simulation.hpp"
+#include "support/decompositions.hpp"
 #include "unit/simulate/plants.hpp"
 
 using namespace torquescope;
@@ -37,7 +38,7 @@ struct Fit {
 Fit least_squares(SimulatedRecording const& recording) {
   Regressor const regressor({"inertia", "viscous", "coulomb_positive", "coulomb_negative"}, JointKind::revolute);
   Eigen::MatrixXd const phi = regressor.columns(motion_of(recording));
-  Eigen::VectorXd const parameters = phi.colPivHouseholderQr().solve(recording.torque);
+  Eigen::VectorXd const parameters = test::least_squares(phi, recording.torque);
   double const n = static_cast<double>(phi.rows());
   return {parameters, (recording.torque - phi * parameters).squaredNorm() / n};
 }

@@ -1,0 +1,238 @@
+#include "engine/diagnose/effect_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/diagnose/joint_refinement.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double least_share_of_rest = 0.25;
+constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
+constexpr double nearly_as_good = 0.9;  // as equivalent_effects.hpp
+constexpr std::size_t n_refined = 5;
+
+}  // namespace
+
+EffectSearch::EffectSearch(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress)
+    : setting_(setting), options_(&options), progress_(&progress) {
+  validate(begin(setting_), [&] {
+    Problem problem{ExitCode::bad_data, setting_.recording.name + ": the fitted joint cannot follow the reference"};
+    problem.help = "check recording.columns, units and torque_per_unit: the torque may be another signal";
+    return problem;
+  });
+}
+
+// forgets what was selected, unless twins cannot be made as the setting says
+bool EffectSearch::begin(StageSetting const& setting) {
+  tell("twins", 0, setting.twins);
+  auto first = make_stage(setting, setting.regressor);
+  tell("twins", setting.twins, setting.twins);
+  if (!first) return false;
+  setting_.wander = setting.wander;
+  setting_.loop = std::make_shared<RecordedLoop const>(first->twin->loop);
+  setting_.weights = first->pipeline->weights();
+  Selection fresh;
+  fresh.evaluations = selection_.evaluations;
+  fresh.wander = setting.wander;
+  fresh.baseline = fresh.final = std::make_shared<ModelStage const>(std::move(*first));
+  selection_ = std::move(fresh);
+  return true;
+}
+
+void EffectSearch::tell(char const* what, std::size_t done, std::size_t total) const {
+  if (*progress_) (*progress_)(what, done, total);
+}
+
+double EffectSearch::left_share() const { return std::max(0.0, stage().energy.excess) / selection_.whole(); }
+
+Round EffectSearch::next_round() {
+  if (selection_.accepted.size() >= options_->max_effects) return {};
+  std::size_t const n_candidates = options_->candidates.size();
+  tell("search", 0, n_candidates);
+  auto const before = selection_.final;  // the columns look at it while the line goes on
+  CandidateColumns const columns(*before->pipeline, before->comparison, before->reference(), before->parameters());
+  auto const scans = scan_candidates(columns, options_->candidates, setting_.threads);
+  std::vector<double> const q = q_of(scans);
+  bool const is_open = opens(columns, scans, q);
+  std::vector<Trial> trials = is_open ? refined_trials(columns, scans, q) : std::vector<Trial>{};
+  tell("search", n_candidates, n_candidates);
+  Round round;
+  if (!trials.empty()) round.before = std::make_shared<EffectSearch const>(*this);
+  double taken_gain = 0.0;
+  for (Trial& trial : trials) {
+    auto const* effect = trial.refined.effect;
+    if (round.is_taken) {
+      bool const is_near = trial.refined.gain >= nearly_as_good * taken_gain && !effect->is_event();
+      if (is_near && effect->family() != EffectFamily::time && !refusal(columns, trial))
+        round.nearly_taken.push_back(trial);
+      continue;
+    }
+    if (auto reason = refusal(columns, trial)) {
+      note_refusal(effect, std::move(*reason));
+      continue;
+    }
+    if (effect->family() == EffectFamily::time && setting_.wander == WanderReading::beside_motion) {
+      if (may_begin_again_ && begin_again_with_wander()) return {true, true, {}};
+      note_refusal(effect, "twins whose friction wanders do not follow the reference");
+      continue;
+    }
+    round.is_taken = take(trial);
+    taken_gain = trial.refined.gain;
+  }
+  return round;
+}
+
+// sets what the round looks for
+bool EffectSearch::opens(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                         std::vector<double> const& q) {
+  bool const is_first = selection_.accepted.empty();
+  double found = 0.0;  // most that a candidate beyond chance explains
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (q[i] <= options_->q) found = std::max(found, scans[i].gain);
+  remaining_ = std::max(stage().energy.excess, found);
+  bool const is_clear = is_significant(stage()) || energy_share(stage(), found) > smallest_mismatch_share;
+  // what a first name leaves is as certain as the name: to be worth another it must be more than a word's worth of the whole
+  bool const may_be_faint = found > 0.0 && !is_clear && (is_first || found > worth_another * selection_.whole());
+  double const certain = may_be_faint ? largest_certain_share(columns, scans, q) : 0.0;
+  is_faint_ = is_first && !is_clear && certain <= smallest_mismatch_share;
+  bool const is_open = found > 0.0 && (is_clear || certain > smallest_faint_share);
+  if (is_first) {
+    selection_.first_energy = stage().energy;
+    selection_.first_scan = scans;
+    selection_.first_q = q;
+    selection_.first_cv_gain.assign(scans.size(), std::numeric_limits<double>::quiet_NaN());
+    selection_.first_excess = remaining_;
+    selection_.is_gate_open = is_open || is_significant(stage());
+  }
+  return is_open;
+}
+
+// Of the candidates that are certain, the largest torque beside the model's own, as a share of the whole torque. Of the
+// torque itself, not of its weighed energy: a change of friction over time counts for little there, because friction may
+// wander, and can be large
+double EffectSearch::largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                                           std::vector<double> const& q) const {
+  Eigen::MatrixXd const& model = stage().comparison.common.columns_themselves();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].is_testable || q[i] > faint_q || scans[i].gain <= 0.0) continue;
+    Eigen::VectorXd const torque = columns.plain_columns(*scans[i].effect, scans[i].shape) * scans[i].parameters;
+    largest = std::max(largest, (torque - model * solve_scaled(model, torque)).squaredNorm());
+  }
+  return energy_share(stage(), largest);
+}
+
+// the candidates worth a closer look, best first
+std::vector<Trial> EffectSearch::refined_trials(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                                                std::vector<double> const& q) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (scans[i].is_testable && q[i] <= options_->q && scans[i].gain > 0.0 && !is_taken(scans[i].effect))
+      order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return scans[a].gain > scans[b].gain; });
+  order.resize(std::min(order.size(), n_refined));
+
+  Eigen::VectorXd const mismatch = stage().mismatch();
+  ShapeSearch const search = shape_search(options_->shape_optimiser, setting_.seed);
+  Eigen::Index const guard = guard_rows(*stage().pipeline);
+  std::vector<Trial> trials;
+  for (std::size_t i : order) {
+    Trial trial{scans[i], q[i], refine_shape(columns, scans[i], mismatch, search, setting_.threads)};
+    trial.is_named = selection_.has_accepted(scans[i].effect);
+    selection_.evaluations += trial.refined.evaluations;
+    trial.cv = blocked_gain(mismatch, columns.model_columns(),
+                            columns.columns(*trial.refined.effect, trial.refined.shape), guard);
+    if (selection_.accepted.empty()) selection_.first_cv_gain[i] = trial.cv.gain;
+    trials.push_back(std::move(trial));
+  }
+  return in_order_of_trial(std::move(trials));
+}
+
+// waves may be named again: a second order is another wave
+bool EffectSearch::is_taken(Effect const* effect) const {
+  return !effect->is_wave() && selection_.has_accepted(effect);
+}
+
+std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns, Trial& trial) const {
+  auto const* effect = trial.refined.effect;
+  double const gain = trial.refined.gain, whole = selection_.whole();
+  if (gain < least_share_of_rest * remaining_ || gain < least_share_of_whole * whole)
+    return fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_);
+  if (!effect->is_plausible(trial.refined.shape, columns.scales())) return "its best shape is none that it could have";
+  RegionConsistency const region = region_of(columns, trial.refined);
+  trial.region_share = region.share;
+  if (!region.holds() && setting_.ablation.region_consistency)
+    return fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)", 100.0 * region.share,
+                       100.0 * region.asked_for);
+  // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
+  if (effect->is_event() && is_faint_) return "happens once, and is too faint to be told from what twins cannot repeat";
+  if (effect->is_event() && gain < least_share_of_rest * whole)
+    return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
+                       100.0 * gain / whole);
+  if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
+  return std::nullopt;
+}
+
+bool EffectSearch::take(Trial const& trial) {
+  auto const* effect = trial.refined.effect;
+  auto const before = selection_.final;
+  std::vector<ShapedEffect> effects = before->model().effects();
+  effects.push_back({effect, trial.refined.shape});
+  auto next = refined_draft(setting_, before->reference(), std::move(effects));
+  if (!next) {
+    note_refusal(effect, "twins with it do not follow the reference");
+    return false;
+  }
+  // the twins must confirm at least a third of what the projection promised: where parts knock against each other twins
+  // that are right in all but a little repeat no more of it
+  double const promised = confirmed_share * trial.refined.gain;
+  if (energy_about_true_mean(*next) > energy_about_true_mean(*before) - promised) {
+    note_refusal(effect, "twins with it leave as much as twins without it");
+    return false;
+  }
+  tell("twins", 0, setting_.twins);
+  auto whole = reweighed_stage(setting_, *next);
+  tell("twins", setting_.twins, setting_.twins);
+  if (!whole) {
+    note_refusal(effect, "twins with it do not follow the reference");
+    return false;
+  }
+  double const unit = selection_.energy_unit;
+  selection_.accepted.push_back(
+      {effect, trial.scan, trial.q, trial.refined.gain / unit, trial.cv.gain / unit, trial.region_share});
+  selection_.energy_unit *= energy_unit_under(*before, *whole->pipeline);
+  setting_.weights = whole->pipeline->weights();
+  selection_.final = std::make_shared<ModelStage const>(std::move(*whole));
+  return true;
+}
+
+RegionConsistency EffectSearch::region_of(CandidateColumns const& columns, RefinedEffect const& refined) const {
+  OrthonormalGroup const group = columns.group(*refined.effect, refined.shape);
+  Eigen::VectorXd const torque = group.q * (group.r * refined.parameters);
+  auto const& rows = stage().comparison.rows;
+  Eigen::VectorXd mismatch = stage().mismatch();
+  mismatch -= columns.nuisance() * (columns.nuisance().transpose() * mismatch);
+  return region_consistency(torque, mismatch, rows.twins.colwise() - rows.twin_mean);
+}
+
+// A change over time must stand against the most that friction may wander, and so must all that is found beside it: the
+// whole search begins again among such twins. False when they cannot be made.
+bool EffectSearch::begin_again_with_wander() {
+  StageSetting wandering = setting_;
+  wandering.wander = WanderReading::by_itself;
+  wandering.weights = nullptr;
+  try {
+    return begin(wandering);
+  } catch (Error const&) {
+    return false;  // the recording itself was good enough for twins that wander less
+  }
+}
+
+}  // namespace torquescope

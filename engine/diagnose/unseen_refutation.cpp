@@ -1,0 +1,28 @@
+#include "engine/diagnose/unseen_refutation.hpp"
+
+#include <algorithm>
+
+namespace torquescope {
+namespace {
+
+// of the very recording: its clock, its zero
+bool belongs_to_a_recording(Effect const& effect) {
+  auto const& families = effect.families();
+  return effect.is_event() || std::find(families.begin(), families.end(), EffectFamily::time) != families.end();
+}
+
+}  // namespace
+
+bool speak_against(UnseenEnergies const& energies) {
+  constexpr double quarter = 0.25;
+  double const enough = quarter * energies.before;
+  return energies.after >= energies.before && energies.before - energies.floor >= enough && energies.moved >= enough;
+}
+
+bool must_carry_over(std::vector<AcceptedEffect> const& accepted) {
+  return !accepted.empty() && std::none_of(accepted.begin(), accepted.end(), [](AcceptedEffect const& one) {
+    return belongs_to_a_recording(*one.effect);
+  });
+}
+
+}  // namespace torquescope

@@ -1,0 +1,31 @@
+#pragma once
+// Names that unseen recordings speak against: a law that explains one recording and spoils the prediction of another is not
+// the joint's, however certain it was.
+//
+// Refuted    when the model with its names predicts unseen torque no better than the baseline, though its own twins of these
+//            recordings promise that a quarter of the residual's energy goes, and though the names change the prediction by as
+//            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
+//            spares a right law on a recording that has something else wrong with it
+// Not asked  of what need not carry over: events, and what runs with the time of the training recording
+// Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
+//            that are printed with names are those of a model nothing was fitted to
+// Energies   of residuals, summed over rows and recordings; NaN for an unknown floor refutes nothing
+// Threads    free functions
+// Source     PHYSICS.md section 2 step 9: what helps only where it was fitted is no physics
+
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+
+struct UnseenEnergies {
+  double before = 0.0, after = 0.0;
+  double floor = 0.0;  // that twins with the names leave
+  double moved = 0.0;  // of the difference between both predictions
+};
+
+bool speak_against(UnseenEnergies const& energies);
+
+// whether all that was accepted must hold in another recording too
+bool must_carry_over(std::vector<AcceptedEffect> const& accepted);
+
+}  // namespace torquescope

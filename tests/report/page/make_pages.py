@@ -1,0 +1,13 @@
+"""Builds the page of every kind once, for the tests that ctest tells where they are (support.py):  make_pages.py FOLDER"""
+
+import shutil
+import sys
+from pathlib import Path
+
+import support
+
+folder = Path(sys.argv[1])
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+for kind in support.KINDS + support.DIAGNOSES + support.BOARDS:
+    shutil.copy(support.page(kind), folder)

@@ -1,0 +1,20 @@
+#include "support/decompositions.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+namespace torquescope::test {
+
+Eigen::VectorXd least_squares(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y) {
+  return columns.colPivHouseholderQr().solve(y);
+}
+
+Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y) {
+  return y - columns * least_squares(columns, y);
+}
+
+Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+}  // namespace torquescope::test

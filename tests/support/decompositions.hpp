@@ -1,0 +1,18 @@
+#pragma once
+// Eigen's decompositions as tests use them to check the engine, compiled once: each file that names one itself takes four
+// seconds longer.
+
+#include <Eigen/Core>
+
+namespace torquescope::test {
+
+// theta with the least ||y - columns * theta||, by QR with pivots
+Eigen::VectorXd least_squares(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y);
+
+// what such a fit leaves of y
+Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y);
+
+// of a symmetric matrix, ascending
+Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric);
+
+}  // namespace torquescope::test

@@ -1,0 +1,38 @@
+// When unseen recordings take names away: only where the model promised much there, moved much, and was wrong.
+
+#include "engine/diagnose/unseen_refutation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using torquescope::AcceptedEffect;
+using torquescope::find_effect;
+using torquescope::must_carry_over;
+using torquescope::speak_against;
+
+TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
+  EXPECT_TRUE(speak_against({.before = 4.0, .after = 5.0, .floor = 2.0, .moved = 3.0}));
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0})) << "it helps, if little";
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 5.0, .floor = 3.5, .moved = 3.0})) << "twins promise little";
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = 2.0, .moved = 0.5}))
+      << "the rest is another matter";
+}
+
+TEST(UnseenRefutation, NeedsAFloor) {
+  double const unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 9.0, .floor = unknown, .moved = 9.0}));
+}
+
+TEST(UnseenRefutation, AsksNothingOfWhatBelongsToOneRecording) {
+  auto const accepted = [](char const* name) {
+    AcceptedEffect one;
+    one.effect = find_effect(name);
+    return one;
+  };
+  EXPECT_TRUE(must_carry_over({accepted("stribeck")}));
+  EXPECT_TRUE(must_carry_over({accepted("periodic_disturbance")})) << "its phase is turned";
+  for (auto const* name : {"contact", "payload_change", "sensor_drift", "thermal_friction"})
+    EXPECT_FALSE(must_carry_over({accepted("stribeck"), accepted(name)})) << name;
+  EXPECT_FALSE(must_carry_over({}));
+}
