@@ -11,7 +11,8 @@ namespace torquescope {
 
 BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start,
                                     TwinLoop const& loop, TwinTrack const& track, RecordPipeline const& pipeline,
-                                    double step_s, TwinAddress const& address, std::size_t twins, int threads) {
+                                    double step_s, TwinAddress const& address, std::size_t twins,
+                                    TwinWorkers const& workers) {
   TORQUESCOPE_EXPECT(twins >= 8);
   constexpr int most_rounds = 6;
   constexpr double small_mismatch = 0.2;  // standard deviations
@@ -21,14 +22,12 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
   auto const n = static_cast<Eigen::Index>(twins);
   std::vector<bool> const signs = pipeline.model().non_negative();
   Eigen::MatrixXd fits(n, recording_fit.size());
-  std::vector<char> ran_away(twins);
   while (result.rounds < most_rounds && !result.converged) {
     CleanTwin const twin(pipeline.model().twin_joint(result.parameters), loop, track, step_s);
-    for_each_twin(twin, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
-      ran_away[visited.index] = visited.ran_away;
-      if (!visited.ran_away) fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
-    });
-    for (char one : ran_away) result.ran_away = result.ran_away || one != 0;
+    result.ran_away =
+        gather_twins(twin, pipeline, address, {0, twins}, workers, {row_each(fits)}, [&](VisitedTwin const& visited) {
+          fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+        });
     if (result.ran_away) return result;
 
     Eigen::RowVectorXd const mean = fits.colwise().mean();

@@ -7,13 +7,14 @@
 // Stop       every |fit(recording) - mean fit(twin(a))| below 0.2 of the standard deviation of that parameter over twins, or 6 rounds
 // Twins      the same noise in every round, so that rounds differ by a alone
 // Errors     Error 65 as make_twin_joint and the pipeline
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 // Source     Gourieroux, Monfort, Renault 1993, Indirect inference; LESSONS item 8 of our own prototype
 
 #include <Eigen/Core>
 #include <cstddef>
 
 #include "engine/diagnose/record_pipeline.hpp"
+#include "engine/diagnose/twin_exchange.hpp"
 #include "engine/simulate/clean_twin.hpp"
 
 namespace torquescope {
@@ -31,6 +32,7 @@ struct BaselineCorrection {
 // recording_fit: what the pipeline gives for the recording; start: where the search begins; twins >= 8
 BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start,
                                     TwinLoop const& loop, TwinTrack const& track, RecordPipeline const& pipeline,
-                                    double step_s, TwinAddress const& address, std::size_t twins, int threads);
+                                    double step_s, TwinAddress const& address, std::size_t twins,
+                                    TwinWorkers const& workers);
 
 }  // namespace torquescope

@@ -24,7 +24,7 @@ struct Attempt {
 TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
 
 Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
-                TwinOptions const& options, int threads) {
+                TwinOptions const& options, TwinWorkers const& workers) {
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
   Attempt result{std::move(loop)};
@@ -33,7 +33,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
     result.loop.loop.*level = 0.0;
   auto const correct_from = [&](Eigen::VectorXd const& start) {
     result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
-                                       options.step_s, correction_set, options.twins, threads);
+                                       options.step_s, correction_set, options.twins, workers);
   };
   TwinLoop& law = result.loop.loop;
   auto const put_disturbance = [&](NoiseLevel const& level) {
@@ -57,9 +57,9 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   auto const twin = [&] {
     return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
   };
-  put_disturbance(disturbance_level(record, twin(), pipeline, level_set, options.twins, threads));
+  put_disturbance(disturbance_level(record, twin(), pipeline, level_set, options.twins, workers));
   if (result.disturbance.ran_away) return result;
-  put_wander(friction_wander(record, twin(), pipeline, options.wander, wander_set(options), options.twins, threads));
+  put_wander(friction_wander(record, twin(), pipeline, options.wander, wander_set(options), options.twins, workers));
   if (result.friction_wander.ran_away) return result;
   if (law.disturbance_std > 0.0 || law.friction_wander > 0.0) correct_from(Eigen::VectorXd(result.baseline.parameters));
   return result;
@@ -106,24 +106,24 @@ TwinLevels levels_of(BaselineTwin const& made) {
 }
 
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
-                           TwinOptions const& options, int threads) {
+                           TwinOptions const& options, TwinWorkers const& workers) {
   return friction_wander(pipeline.process(recording), made.twin, pipeline, options.wander, wander_set(options),
-                         options.twins, threads);
+                         options.twins, workers);
 }
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
-                                TwinOptions const& options, int threads) {
+                                TwinOptions const& options, TwinWorkers const& workers) {
   ProcessedRecord record = pipeline.process(recording);
   double const inertia = fitted_inertia(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
   Attempt made = attempt(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()), record, pipeline,
-                         options, threads);
+                         options, workers);
   if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
+    made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, workers);
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
-    Attempt tracking = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, threads);
+    Attempt tracking = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, workers);
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }

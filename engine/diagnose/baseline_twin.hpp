@@ -9,7 +9,7 @@
 // Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
 // Errors     Error 65 as the parts; also when twins run away in the tracking loop too
 // Units      SI
-// Threads    spreads twins over `threads`; same bits for any number; result is a plain record
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number; result is a plain record
 // Source     LESSONS items 1 to 8 of our own prototype
 
 #include <cstdint>
@@ -21,6 +21,7 @@
 #include "engine/diagnose/friction_wander.hpp"
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
+#include "engine/diagnose/twin_exchange.hpp"
 
 namespace torquescope {
 
@@ -56,9 +57,9 @@ TwinLevels levels_of(BaselineTwin const& made);
 
 // the wander of dry friction once more, under the weights that the pipeline has now
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
-                           TwinOptions const& options, int threads);
+                           TwinOptions const& options, TwinWorkers const& workers);
 
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
-                                TwinOptions const& options, int threads);
+                                TwinOptions const& options, TwinWorkers const& workers);
 
 }  // namespace torquescope

@@ -41,7 +41,7 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
 }
 
 NoiseLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                             TwinAddress const& address, std::size_t twins, int threads) {
+                             TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
   // first as if all of the twins' energy came from their torque noise
   double const scale =
       twin.loop().torque_noise.std > 0.0
@@ -53,7 +53,7 @@ NoiseLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& 
                                  loop.disturbance_variance_error = variance_error;
                                },
                                [&](double wanted, double none) { return (wanted / none - 1.0) * scale * scale; }};
-  return noise_level(question, recording, twin, pipeline, address, twins, threads);
+  return noise_level(question, recording, twin, pipeline, address, twins, workers);
 }
 
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 // Limits     one level, white from tick to tick. Fit it again after an effect was accepted: what the effect left in the
 //            band is counted here
 // Units      N m or N
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 // Level      noise_level.hpp
 // Source     LESSONS item 5 of our own prototype
 
@@ -22,6 +22,6 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
 
 // the twin's own disturbance is not used; the loop's torque noise sets the scale of the first guess
 NoiseLevel disturbance_level(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                             TwinAddress const& address, std::size_t twins, int threads);
+                             TwinAddress const& address, std::size_t twins, TwinWorkers const& workers);
 
 }  // namespace torquescope

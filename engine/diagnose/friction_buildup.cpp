@@ -128,7 +128,7 @@ class SecondLook {
     if (setting_.weights) rows_.pipeline->weigh_with(setting_.weights);
     TwinAddress const null_set{setting_.seed, 0, first_free_twin_set};
     rows_.comparison =
-        compare_with_twins(setting_.recording, final.twin->twin, *rows_.pipeline, null_set, twins, setting_.threads);
+        compare_with_twins(setting_.recording, final.twin->twin, *rows_.pipeline, null_set, twins, setting_.workers());
     if (rows_.comparison.ran_away) return false;
     rows_.twin = final.twin;
     rows_.energy = mismatch_energy(rows_.comparison.rows);

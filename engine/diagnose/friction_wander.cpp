@@ -107,7 +107,8 @@ double FrictionWander::operator()(ProcessedRecord const& record) const {
 }
 
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                           WanderReading reading, TwinAddress const& address, std::size_t twins, int threads) {
+                           WanderReading reading, TwinAddress const& address, std::size_t twins,
+                           TwinWorkers const& workers) {
   FrictionWander const statistic(recording, pipeline, twin.joint(), reading);
   if (!statistic.is_measurable()) return {};
   NoiseQuestion const question{
@@ -120,7 +121,7 @@ NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& tw
       // fifth
       [&](double wanted, double none) { return (wanted - none) / (statistic.duration_s() / 47.0); }, always,
       most_wander_in_a_minute / std::sqrt(60.0)};
-  return noise_level(question, recording, twin, pipeline, address, twins, threads);
+  return noise_level(question, recording, twin, pipeline, address, twins, workers);
 }
 
 }  // namespace torquescope

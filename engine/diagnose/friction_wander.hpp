@@ -17,7 +17,7 @@
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
 // Level      noise_level.hpp
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 
 #include <cstddef>
 #include <vector>
@@ -53,6 +53,7 @@ class FrictionWander {
 
 // the wander that the twin has already is not used
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
-                           WanderReading reading, TwinAddress const& address, std::size_t twins, int threads);
+                           WanderReading reading, TwinAddress const& address, std::size_t twins,
+                           TwinWorkers const& workers);
 
 }  // namespace torquescope

@@ -86,6 +86,7 @@ class JointWork {
     StageSetting setting{recording,    input_.regressor, input_.filter, input_.filter_section,
                          input_.twins, input_.seed,      input_.threads};
     setting.ablation = input_.ablation;
+    setting.exchange = input_.exchange;
     // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
     auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
     if (!why)

@@ -20,6 +20,7 @@
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/twin_exchange.hpp"
 
 namespace torquescope {
 
@@ -34,6 +35,7 @@ struct DiagnosisInput {
   std::uint64_t seed = 0;
   int threads = 1;
   Ablation ablation{};
+  TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
 Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress);

@@ -73,7 +73,7 @@ MismatchRows in_torque_itself(MismatchRows rows) {
 }
 
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
-                                  TwinAddress const& address, std::size_t twins, int threads) {
+                                  TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
   TwinComparison result;
   CleanTwin const quiet(twin.joint(), noiseless(twin.loop()), twin.track(), twin.step_s());
   for_each_twin(quiet, pipeline, address, 1, 1, [&](VisitedTwin const& visited) {
@@ -85,8 +85,8 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   // pilots: rows at which a twin may turn are not safe in any
   std::size_t const n_pilots = std::min<std::size_t>(twins, twin_lanes);
   std::vector<ProcessedRecord> pilots(n_pilots);
-  std::vector<char> ran_away(twins, 0);
-  for_each_twin(twin, pipeline, address, n_pilots, threads, [&](VisitedTwin const& visited) {
+  std::vector<char> ran_away(n_pilots, 0);
+  for_each_twin(twin, pipeline, address, n_pilots, workers.threads, [&](VisitedTwin const& visited) {
     ran_away[visited.index] = visited.ran_away;
     auto const& record = visited.record;
     pilots[visited.index] = {{}, record.kept_rows, record.columns_themselves(), record.torque_itself(), {}, {}};
@@ -122,11 +122,11 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   };
   for (std::size_t i = 0; i < n_pilots; ++i)
     if (ran_away[i] == 0) take(i, pipeline.restricted(std::move(pilots[i]), safe, "twin"));
-  for_each_twin(twin, pipeline, address, TwinRange{n_pilots, twins}, threads, [&](VisitedTwin const& visited) {
-    ran_away[visited.index] = visited.ran_away;
-    if (!visited.ran_away) take(visited.index, visited.record);
-  });
-  result.ran_away = std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; });
+  bool const later_ran_away =
+      gather_twins(twin, pipeline, address, {n_pilots, twins}, workers,
+                   {column_each(rows.twins), column_each(rows.plain_twins), row_each(result.twin_fits)},
+                   [&](VisitedTwin const& visited) { take(visited.index, visited.record); });
+  result.ran_away = later_ran_away || std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; });
   if (!result.ran_away) rows.twin_mean = rows.twins.rowwise().mean();
   return result;
 }

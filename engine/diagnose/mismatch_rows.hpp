@@ -16,6 +16,7 @@
 
 #include "engine/data/motion.hpp"
 #include "engine/diagnose/record_pipeline.hpp"
+#include "engine/diagnose/twin_exchange.hpp"
 #include "engine/simulate/clean_twin.hpp"
 
 namespace torquescope {
@@ -54,8 +55,8 @@ struct TwinComparison {
 
 // pipeline: its rows become the common ones.  twins >= 8
 // Errors     as the pipeline; Error 65 when fewer than 100 rows, or 10 per parameter, are left
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
-                                  TwinAddress const& address, std::size_t twins, int threads);
+                                  TwinAddress const& address, std::size_t twins, TwinWorkers const& workers);
 
 }  // namespace torquescope

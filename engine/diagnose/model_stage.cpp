@@ -21,17 +21,17 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   options.loop = setting.loop;
   options.twins = twins_per_round;
   auto const make_twin = [&] {
-    return make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.threads);
+    return make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.workers());
   };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
   BaselineTwin made = make_twin();
   if (!setting.weights && setting.ablation.whitening) {
     NoiseWeights const rows(
-        twin_whitening(made.twin, *pipeline, spectrum_set(setting), twins_per_round, setting.threads));
+        twin_whitening(made.twin, *pipeline, spectrum_set(setting), twins_per_round, setting.workers()));
     pipeline->weigh_with(std::make_shared<NoiseWeights const>(rows));
     if (pipeline->whitens()) {
-      made.friction_wander = measured_wander(setting.recording, made, *pipeline, options, setting.threads);
+      made.friction_wander = measured_wander(setting.recording, made, *pipeline, options, setting.workers());
       pipeline->weigh_with(std::make_shared<NoiseWeights const>(with_wander_of(made, rows, *pipeline)));
       options.loop = std::make_shared<RecordedLoop const>(made.loop);
       options.levels = levels_of(made);
@@ -41,7 +41,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   ablate_twin(made, *pipeline, setting.ablation);
   TwinAddress const null_set{setting.seed, options.recording, first_free_twin_set};
   TwinComparison comparison =
-      compare_with_twins(setting.recording, made.twin, *pipeline, null_set, setting.twins, setting.threads);
+      compare_with_twins(setting.recording, made.twin, *pipeline, null_set, setting.twins, setting.workers());
   if (!comparison.ran_away) replace_null(comparison, setting.ablation.null, setting.seed, setting.threads);
   ModelStage stage{std::move(pipeline), std::move(made), std::move(comparison), {}};
   if (!stage.comparison.ran_away) stage.energy = mismatch_energy(stage.comparison.rows);
@@ -86,7 +86,7 @@ std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStag
   if (stage.pipeline->whitens()) {
     RecordPipeline const plain = pipeline_for(setting, setting.recording, stage.model());
     NoiseWeights const rows(
-        twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.threads));
+        twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.workers()));
     own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));
   }
   return make_stage(own, stage.model());

@@ -14,6 +14,7 @@
 #include "engine/diagnose/baseline_twin.hpp"
 #include "engine/diagnose/candidate_columns.hpp"
 #include "engine/diagnose/mismatch_energy.hpp"
+#include "engine/diagnose/twin_exchange.hpp"
 
 namespace torquescope {
 
@@ -32,6 +33,9 @@ struct StageSetting {
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
   bool keeps_reversals = false;                   // rows at reversals count (friction_buildup.hpp)
+  TwinExchange* exchange = nullptr;               // who shares the twins; nobody
+
+  TwinWorkers workers() const { return {threads, exchange}; }
 };
 
 // of a recording, with the setting's filter and rows

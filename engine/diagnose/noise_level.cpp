@@ -19,20 +19,19 @@ double square(double x) { return x * x; }
 }  // namespace
 
 NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
-                       RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads) {
+                       RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins,
+                       TwinWorkers const& workers) {
   TORQUESCOPE_EXPECT(twins >= 8);
   auto const of_twins = [&](double variance) {
     TwinLoop loop = twin.loop();
     question.put(loop, std::sqrt(variance), 0.0);
     CleanTwin const noisy(twin.joint(), loop, twin.track(), twin.step_s());
     Eigen::VectorXd value = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(twins));
-    std::vector<char> ran_away(twins, 0);
-    for_each_twin(noisy, pipeline, address, twins, threads, [&](VisitedTwin const& visited) {
-      ran_away[visited.index] = visited.ran_away;
-      if (!visited.ran_away) value[static_cast<Eigen::Index>(visited.index)] = question.statistic(visited.record);
-    });
     TwinStatistic result;
-    result.ran_away = std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; });
+    result.ran_away = gather_twins(
+        noisy, pipeline, address, {0, twins}, workers, {entry_each(value)}, [&](VisitedTwin const& visited) {
+          value[static_cast<Eigen::Index>(visited.index)] = question.statistic(visited.record);
+        });
     result.mean = value.mean();
     result.std = std::sqrt((value.array() - result.mean).square().sum() / static_cast<double>(twins - 1));
     return result;

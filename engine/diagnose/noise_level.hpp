@@ -6,7 +6,7 @@
 // Zero       when the recording's statistic is less than `least_z` standard deviations above that of twins without the
 //            noise: a level too low makes false names, so the doubt goes to the noise (1.64: one-sided 5 %)
 // Error      with least_z below 0 also a level of 0 has its error: the twins then draw about 0
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 // Source     LESSONS item 5 of our own prototype
 
 #include <cstddef>
@@ -36,6 +36,7 @@ struct NoiseQuestion {
 
 // twins >= 8; the noise that `twin` has already is not used
 NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& recording, CleanTwin const& twin,
-                       RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins, int threads);
+                       RecordPipeline const& pipeline, TwinAddress const& address, std::size_t twins,
+                       TwinWorkers const& workers);
 
 }  // namespace torquescope

@@ -1,8 +1,7 @@
 #include "engine/diagnose/twin_whitening.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "engine/diagnose/blocked_cv.hpp"
@@ -11,52 +10,33 @@
 namespace torquescope {
 namespace {
 
-// of rows that may be others than the common ones
-struct TwinResidual {
+// infinite: a row that this twin does not keep
+constexpr double not_kept = std::numeric_limits<double>::infinity();
+
+std::vector<Eigen::Index> common_rows(Eigen::MatrixXd const& residuals) {
   std::vector<Eigen::Index> rows;
-  Eigen::VectorXd residual;
-};
-
-std::vector<Eigen::Index> common_rows(std::vector<TwinResidual> const& twins) {
-  std::vector<Eigen::Index> all = twins.front().rows;
-  for (auto const& twin : twins) {
-    std::vector<Eigen::Index> both;
-    std::set_intersection(all.begin(), all.end(), twin.rows.begin(), twin.rows.end(), std::back_inserter(both));
-    all = std::move(both);
-  }
-  return all;
-}
-
-Eigen::MatrixXd residuals_on(std::vector<Eigen::Index> const& rows, std::vector<TwinResidual> const& twins) {
-  Eigen::MatrixXd residuals(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(twins.size()));
-  for (std::size_t t = 0; t < twins.size(); ++t) {
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      while (twins[t].rows[at] != rows[k]) ++at;
-      residuals(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(t)) =
-          twins[t].residual[static_cast<Eigen::Index>(at)];
-    }
-  }
-  return residuals;
+  for (Eigen::Index k = 0; k < residuals.rows(); ++k)
+    if ((residuals.row(k).array() != not_kept).all()) rows.push_back(k);
+  return rows;
 }
 
 }  // namespace
 
 RowWhitening twin_whitening(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
-                            std::size_t twins, int threads) {
-  std::vector<TwinResidual> found(twins);
-  std::vector<char> ran_away(twins, 0);
+                            std::size_t twins, TwinWorkers const& workers) {
+  Eigen::MatrixXd residuals =
+      Eigen::MatrixXd::Constant(pipeline.kept_samples(), static_cast<Eigen::Index>(twins), not_kept);
   TwinLoop steady = twin.loop();
   steady.friction_wander = steady.friction_wander_variance_error = 0.0;
-  for_each_twin(CleanTwin(twin.joint(), steady, twin.track(), twin.step_s()), pipeline, address, twins, threads,
-                [&](VisitedTwin const& visited) {
-                  ran_away[visited.index] = visited.ran_away;
-                  found[visited.index] = {visited.record.kept_rows, visited.record.residual};
-                });
-  if (std::any_of(ran_away.begin(), ran_away.end(), [](char one) { return one != 0; })) return {};
-  std::vector<Eigen::Index> const rows = common_rows(found);
+  CleanTwin const steady_twin(twin.joint(), steady, twin.track(), twin.step_s());
+  bool const ran_away = gather_twins(
+      steady_twin, pipeline, address, {0, twins}, workers, {column_each(residuals)}, [&](VisitedTwin const& visited) {
+        residuals(visited.record.kept_rows, static_cast<Eigen::Index>(visited.index)) = visited.record.residual;
+      });
+  if (ran_away) return {};
+  std::vector<Eigen::Index> const rows = common_rows(residuals);
   if (rows.size() < static_cast<std::size_t>(fewest_rows)) return {};
-  Eigen::MatrixXd noise = residuals_on(rows, found);
+  Eigen::MatrixXd noise = residuals(rows, Eigen::all);
   auto const m = static_cast<double>(twins);
   noise = (std::sqrt(m / (m - 1.0)) * (noise.colwise() - noise.rowwise().mean().eval())).eval();
   return whitening_of(noise, rows, pipeline.cutoff_hz() > 0.0 ? pipeline.cutoff_hz() / pipeline.kept_rate_hz() : 0.5);

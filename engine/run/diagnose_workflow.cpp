@@ -1,10 +1,14 @@
 // `torquescope diagnose`: from a loaded job to a verdict in a result file.
 
 #include <chrono>
+#include <optional>
+#include <system_error>
 
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/diagnosis_result.hpp"
 #include "engine/run/disk_room.hpp"
+#include "engine/run/twin_folder.hpp"
+#include "engine/store/shard_lock.hpp"
 
 namespace torquescope {
 
@@ -16,8 +20,7 @@ class Stages {
   Stages(ProgressSink const& progress, DiagnoseRequest const& request) : progress_(progress), request_(request) {}
 
   void operator()(std::string const& stage, std::size_t done, std::size_t total) {
-    if (request_.stop_requested && request_.stop_requested())
-      throw Error(Problem{ExitCode::stopped, "stopped: nothing was written"});
+    if (request_.stop_requested && request_.stop_requested()) throw TwinsAbandoned();
     if (stage != stage_) start_ = Clock::now();
     stage_ = stage;
     if (!progress_) return;
@@ -38,16 +41,68 @@ class Stages {
   Clock::time_point start_{};
 };
 
+// one diagnosis of several processes
+class Shard {
+ public:
+  Shard(Experiment const& experiment, DiagnoseRequest const& request)
+      : result_(request.output), existed_(is_there()), lock_(request.output, request.shard), twins_([&] {
+          TwinFolder::Setting setting;
+          setting.result = request.output;
+          setting.shard = request.shard;
+          setting.inputs_sha256 = experiment.inputs_sha256();
+          setting.bytes_kept_free = diagnosis_bytes(experiment.parts());
+          setting.must_end = [this, stop = request.stop_requested] { return (stop && stop()) || is_finished(); };
+          setting.tell = request.tell;
+          return setting;
+        }()) {}
+
+  TwinFolder& twins() { return twins_; }
+  // another one has published the result
+  bool is_finished() const { return !existed_ && is_there(); }
+
+ private:
+  bool is_there() const {
+    std::error_code ignored;
+    return std::filesystem::exists(result_, ignored);
+  }
+
+  std::filesystem::path result_;
+  bool existed_;
+  ShardLock lock_;
+  TwinFolder twins_;
+};
+
+Error stopped(DiagnoseRequest const& request, Shard const* shard) {
+  if (shard == nullptr) return Error(Problem{ExitCode::stopped, "stopped: nothing was written"});
+  if (shard->is_finished())
+    return Error(Problem{ExitCode::stopped, "another shard has finished " + request.output.string()});
+  Problem problem{ExitCode::stopped, "stopped: twins so far are safe in " + segment_folder_of(request.output).string()};
+  problem.help = "the same command goes on with them";
+  return Error(problem);
+}
+
 }  // namespace
 
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress) {
+  std::optional<Shard> shard;
+  if (request.shard.count > 1) shard.emplace(experiment, request);
   check_room(request, diagnosis_bytes(experiment.parts()));
-  JobInput const job(experiment.parts(), request.threads.count);
+  JobInput const job(experiment.parts(), request.threads.count, shard ? &shard->twins() : nullptr);
   Stages stages(progress, request);
-  StageSink const sink = [&stages](std::string const& stage, std::size_t done, std::size_t total) {
+  StageSink const sink = [&](std::string const& stage, std::size_t done, std::size_t total) {
+    if (shard && shard->is_finished()) throw TwinsAbandoned();
     stages(stage, done, total);
   };
-  return diagnose_into_file(experiment, request, [&] { return diagnose_joint(job.input(), sink); });
+  try {
+    Diagnosis const diagnosis =
+        diagnose_into_file(experiment, request, [&] { return diagnose_joint(job.input(), sink); });
+    if (shard && request.tell) request.tell("shard", shard->twins().account());
+    // also those of shards that were killed, when one process made it all in the end
+    if (shard || twin_parts_in(segment_folder_of(request.output)) > 0) remove_segments(request.output);
+    return diagnosis;
+  } catch (TwinsAbandoned const&) {
+    throw stopped(request, shard ? &*shard : nullptr);
+  }
 }
 
 }  // namespace torquescope

@@ -20,7 +20,7 @@ Recording const& training_recording(Experiment::Parts const& parts) {
 
 }  // namespace
 
-JobInput::JobInput(Experiment::Parts const& parts, int threads)
+JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange)
     : filter_(section_or_empty(parts.job, "filter")),
       input_{training_recording(parts), parts.validate ? parts.validate->recordings : none_, *parts.regressor,
              parts.filter, filter_} {
@@ -31,6 +31,7 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads)
   input_.twins = static_cast<std::size_t>(parts.diagnose.twins);
   input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input_.threads = threads;
+  input_.exchange = exchange;
   input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.region_consistency,
                      parts.diagnose.twin_noise, parts.diagnose.whitening};
 }

@@ -13,7 +13,7 @@ namespace torquescope {
 
 class JobInput {
  public:
-  JobInput(Experiment::Parts const& parts, int threads);
+  JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange = nullptr);
   JobInput(JobInput const&) = delete;
   JobInput& operator=(JobInput const&) = delete;
 

@@ -142,10 +142,12 @@ struct DiagnoseRequest {
   std::function<bool()> stop_requested{};  // polled between twins and effects; true: Error 75, nothing published
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
   bool allow_full_disk = false;  // begin although the result does not seem to fit
+  ShardChoice shard{};           // of the twins; every shard makes the whole result
 };
 
-// finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". Error 74 when
-// there is no room for the result
+// Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With several
+// shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result stands. Error 74 when there is no
+// room for the result; 73 when a living process is at this shard; 75 too when another shard has published the result
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
 // writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods other

@@ -41,6 +41,16 @@ bool has_a_writer(fs::path const& file) {
   return held;
 }
 
+// segments, and twins
+bool is_kept_work(fs::path const& name) { return name.extension() == ".h5" || name.extension() == ".twins"; }
+
+// on its way to be one of them
+bool is_unfinished_work(fs::path const& name) {
+  std::string const file = name.filename().string();
+  std::size_t const end = file.rfind(".tmp.");
+  return end != std::string::npos && is_kept_work(file.substr(0, end));
+}
+
 void remove_if_abandoned(fs::path const& file) {
   if (!has_a_writer(file)) ::unlink(file.c_str());
 }
@@ -79,13 +89,20 @@ std::vector<fs::path> segments_in(fs::path const& folder) {
   return names;
 }
 
+std::size_t twin_parts_in(fs::path const& folder) {
+  std::error_code ignored;
+  auto const names = files_in(folder, ignored);
+  return static_cast<std::size_t>(
+      std::count_if(names.begin(), names.end(), [](fs::path const& name) { return name.extension() == ".twins"; }));
+}
+
 void remove_segments(fs::path const& result) {
   fs::path const folder = segment_folder_of(result);
   std::error_code ignored;
   for (auto const& name : files_in(folder, ignored)) {
-    if (name.extension() == ".h5")
+    if (is_kept_work(name))
       ::unlink(name.c_str());
-    else if (name.extension() == ".lock" || name.filename().string().find(".h5.tmp.") != std::string::npos)
+    else if (name.extension() == ".lock" || is_unfinished_work(name))
       remove_if_abandoned(name);
   }
   ::rmdir(folder.c_str());

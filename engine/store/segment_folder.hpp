@@ -43,7 +43,10 @@ class SegmentNames {
 // finished segments, sorted by name; none when there is no folder
 std::vector<std::filesystem::path> segments_in(std::filesystem::path const& folder);
 
-// once the result is whole: all segments, what killed processes left of unfinished ones, and the folder unless it holds
+// how many parts of a diagnosis's twins are there (engine/run/twin_folder.hpp)
+std::size_t twin_parts_in(std::filesystem::path const& folder);
+
+// once the result is whole: all segments and twins, what killed processes left of unfinished ones, and the folder unless it holds
 // something else; and what killed processes left of the result itself. A file that a living process writes stays.
 void remove_segments(std::filesystem::path const& result);
 

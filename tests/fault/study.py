@@ -103,6 +103,7 @@ class FaultTest(unittest.TestCase):
     """Folders that go away, one result to compare with (made once, uninterrupted, by one thread), and the chance used."""
 
     JOB = JOB
+    COMMAND = "run"
 
     @classmethod
     def setUpClass(cls):
@@ -110,7 +111,7 @@ class FaultTest(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.home)
         cls.whole = Folder(cls.new_path(), cls.JOB)
         began = time.monotonic()
-        ended = cls.whole.run("run", "job.toml", "--out", "r.h5", "--threads", "1")
+        ended = cls.whole.run(cls.COMMAND, "job.toml", "--out", "r.h5", "--threads", "1")
         if ended.code != 0:
             raise AssertionError(ended.err)
         cls.seconds = time.monotonic() - began  # of one uninterrupted run

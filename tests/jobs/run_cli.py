@@ -189,11 +189,6 @@ class CommandLine(Folder):
         self.assertEqual(document["error"]["line"], 2)
         self.assertEqual(document["error"]["key"], "experiment.sed")
 
-    def test_a_diagnosis_has_no_shards_and_says_what_to_share(self):
-        self.write("good.toml", GOOD_JOB)
-        refused = self.run_here("diagnose", "good.toml", "--shard", "0/4")
-        self.assert_refused(refused, 64, ["--shard is of run", "one job file (a joint, a recording) per task of an array"])
-
     def test_pages_fit_and_name_every_command(self):
         page = self.run_here("--help")
         self.assertEqual(page.code, 0)

@@ -13,9 +13,11 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
+#include "engine/app/commands/shard_choice.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
 #include "engine/app/session_progress.hpp"
+#include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/quantity_text.hpp"
@@ -110,18 +112,17 @@ ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& exp
   return ExitCode::ok;
 }
 
-// one joint, one training recording: every effect that is named has its twins made anew, and all of them decide together
-[[noreturn]] void refuse_shard() {
-  Problem problem{ExitCode::usage,
-                  "--shard is of run: a diagnosis is one piece of work, some seconds of all processors"};
-  problem.help =
-      "share whole diagnoses, one job file (a joint, a recording) per task of an array: torquescope diagnose "
-      "joint_$SLURM_ARRAY_TASK_ID.toml";
-  throw Error(problem);
+ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, std::filesystem::path const& output) {
+  ResultReader const reader(output);
+  print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
+  note_whereabouts(session, "kept", output, session.options().json);
+  // twins of a process that was killed while it tidied up, or that was a little late
+  remove_segments(output);
+  return ExitCode::ok;
 }
 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
-  if (!arguments.shard.empty()) refuse_shard();
+  ShardChoice const shard = choose_shard(arguments.shard, environment);
   Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
@@ -130,10 +131,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) {
     session.note(session.topic_line("job", experiment.diagnose_line()));
     session.note(session.topic_line("done", "already diagnosed: nothing runs again"));
-    ResultReader const reader(output);
-    print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
-    note_whereabouts(session, "kept", output, session.options().json);
-    return ExitCode::ok;
+    return print_kept(arguments, session, output);
   }
 
   DiagnoseRequest request;
@@ -144,16 +142,25 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     session.note(session.topic_line(topic, text));
   };
   request.allow_full_disk = arguments.allow_full_disk;
+  request.shard = shard;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  if (shard.count > 1)
+    session.note(session.topic_line(
+        "shard", fmt::format("{}/{} ({}): twins are shared in {}; --shard 0/1 makes all of them here", shard.index,
+                             shard.count, shard.reason, segment_folder_of(output).string())));
   StageTotals totals;
   Diagnosis diagnosis;
-  {
+  try {
     ProgressPrinter print_progress(progress_settings(session));
     diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
       totals.note(update);
       print_progress(update);
     });
+  } catch (Error const&) {
+    if (shard.count < 2 || !already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) throw;
+    session.note(session.topic_line("done", "another shard was first: its result is ours"));
+    return print_kept(arguments, session, output);
   }
   print_baseline(session, diagnosis);
   print_stages(session, totals.finish());
@@ -173,7 +180,8 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   command->footer(
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
       "  torquescope diagnose lab.toml --all --out lab_diagnosis.h5\n"
-      "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n");
+      "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n"
+      "  for i in 0 1; do torquescope diagnose lab.toml --shard $i/2 & done; wait\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
@@ -184,7 +192,13 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
                    "other methods, on equal terms")
       ->type_name("C.h5")
       ->group("results");
-  command->add_option("--shard", arguments->shard)->group("");  // not shown: refused with the way out
+  command
+      ->add_option("--shard", arguments->shard,
+                   "one of N processes that share the twins of this diagnosis; killed? the same command goes on "
+                   "[SLURM_ARRAY_TASK_ID, SLURM_PROCID, OMPI_COMM_WORLD_RANK; 0/1 for a diagnosis of its own]")
+      ->type_name("I/N")
+      ->check(no_shard)
+      ->group("machine");
   add_threads_option(*command, arguments->threads);
   add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);

@@ -99,6 +99,12 @@ ExitCode show_status(std::string const& name, Session const& session) {
       return ExitCode::ok;
     }
   }
+  if (std::size_t const parts = twin_parts_in(folder); parts > 0) {
+    session.result(fmt::format("{} is under way, a diagnosis: {} parts of its twins are safe in {}\n",
+                               printable(result.string()), parts, printable(folder.string())));
+    session.document(status_json({}, result, false));
+    return ExitCode::ok;
+  }
   JobStatus const status = has_segments ? read_status(folder) : JobStatus{};
   validate(!status.writers.empty() || !status.damaged.empty(), [&] {
     return Problem{

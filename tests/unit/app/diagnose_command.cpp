@@ -52,7 +52,9 @@ class DiagnoseCommand : public ::testing::Test {
       progress({"twins", 200, 200, 0, 0, 14.0, "twins"});
       progress({"search", 34, 34, 0, 0, 8.8, "effects"});
       progress({"twins", 200, 200, 0, 0, 7.4, "twins"});  // again, with what was named
-      return diagnose_into_file(experiment, request, [this] { return found; });
+      Diagnosis const diagnosis = diagnose_into_file(experiment, request, [this] { return found; });
+      if (is_second) throw Error(Problem{ExitCode::stopped, "another one has written the result"});
+      return diagnosis;
     });
     std::vector<std::string> words{"diagnose", (folder / "job.toml").string(), "--out", result().string()};
     words.insert(words.end(), more.begin(), more.end());
@@ -77,6 +79,7 @@ class DiagnoseCommand : public ::testing::Test {
   test::TemporaryFolder folder{};
   Diagnosis found = example::invented_diagnosis();
   int diagnosed = 0;
+  bool is_second = false;
 };
 
 TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
@@ -115,6 +118,17 @@ TEST_F(DiagnoseCommand, WritesTheColumnsOfEffectsInsteadOfADiagnosis) {
 
   EXPECT_THROW(read_summary(columns), Error);  // `show` and `report` say what it is
   EXPECT_EQ(run({"--columns", columns.string()}).code, ExitCode::exists);
+}
+
+TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
+  is_second = true;
+  Outcome const outcome = run({"--shard", "1/2"});
+  EXPECT_EQ(outcome.code, ExitCode::ok);
+  EXPECT_THAT(outcome.err, HasSubstr("1/2 (--shard)"));
+  EXPECT_THAT(outcome.err, HasSubstr("another shard was first"));
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1"));
+  std::filesystem::remove(result());
+  EXPECT_EQ(run({"--shard", "0/1"}).code, ExitCode::stopped) << "of no shard it is a stop";
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {

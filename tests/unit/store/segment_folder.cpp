@@ -39,7 +39,8 @@ TEST(RemoveSegments, TakesSegmentsAndWhatTheDeadLeftAndNothingElse) {
   fs::path const result = folder / "R.h5", parts = segment_folder_of(result);
   make_segment_folder(parts);
   for (auto const* name :
-       {"R.h5.parts/a.h5", "R.h5.parts/b.h5.tmp.12", "R.h5.tmp.99", "R.h5.made.json.tmp.7", "S.h5.tmp.9"})
+       {"R.h5.parts/a.h5", "R.h5.parts/b.h5.tmp.12", "R.h5.parts/c.twins", "R.h5.parts/d.twins.tmp.3.1",
+        "R.h5.parts/d.twins.lock", "R.h5.tmp.99", "R.h5.made.json.tmp.7", "S.h5.tmp.9"})
     folder.write(name, "x");
   TempFile const living(result);
   remove_segments(result);
@@ -50,9 +51,9 @@ TEST(RemoveSegments, TakesSegmentsAndWhatTheDeadLeftAndNothingElse) {
   EXPECT_TRUE(fs::exists(living.temporary_name())) << "its process lives";
 
   make_segment_folder(parts);
-  folder.write("R.h5.parts/notes.txt", "mine");
+  for (auto const* mine : {"notes.txt", "notes.tmp.txt"}) folder.write("R.h5.parts/" + std::string(mine), "mine");
   remove_segments(result);
-  EXPECT_TRUE(fs::exists(parts / "notes.txt"));
+  for (auto const* mine : {"notes.txt", "notes.tmp.txt"}) EXPECT_TRUE(fs::exists(parts / mine));
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+"""One diagnosis of several processes: whatever happens to some of them, the result is, byte for byte, that of one process."""
+
+import contextlib
+import fcntl
+import glob
+import os
+import signal
+import time
+import unittest
+
+import study
+
+RECORDED = {"mode": "closed_loop", "rate_hz": 3200, "duration_s": 5}
+MORE = {"simulate__plant": {"spring": 0.8}, "simulate__controller": {"kind": "pd"},
+        "simulate__reference": {"kind": "multisine", "max_speed": 1.5},
+        "simulate__encoder": {"counts_per_revolution": 131072}}
+# one effect to find, so that nearly all of the time is that of twins
+JOB = study.simulated_job.job(experiment={"name": "twins"}, model={"terms": ["inertia", "viscous", "coulomb"]},
+                              filter={"cutoff_hz": 20, "decimate_to_hz": 100}, simulate=RECORDED,
+                              diagnose={"twins": 60, "effects": ["spring"]}, **MORE)
+
+
+KILLS = min(200, int(os.environ.get("TORQUESCOPE_FAULTS", "6")))
+
+
+def shard(index, count):
+    return ("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--shard", f"{index}/{count}")
+
+
+class Twins(study.FaultTest):
+    JOB = JOB
+    COMMAND = "diagnose"
+
+    def parts(self, folder):
+        return sorted(glob.glob(folder / "r.h5.parts/*.twins"))
+
+    @contextlib.contextmanager
+    def at_work(self, folder, batch):
+        """Shard 0/2, which cannot get beyond a batch: the second half of it is being computed, as far as it can see."""
+        os.makedirs(folder / "r.h5.parts", exist_ok=True)
+        part = folder / f"r.h5.parts/batch-{batch:04}.part-00%d-of-002.twins"
+        with open(part % 1 + ".lock", "w", encoding="utf-8") as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            process = folder.start(*shard(0, 2))
+            while process.poll() is None and not os.path.exists(part % 0):
+                time.sleep(0.002)
+            yield process
+            if process.poll() is None:
+                process.kill()
+            study.Ended(process)
+
+    def half_done(self, batch=4):
+        """A folder with some parts, whose shard was killed: and no result."""
+        folder = self.folder()
+        with self.at_work(folder, batch) as process:
+            process.kill()
+            self.assertEqual(process.wait(), -signal.SIGKILL)
+        self.assertGreaterEqual(len(self.parts(folder)), 2 * batch - 1)
+        self.assertFalse(os.path.exists(folder / "r.h5"))
+        return folder
+
+    def made_here(self, ended):
+        """Parts simulated by this process, and all."""
+        told = ended.said.split(" parts of the twins were simulated here")[0].split()
+        return int(told[-3]), int(told[-1])
+
+    def test_three_tasks_of_an_array_at_once(self):
+        folder = self.folder()
+        array = {"SLURM_ARRAY_TASK_MIN": "1", "SLURM_ARRAY_TASK_MAX": "3", "SLURM_ARRAY_TASK_COUNT": "3"}
+        processes = [folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1",
+                                  changes={"SLURM_ARRAY_TASK_ID": str(task), **array}) for task in (1, 2, 3)]
+        accounts = []
+        for process in processes:
+            ended = study.Ended(process)
+            self.assert_ended(ended, 0)
+            if "nothing runs again" in ended.said:
+                continue  # began when all was done
+            self.assertIn("(SLURM_ARRAY_TASK_ID): twins are shared", ended.said)
+            if "another shard was first" not in ended.said:
+                accounts.append(self.made_here(ended))
+        self.assertTrue(accounts)
+        made, parts = max(accounts)
+        self.assertGreater(parts, 20)
+        print(f"{made} of {parts} parts at most were made by one of three", file=study.sys.stderr)
+        self.assert_same(folder)
+
+    def test_killed_again_and_again_beside_one_that_is_not(self):
+        folder = self.folder()
+        beside = folder.start(*shard(1, 2))
+        kills = 0
+        while beside.poll() is None and kills < KILLS:
+            ended = folder.stopped_after(self.chance.uniform(0.05, 0.4 * self.seconds), signal.SIGKILL, *shard(0, 2))
+            self.assertIn(ended.code, (0, -signal.SIGKILL), ended.err)
+            kills += ended.code != 0
+        self.assert_ended(study.Ended(beside), 0)
+        self.assert_ended(folder.run(*shard(0, 2)), 0)
+        self.assert_same(folder)
+        print(f"{kills} kills of one of two", file=study.sys.stderr)
+
+    def test_the_same_command_goes_on(self):
+        folder = self.half_done()
+        before = len(self.parts(folder))
+        with self.at_work(folder, 8) as process:
+            process.terminate()
+            said = " ".join(process.stderr.read().decode().split())
+            self.assertEqual(process.wait(), 75, said)
+        self.assertIn("twins so far are safe in r.h5.parts", said)
+        self.assertGreater(len(self.parts(folder)), before)
+        before = len(self.parts(folder))
+        ended = folder.run(*shard(0, 2))
+        self.assert_ended(ended, 0)
+        made, parts = self.made_here(ended)
+        self.assertEqual(made, parts - before)
+        self.assert_same(folder)
+
+    def test_damaged_twins_and_those_of_another_place_are_simulated_again(self):
+        folder = self.half_done()
+        parts = self.parts(folder)
+        for name in parts[:2]:
+            with open(name, "r+b") as file:
+                file.seek(self.chance.randrange(48, os.path.getsize(name)))  # beyond the key
+                byte = file.read(1)[0]
+                file.seek(-1, os.SEEK_CUR)
+                file.write(bytes([byte ^ 1 << self.chance.randrange(8)]))
+        os.replace(parts[2], parts[3])
+        ended = folder.run(*shard(1, 2))
+        self.assert_ended(ended, 0)
+        self.assertEqual(ended.said.count("its twins are simulated again"), 2)
+        made, count = self.made_here(ended)
+        self.assertGreaterEqual(made, count - len(parts) + 4)
+        self.assert_same(folder)
+
+    def test_a_share_is_held_by_one(self):
+        folder = self.folder()
+        with self.at_work(folder, 2):
+            ended = folder.run(*shard(0, 2))
+            self.assert_ended(ended, 73)
+            self.assertIn("shard 0/2 of r.h5 is at work already", ended.said)
+            ended = folder.run("status", "r.h5")
+            self.assert_ended(ended, 0)
+            self.assertIn("a diagnosis: 3 parts of its twins are safe in r.h5.parts", ended.out)
+
+
+if __name__ == "__main__":
+    print(f"FAULT_SEED={study.SEED}", file=study.sys.stderr)
+    unittest.main(verbosity=2)
