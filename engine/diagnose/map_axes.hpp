@@ -10,7 +10,7 @@
 // Shown      what the mean of a cell is the mean of. The residual itself, but along the motion for load and distance since
 //            a velocity reversal, along the model's torque for distance since a torque reversal: what depends on these
 //            axes changes its sign with the direction, and would average out
-// Requires   rows that move one way (reversal_mask.hpp)
+// Requires   rows that move one way (reversal_mask.hpp), or all but rests (friction_buildup.hpp)
 // Units      SI of the joint's kind
 // Threads    free functions
 

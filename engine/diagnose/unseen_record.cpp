@@ -36,9 +36,18 @@ Eigen::Index head_rows(Eigen::Index rows) {
   return std::min(rows, std::max(fewest, rows / head_share));
 }
 
+// a head that moves one way only cannot tell an offset from what friction is in that direction
+bool moves_both_ways(Eigen::VectorXd const& velocity) {
+  constexpr double fifth = 0.2;
+  Eigen::Index const n = head_rows(velocity.size());
+  auto const forward = (velocity.head(n).array() > 0.0).count();
+  return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
+}
+
 // mean of the head when it is beyond chance, else 0
-double head_offset(Eigen::VectorXd const& residual) {
+double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& velocity) {
   constexpr double beyond = 3.0;
+  if (!moves_both_ways(velocity)) return 0.0;
   Eigen::Index const n = head_rows(residual.size());
   Eigen::VectorXd const head = residual.head(n);
   double const mean = head.mean();
@@ -195,13 +204,14 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   turn_waves(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
+  Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
   if (augmented.model().effects().empty()) {
     left_after = left_before;  // one model: nothing to compare, nothing to refit
-  } else if (double const offset = head_offset(left_after); offset != 0.0) {
+  } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
     left_after.array() -= offset;
     result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
     // the comparison must not gain by it: the baseline takes its own, or none if that is better
-    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before);
+    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
     if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
   }
   result.energy = before.torque.squaredNorm();

@@ -4,8 +4,8 @@
 // Parameters least squares of the training rows for both models (columns of measured motion are predicted best by
 //            parameters that carry the same attenuation)
 // Rows       those of the baseline's mask, for both
-// Offset     a nuisance of each recording: refitted on its first 5 % when their mean residual is beyond three standard
-//            errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
+// Offset     a nuisance of each recording: refitted on its first 5 % when these move both ways (a fifth of them each: else an
+//            offset is friction's) and their mean residual is beyond three standard errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
 //            named both are one and take none
 // Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond three standard
 //            deviations, size and order kept, and said so
