@@ -30,7 +30,7 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
   if (parameter.is_instant() || parameter.lower.to == RelativeTo::position) return places;
   if (n_shape == 1) return 10;
   if (n_shape == 2) return 6;
-  if (range.spacing == Spacing::linear) return 4;
+  if (range.spacing == Spacing::linear) return n_shape == 3 ? 4 : 1;
   // a refinement comes no further than one point: where the law changes by decades, more of them
   constexpr double widest_factor = 2.5;
   double const factors = std::log(range.upper / range.lower) / std::log(widest_factor);
@@ -86,9 +86,7 @@ ShapeGrid shape_grid(Effect const& effect, JointScales const& scales) {
   for (std::size_t k = 0; k < grid.ranges.size(); ++k) {
     auto const& parameter = effect.parameters()[effect.n_linear() + k];
     auto const& range = grid.ranges[k] = affordable(grid.ranges[k], parameter, scales);
-    std::size_t const points = range.upper > range.lower
-                                   ? std::max<std::size_t>(2, points_for(parameter, range, effect.n_shape(), scales))
-                                   : 1;
+    std::size_t const points = range.upper > range.lower ? points_for(parameter, range, effect.n_shape(), scales) : 1;
     std::vector<double> axis(points);
     for (std::size_t i = 0; i < points; ++i)
       axis[i] = from_unit(range, points > 1 ? static_cast<double>(i) / static_cast<double>(points - 1) : 0.0);

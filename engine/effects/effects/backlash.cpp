@@ -2,14 +2,16 @@
 // pushed.
 //
 // Equation   tau = J_l y'', y'' = a - ddq - g / J, a = -(w^2 dz(y, b) + 2 zeta w y'), w = 2 pi f: y is the load relative to
-//            the motor, dz its way beyond the gap; a = 0 in the gap and where it would pull. The rigid part J_l ddq and the
-//            gravity g are the baseline's, of which the load has the same share as of the inertia J
+//            the motor, dz its way beyond the gap; a = -c y' in the gap, which grease fills, and where a flank would pull. The
+//            rigid part J_l ddq and the gravity g are the baseline's, of which the load has the same share as of the inertia J
 // Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
 //            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
 // Why        flanks are soft: a rigid load and a plastic impact miss the ringing after contact, which is most of what shows.
 //            The push decides, not the velocity: a joint that gravity holds on one flank has no gap at its reversals
 // Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; backlash_half_gap b [rad; m];
-//            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1]
+//            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1];
+//            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film passes
+//            for a wider gap
 // Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
 // Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
@@ -34,11 +36,43 @@ struct Drive {
   Drive after(double time_s) const { return {now + jerk * time_s, jerk}; }
 };
 
-Place fly(Place const& from, Drive const& drive, double time_s) {
-  double const half = 0.5 * time_s;
-  return {from.y + time_s * (from.dy - half * (drive.now + drive.jerk * time_s / 3.0)),
-          from.dy - time_s * (drive.now + half * drive.jerk)};
-}
+// across the gap
+class Grease {
+ public:
+  explicit Grease(double film_per_s) : film_per_s_(film_per_s) {}
+
+  double push(Place const& at) const { return film_per_s_ * at.dy; }
+
+  Place fly(Place const& from, Drive const& drive, double time_s) const {
+    return film_per_s_ * time_s < thin ? fly_freely(from, drive, time_s)
+                                       : fly(from, drive, time_s, -std::expm1(-film_per_s_ * time_s));
+  }
+  // the same over a time that was told before
+  void remember(double time_s) { remembered_ = -std::expm1(-film_per_s_ * time_s); }
+  Place fly_as_remembered(Place const& from, Drive const& drive, double time_s) const {
+    return film_per_s_ * time_s < thin ? fly_freely(from, drive, time_s) : fly(from, drive, time_s, remembered_);
+  }
+
+ private:
+  static constexpr double thin = 1e-6;  // changes nothing in this time, and would cancel all digits below
+
+  static Place fly_freely(Place const& from, Drive const& drive, double time_s) {
+    double const half = 0.5 * time_s;
+    return {from.y + time_s * (from.dy - half * (drive.now + drive.jerk * time_s / 3.0)),
+            from.dy - time_s * (drive.now + half * drive.jerk)};
+  }
+
+  // faded: 1 - exp(-c time)
+  Place fly(Place const& from, Drive const& drive, double time_s, double faded) const {
+    double const follow = (drive.jerk / film_per_s_ - drive.now) / film_per_s_, change = drive.jerk / film_per_s_;
+    double const free = from.dy - follow;
+    return {from.y + free * faded / film_per_s_ + time_s * (follow - 0.5 * change * time_s),
+            from.dy - free * faded - change * time_s};
+  }
+
+  double film_per_s_;
+  double remembered_ = 0.0;
+};
 
 // a spring and damper whose rest is y = 0
 class Flank {
@@ -88,8 +122,8 @@ class Flank {
 
 class LoadBehindGap final : public EffectMemory {
  public:
-  LoadBehindGap(double half_gap, double frequency_hz, double damping, JointScales const& scales)
-      : half_gap_(half_gap), flank_(frequency_hz, damping), scales_(scales) {}
+  LoadBehindGap(double half_gap, double frequency_hz, double damping, double film_per_s, JointScales const& scales)
+      : half_gap_(half_gap), flank_(frequency_hz, damping), grease_(film_per_s), scales_(scales) {}
 
   // as if the same push had lasted for long
   void start(JointState const& state) override {
@@ -110,7 +144,7 @@ class LoadBehindGap final : public EffectMemory {
   }
 
   void row(JointState const& state, std::span<double> out) const override {
-    double const push = side_ == 0.0 ? 0.0 : -flank_.push(on_flank(at_, side_));
+    double const push = side_ == 0.0 ? -grease_.push(at_) : -flank_.push(on_flank(at_, side_));
     out[0] = push - drive_of(state);
   }
 
@@ -139,14 +173,15 @@ class LoadBehindGap final : public EffectMemory {
     n_sub_steps_ = std::max(1, static_cast<int>(std::ceil(flank_.omega() * step_s / largest_angle)));
     sub_step_s_ = step_s / n_sub_steps_;
     flank_.remember(sub_step_s_);
+    grease_.remember(sub_step_s_);
   }
 
   // on the flank of side_ or in the gap, as if the other did not exist
   Place carry_on(Drive const& drive, double time_s) const {
-    if (side_ == 0.0) return fly(at_, drive, time_s);
+    bool const is_whole = time_s == sub_step_s_;
+    if (side_ == 0.0) return is_whole ? grease_.fly_as_remembered(at_, drive, time_s) : grease_.fly(at_, drive, time_s);
     Place const beyond = on_flank(at_, side_);
-    Place const next =
-        time_s == sub_step_s_ ? flank_.ring_as_remembered(beyond, drive, time_s) : flank_.ring(beyond, drive, time_s);
+    Place const next = is_whole ? flank_.ring_as_remembered(beyond, drive, time_s) : flank_.ring(beyond, drive, time_s);
     return {next.y + side_ * half_gap_, next.dy};
   }
 
@@ -181,6 +216,7 @@ class LoadBehindGap final : public EffectMemory {
 
   double half_gap_;
   Flank flank_;
+  Grease grease_;
   JointScales scales_;
   double side_ = 0.0;  // of the gap on which the load is pushed, 0 while it is not
   Place at_{};
@@ -195,8 +231,8 @@ class Backlash final : public MemoryEffect {
       : MemoryEffect(
             {.name = "backlash",
              .title = "lost motion: the load hangs behind a gap",
-             .equation =
-                 "J_l y'', y'' + [w^2 dz(y, b) + 2 zeta w y' in contact, never pulling] = -ddq - g / J, w = 2 pi f",
+             .equation = "J_l y'', y'' + [w^2 dz(y, b) + 2 zeta w y' in contact, never pulling, else c y'] = -ddq - g "
+                         "/ J, w = 2 pi f",
              .source = "Nordin, Gutman 2002",
              .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
              .parameters = {{"backlash_load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
@@ -204,7 +240,9 @@ class Backlash final : public MemoryEffect {
                                             {0.02, RelativeTo::position_range}, Spacing::logarithmic),
                             shape_parameter("backlash_frequency", "Hz", "Hz", {0.2, RelativeTo::cutoff_frequency},
                                             {3.0, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
-                            shape_parameter("backlash_damping", "1", "1", {0.02}, {0.7}, Spacing::logarithmic)},
+                            shape_parameter("backlash_damping", "1", "1", {0.02}, {0.7}, Spacing::logarithmic),
+                            shape_parameter("backlash_film", "1/s", "1/s", {0.0}, {2.0, RelativeTo::cutoff_frequency},
+                                            Spacing::linear)},
              .families = {EffectFamily::reversal},
              .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
              .parity = Parity::neither,
@@ -212,7 +250,7 @@ class Backlash final : public MemoryEffect {
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<LoadBehindGap>(shape[0], shape[1], shape[2], scales);
+    return std::make_unique<LoadBehindGap>(shape[0], shape[1], shape[2], shape[3], scales);
   }
 };
 

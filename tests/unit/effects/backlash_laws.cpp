@@ -25,7 +25,7 @@ JointState swinging(double t) {
 TEST(Backlash, HasAPlayOfExactlyTwoB) {
   // pushed forwards for long, then braked: the load flies across the gap at the acceleration of the motor
   double const half_gap = 2.5e-3, braking = 10.0, step_s = 1e-4;
-  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, 2000.0, 0.1}, plain);
+  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, 2000.0, 0.1, 0.0}, plain);
   runner->advance({.ddq = braking}, 0.0);
   EXPECT_NEAR(runner->torque({.ddq = braking}), 0.0, 1e-9);
   JointState const braked{.ddq = -braking};
@@ -38,11 +38,28 @@ TEST(Backlash, HasAPlayOfExactlyTwoB) {
   EXPECT_NEAR(flight_s, expected, pushed_off + 3.0 * step_s);
 }
 
+TEST(Backlash, AThinFilmChangesNothingAndAThickOneHoldsTheLoadBack) {
+  // the load comes to rest in the grease of a gap without end: y'' = -c y', from the speed that the motor lost
+  double const film_per_s = 40.0, lost = 0.5, step_s = 1e-5;
+  auto const speed_after = [&](double film, double time_s) {
+    auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, 1e3, 50.0, 0.1, film}, plain);
+    runner->advance({.ddq = 0.0}, 0.0);
+    double left = lost, t = 0.0;
+    runner->advance({.ddq = -lost / step_s}, step_s);  // half of it in this step, half in the next
+    runner->advance({.ddq = 0.0}, step_s);
+    for (; t < time_s; t += step_s) left += step_s * runner->torque({.ddq = 0.0}, step_s);
+    return left;
+  };
+  EXPECT_NEAR(speed_after(0.0, 0.1), lost, 1e-12);
+  EXPECT_NEAR(speed_after(1e-7, 0.1), lost, 1e-6);
+  EXPECT_NEAR(speed_after(film_per_s, 0.1), lost * std::exp(-film_per_s * 0.1), 0.01 * lost);
+}
+
 TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
   JointScales scales;
   scales.inertia = 0.4;
   scales.gravity_cos = 4.0;  // 10 rad/s2 at q = 0, more than the motion asks for
-  auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1}, scales);
+  auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1, 5.0}, scales);
   auto const spring = find_effect("joint_elasticity")->runner(std::vector<double>{0.3, 20.0, 0.1, 0.0}, scales);
   for (int i = 0; i < 5000; ++i) {
     double const t = 1e-3 * i;
@@ -53,10 +70,11 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
 }
 
 TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
-  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, in the load's own coordinate
-  double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3;
+  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate
+  double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3, film_per_s = 30.0;
   double const omega = 2.0 * std::numbers::pi * frequency_hz;
-  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping}, plain);
+  auto const runner =
+      find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping, film_per_s}, plain);
   constexpr int finer = 2000;
   constexpr double step_s = 1e-3;
   auto const start = swinging(0.1);
@@ -66,12 +84,14 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
   runner->advance(start, 0.0);
   for (int i = 1; i <= 3000; ++i) {
     double push = 0.0;
+    bool touches = false;
     for (int k = 1; k <= finer; ++k) {
       auto const now = swinging(0.1 + step_s * (i - 1 + static_cast<double>(k) / finer));
       double const apart = now.q - q_load, side = std::copysign(1.0, apart);
       double const deep = apart - side * half_gap;
       push = side * deep > 0.0 ? omega * omega * deep + 2.0 * damping * omega * (now.dq - dq_load) : 0.0;
-      if (side * push < 0.0) push = 0.0;
+      touches = side * push > 0.0;
+      if (!touches) push = film_per_s * (now.dq - dq_load);
       dq_load += push * step_s / finer;
       q_load += dq_load * step_s / finer;
     }
@@ -79,7 +99,7 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
     double const expected = push - state.ddq;
     difference += std::pow(runner->torque(state, step_s) - expected, 2);
     size += expected * expected;
-    free_samples += push == 0.0 ? 1 : 0;
+    free_samples += touches ? 0 : 1;
   }
   EXPECT_GT(free_samples, 100);
   EXPECT_LT(std::sqrt(difference / size), 0.01);
@@ -88,7 +108,7 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
 TEST(Backlash, DoesNotCareHowASampleIsCutUp) {
   double const step_s = 1e-3;
   for (double const frequency_hz : {10.0, 60.0, 180.0}) {
-    std::vector<double> const parameters{1.0, 1e-3, frequency_hz, 0.2};
+    std::vector<double> const parameters{1.0, 1e-3, frequency_hz, 0.2, 30.0};
     auto const whole = find_effect("backlash")->runner(parameters, plain);
     auto const cut = find_effect("backlash")->runner(parameters, plain);
     double difference = 0.0, size = 0.0, before = swinging(0.0).ddq;
@@ -115,7 +135,8 @@ TEST(Backlash, DoesNotCareHowASampleIsCutUp) {
 TEST(Backlash, TakesTheLoadAlongInALoop) {
   double const inertia = 0.1, push = 5.0, pushed_s = 0.01, step_s = 1e-4;
   for (double const share : {0.1, 0.5, 0.9}) {
-    auto const runner = find_effect("backlash")->runner(std::vector<double>{share * inertia, 1e-3, 60.0, 0.3}, plain);
+    auto const runner =
+        find_effect("backlash")->runner(std::vector<double>{share * inertia, 1e-3, 60.0, 0.3, 20.0}, plain);
     JointState motor{};
     runner->advance(motor, 0.0);
     double const together = push * pushed_s / inertia;
