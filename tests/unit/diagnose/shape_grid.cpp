@@ -39,6 +39,11 @@ JointScales scales_of(double duration_s = 12.0, double range = 2.4) {
   return scales;
 }
 
+// of four, a linear one
+bool is_left_to_refinement(ShapeGrid const& grid, std::size_t k) {
+  return grid.axes.size() == 4 && grid.ranges[k].spacing == Spacing::linear;
+}
+
 TEST(ShapeGrid, IncludesBothBoundsOfEveryShape) {
   JointScales const scales = scales_of();
   int with_shape = 0;
@@ -51,6 +56,10 @@ TEST(ShapeGrid, IncludesBothBoundsOfEveryShape) {
       auto const& axis = grid.axes[k];
       double const close = rounding * std::max(std::abs(ranges[k].lower), std::abs(ranges[k].upper));
       EXPECT_NEAR(axis.front(), ranges[k].lower, close) << effect->name();
+      if (is_left_to_refinement(grid, k)) {
+        EXPECT_EQ(axis.size(), 1U) << effect->name();
+        continue;
+      }
       EXPECT_NEAR(axis.back(), ranges[k].upper, close) << effect->name();
       EXPECT_TRUE(std::is_sorted(axis.begin(), axis.end())) << effect->name();
       EXPECT_EQ(std::adjacent_find(axis.begin(), axis.end()), axis.end()) << effect->name() << ": a point twice";
@@ -88,7 +97,8 @@ TEST(ShapeGrid, BoxHoldsItsPointAndItsNeighboursWithinTheBounds) {
         auto const& axis = grid.axes[k];
         auto const here = std::find(axis.begin(), axis.end(), point[k]);
         double const before = to_unit(grid.ranges[k], here == axis.begin() ? *here : *(here - 1));
-        double const after = to_unit(grid.ranges[k], here + 1 == axis.end() ? *here : *(here + 1));
+        double const last = is_left_to_refinement(grid, k) ? grid.ranges[k].upper : *here;
+        double const after = to_unit(grid.ranges[k], here + 1 == axis.end() ? last : *(here + 1));
         EXPECT_GE(box.lower[k], 0.0) << effect->name();
         EXPECT_LE(box.upper[k], 1.0) << effect->name();
         EXPECT_NEAR(box.lower[k], before, 1e-9) << effect->name();
