@@ -70,7 +70,8 @@ Round EffectSearch::next_round() {
     auto const* effect = trial.refined.effect;
     if (round.is_taken) {
       bool const is_near = trial.refined.gain >= nearly_as_good * taken_gain && !effect->is_event();
-      if (is_near && effect->family() != EffectFamily::time && !refusal(columns, trial))
+      // asked of the line before the round: this one has another stage now
+      if (is_near && effect->family() != EffectFamily::time && !round.before->refusal(columns, trial))
         round.nearly_taken.push_back(trial);
       continue;
     }
