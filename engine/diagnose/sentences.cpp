@@ -241,13 +241,13 @@ std::string too_little_clause(JointDiagnosis const& joint, double share) {
                      n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
 }
 
-std::string refutation_clause(JointDiagnosis const& joint) {
+std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;
-  return fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}, where twins with {} promise {}",
+  std::string const twins = twins_ran_away ? std::string("run away") : "promise " + percent_text(joint.floor_relerr);
+  return fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}, where twins with {} {}",
                      joined(names, "and"), is_one ? "takes" : "take", percent_text(joint.validation_relerr),
-                     percent_text(joint.augmented_validation_relerr), is_one ? "it" : "them",
-                     percent_text(joint.floor_relerr));
+                     percent_text(joint.augmented_validation_relerr), is_one ? "it" : "them", twins);
 }
 
 std::string reason_sentence(Diagnosis const& diagnosis) {

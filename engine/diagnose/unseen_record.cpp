@@ -237,6 +237,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   if (!loop) return result;
   try {
     result.floor = floor_of(recording, setting, augmented, *loop, augmented.parameters());
+    result.twins_ran_away = !std::isfinite(result.floor);
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }

@@ -22,6 +22,7 @@ namespace torquescope {
 
 struct UnseenResult {
   double floor = unknown;                                        // relerr
+  bool twins_ran_away = false;                                   // of this recording, under the final model: no floor
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
   double moved_energy = 0.0;                                     // of the difference between both predictions
   std::vector<double> without{};                                 // residual energy with all effects but one, per effect

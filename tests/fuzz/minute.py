@@ -11,6 +11,7 @@ import concurrent.futures
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -25,6 +26,7 @@ import program  # noqa: E402
 import seeds  # noqa: E402
 
 SECONDS = int(os.environ.get("TORQUESCOPE_FUZZ_SECONDS", "60"))
+PATIENCE = 60  # seconds beyond these
 LIMITS = ["-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=1024"]
 FOREIGN = {"hdf5", "mat5", "segment"}
 
@@ -35,8 +37,16 @@ def sanitized():
 
 
 def fuzzer(reader, folder, *arguments):
-    return subprocess.run([os.path.join(FUZZERS, "fuzz_" + reader), *LIMITS, *arguments], cwd=folder, env=sanitized(),
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
+    # libFuzzer has no limit of time for its own report of a flood: it visits every piece of memory, which took hours once
+    process = subprocess.Popen([os.path.join(FUZZERS, "fuzz_" + reader), *LIMITS, *arguments], cwd=folder, env=sanitized(),
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               errors="replace", start_new_session=True)
+    try:
+        out, report = process.communicate(timeout=SECONDS + PATIENCE)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        out, report = process.communicate()
+    return subprocess.CompletedProcess(process.args, process.returncode, out, report)
 
 
 def ours(report):
