@@ -6,6 +6,8 @@ namespace {
 TwinLoop louder(TwinLoop loop, double factor) {
   loop.torque_noise.std *= factor;
   loop.torque_noise.innovation *= factor;
+  loop.slow_torque_noise.std *= factor;
+  loop.slow_torque_noise.innovation *= factor;
   loop.disturbance_std *= factor;
   loop.position_noise_std *= factor;
   loop.friction_wander *= factor;

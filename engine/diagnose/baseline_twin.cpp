@@ -12,7 +12,10 @@ struct Attempt {
   RecordedLoop loop;
   BaselineCorrection baseline{};
   NoiseLevel disturbance{}, friction_wander{};
-  bool ran_away() const { return baseline.ran_away || disturbance.ran_away || friction_wander.ran_away; }
+  std::optional<TorqueColour> colour{};
+  bool ran_away() const {
+    return baseline.ran_away || disturbance.ran_away || friction_wander.ran_away || (colour && colour->ran_away);
+  }
   // What a law does not explain is noise of its twins. Twins that are louder than the recording, without any disturbance
   // and where effects have little to say, are so because the law lacks something: a feedforward of friction, say
   bool law_is_too_poor() const {
@@ -36,6 +39,10 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
                                        options.step_s, correction_set, options.twins, workers);
   };
   TwinLoop& law = result.loop.loop;
+  auto const take_colour = [&](TorqueColour const& colour) {
+    result.colour = colour;
+    put_colour(colour, pipeline.rate_hz(), law);
+  };
   auto const put_disturbance = [&](NoiseLevel const& level) {
     result.disturbance = level;
     law.disturbance_std = level.std;
@@ -47,6 +54,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
     law.friction_wander_variance_error = level.variance_error;
   };
   if (options.levels) {
+    if (options.levels->colour) take_colour(*options.levels->colour);
     put_disturbance(options.levels->disturbance);
     put_wander(options.levels->friction_wander);
     correct_from(options.levels->parameters);
@@ -57,6 +65,10 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   auto const twin = [&] {
     return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
   };
+  if (result.loop.source == LoopSource::tracking) {
+    take_colour(torque_colour(record, twin(), pipeline, level_set, options.twins, workers));
+    if (result.colour->ran_away) return result;
+  }
   put_disturbance(disturbance_level(record, twin(), pipeline, level_set, options.twins, workers));
   if (result.disturbance.ran_away) return result;
   put_wander(friction_wander(record, twin(), pipeline, options.wander, wander_set(options), options.twins, workers));
@@ -99,10 +111,27 @@ RecordedLoop loop_to_try(Recording const& in_loop, double inertia, JointModel co
   return recorded_loop(in_loop, inertia, filter);
 }
 
+Problem runaway(Recording const& recording) {
+  if (recording.reference.size() == recording.position.size()) {
+    Problem problem{ExitCode::bad_data, recording.name + ": the fitted joint runs away from the measured motion"};
+    problem.help =
+        "the torque column may be another signal or have the wrong sign or unit: check recording.columns and "
+        "torque_per_unit";
+    return problem;
+  }
+  Problem problem{ExitCode::bad_data, recording.name +
+                                          ": no reference was recorded, and the fitted joint cannot be led along the "
+                                          "measured motion instead"};
+  problem.help =
+      "record what the controller was told to follow and name it, reference = \"COLUMN\" in recording.columns: twins "
+      "then move in the recording's own loop. If it cannot be had, check the torque's column, sign and torque_per_unit";
+  return problem;
+}
+
 }  // namespace
 
 TwinLevels levels_of(BaselineTwin const& made) {
-  return {made.baseline.parameters, made.disturbance, made.friction_wander};
+  return {made.baseline.parameters, made.disturbance, made.friction_wander, made.colour};
 }
 
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
@@ -127,17 +156,11 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }
-  validate(!made.ran_away(), [&] {
-    Problem problem{ExitCode::bad_data, recording.name + ": the fitted joint runs away from the measured motion"};
-    problem.help =
-        "the torque column may be another signal or have the wrong sign or unit: check recording.columns and "
-        "torque_per_unit";
-    return problem;
-  });
+  validate(!made.ran_away(), [&] { return runaway(recording); });
   CleanTwin twin(pipeline.model().twin_joint(made.baseline.parameters), made.loop.loop, made.loop.track,
                  options.step_s);
-  return {std::move(record), std::move(made.loop), std::move(made.baseline),
-          made.disturbance,  made.friction_wander, std::move(twin)};
+  return {std::move(record),    std::move(made.loop), std::move(made.baseline), made.disturbance,
+          made.friction_wander, made.colour,          std::move(twin)};
 }
 
 }  // namespace torquescope

@@ -6,6 +6,8 @@
 //            A loop that runs away is replaced by the tracking loop
 // Loop       decided once: later models of the same recording are told the first one's, or unlike twins would be compared.
 //            Effects of the torque channel ask for another look at it: a controller never saw what they add
+// Colour     of the torque noise: an identified loop has it from its own remainder; in a tracking loop torque_colour.hpp reads
+//            it from what the model leaves, anew with every model
 // Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
 // Errors     Error 65 as the parts; also when twins run away in the tracking loop too
 // Units      SI
@@ -21,6 +23,7 @@
 #include "engine/diagnose/friction_wander.hpp"
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
+#include "engine/diagnose/torque_colour.hpp"
 #include "engine/diagnose/twin_exchange.hpp"
 
 namespace torquescope {
@@ -30,6 +33,7 @@ struct TwinLevels {
   Eigen::VectorXd parameters;  // to begin the correction with
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
+  std::optional<TorqueColour> colour{};  // where no controller tells it
 };
 
 struct TwinOptions {
@@ -48,6 +52,7 @@ struct BaselineTwin {
   BaselineCorrection baseline;
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
+  std::optional<TorqueColour> colour;  // of the torque noise, where no controller tells it
   CleanTwin twin;
 };
 

@@ -6,12 +6,15 @@
 
 namespace torquescope {
 
-double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline) {
-  // rows that lie closer than the filter's memory only say how smooth it is
+std::size_t fast_lag(RecordPipeline const& pipeline) {
   constexpr double periods_apart = 0.4;
   double const apart =
       pipeline.cutoff_hz() > 0.0 ? periods_apart * pipeline.kept_rate_hz() / pipeline.cutoff_hz() : 1.0;
-  auto const lag = static_cast<std::size_t>(std::max(1.0, std::round(apart)));
+  return static_cast<std::size_t>(std::max(1.0, std::round(apart)));
+}
+
+double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline) {
+  std::size_t const lag = fast_lag(pipeline);
   // longer than the filter's memory, shorter than the time between reversals
   std::size_t const block = 8 * lag;
   std::vector<double> energies;

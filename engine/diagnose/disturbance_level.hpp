@@ -17,6 +17,9 @@
 
 namespace torquescope {
 
+// kept samples that are 0.4 periods of the cut-off apart: rows closer than the filter's memory only say how smooth it is
+std::size_t fast_lag(RecordPipeline const& pipeline);
+
 // median over blocks of the mean squared second difference of the residual, over rows with both neighbours
 double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline);
 

@@ -1,6 +1,5 @@
 #include "engine/diagnose/friction_wander.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,24 +28,7 @@ Eigen::MatrixXd smooth_functions(Motion const& motion, Eigen::VectorXd const& fr
     }
     parts.push_back(hats(motion.dq, 12));
   }
-  Eigen::Index width = 0;
-  for (auto const& part : parts) width += part.cols();
-  Eigen::MatrixXd all(friction.size(), width);
-  Eigen::Index at = 0;
-  for (auto const& part : parts) {
-    all.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
-  return all;
-}
-
-// what least squares on the columns leaves; a little ridge, because the functions of every axis sum to one
-Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns) {
-  constexpr double ridge = 1e-9;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  normal.diagonal().array() += ridge * normal.trace();
-  return signal - columns * normal.selfadjointView<Eigen::Lower>().ldlt().solve(columns.transpose() * signal);
+  return side_by_side(parts);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "engine/diagnose/hat_functions.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
 
@@ -16,6 +17,15 @@ std::vector<double> quantile_knots(Eigen::VectorXd const& x, Eigen::Index count)
     if (knots.empty() || at > knots.back()) knots.push_back(at);
   }
   return knots;
+}
+
+template <typename Signals>
+Signals what_is_left(Signals const& signals, Eigen::MatrixXd const& columns) {
+  constexpr double ridge = 1e-9;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  normal.diagonal().array() += ridge * normal.trace();
+  return signals - columns * normal.selfadjointView<Eigen::Lower>().ldlt().solve(columns.transpose() * signals);
 }
 
 }  // namespace
@@ -35,6 +45,26 @@ Eigen::MatrixXd hats(Eigen::VectorXd const& x, Eigen::Index count) {
     out(i, right) = part;
   }
   return out;
+}
+
+Eigen::MatrixXd side_by_side(std::vector<Eigen::MatrixXd> const& parts) {
+  Eigen::Index width = 0;
+  for (auto const& part : parts) width += part.cols();
+  Eigen::MatrixXd all(parts.empty() ? 0 : parts.front().rows(), width);
+  Eigen::Index at = 0;
+  for (auto const& part : parts) {
+    all.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  return all;
+}
+
+Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns) {
+  return what_is_left(signal, columns);
+}
+
+Eigen::MatrixXd left_of(Eigen::MatrixXd const& signals, Eigen::MatrixXd const& columns) {
+  return what_is_left(signals, columns);
 }
 
 }  // namespace torquescope

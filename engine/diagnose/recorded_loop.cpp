@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
 namespace {
+
+constexpr char const* no_reference =
+    "no reference was recorded (reference = \"COLUMN\" in recording.columns): small effects hide in the doubt; ";
 
 // a line through the first samples: the joint may have been moving when the recording began
 double first_velocity(Recording const& recording) {
@@ -39,12 +43,31 @@ RecordedLoop common_parts(Recording const& recording) {
   return result;
 }
 
+// The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as the
+// filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it run away
+Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
+  if (filter.cutoff_hz == 0.0) return recording.position;
+  constexpr double periods = 3.0;
+  Eigen::VectorXd const& q = recording.position;
+  Eigen::Index const n = q.size();
+  Eigen::Index const pad =
+      std::min(n - 1, static_cast<Eigen::Index>(std::ceil(periods * recording.rate_hz / filter.cutoff_hz)));
+  Recording longer;
+  longer.rate_hz = recording.rate_hz;
+  longer.position.resize(n + 2 * pad);
+  longer.position.segment(pad, n) = q;
+  longer.position.head(pad) = 2.0 * q[0] - q.segment(1, pad).reverse().array();
+  longer.position.tail(pad) = 2.0 * q[n - 1] - q.segment(n - 1 - pad, pad).reverse().array();
+  longer.torque = Eigen::VectorXd::Zero(longer.position.size());
+  return differentiate(std::move(longer), filter, {}).q.segment(pad, n);
+}
+
 }  // namespace
 
 RecordedLoop recorded_loop(Recording const& recording, double inertia, FilterOptions const& filter) {
   if (recording.reference.size() != recording.position.size()) {
     RecordedLoop own = tracking_loop(recording, inertia, filter);
-    own.remark = "there is no reference: " + own.remark;
+    own.remark = no_reference + own.remark;
     return own;
   }
   RecordedLoop result = common_parts(recording);
@@ -61,7 +84,7 @@ RecordedLoop tracking_loop(Recording const& recording, double inertia, FilterOpt
   constexpr double bandwidth_share = 0.03;  // of the rate
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
-  result.track.reference = differentiate(recording, filter, {}).q;
+  result.track.reference = smoothed_motion(recording, filter);
   result.loop.law = tracking_law(inertia, bandwidth_share * recording.rate_hz, recording.rate_hz);
   result.loop.torque_noise = white(white_noise(recording.torque));
   result.remark = "twins follow the measured motion in a stiff loop of our own";

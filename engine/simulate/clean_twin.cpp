@@ -12,6 +12,9 @@
 namespace torquescope {
 namespace {
 
+// the torque noise's own stream has a second half: no batch has so many groups
+constexpr std::uint32_t slow_groups = std::uint32_t{1} << 24;
+
 // Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
 // only logged, and one pattern of rounding would pass for all there is.
 void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, TwinTrack const& track,
@@ -136,6 +139,7 @@ void load_lanes(TwinJoint const& joint, double const* held, double const* fricti
 TwinLoop noiseless(TwinLoop loop) {
   loop.encoder_step = 0.0;
   loop.torque_noise = white(0.0);
+  loop.slow_torque_noise = white(0.0);
   loop.disturbance_std = 0.0;
   loop.disturbance_variance_error = 0.0;
   loop.position_noise_std = 0.0;
@@ -166,6 +170,7 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
 
 void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
   LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
+  LaneNoise slow_torque_noise(address, TwinStream::torque, group + slow_groups, loop_.slow_torque_noise);
   LaneNoise disturbance(address, TwinStream::disturbance, group, white(1.0));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
   LaneLevels const disturbance_std(address, TwinStream::level, group, loop_.disturbance_std,
@@ -204,6 +209,10 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     // log
     torque_noise.next(logged);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
+    if (loop_.slow_torque_noise.std > 0.0) {
+      slow_torque_noise.next(noise);
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += noise[lane];
+    }
     for (auto const& effect : effects) effect->shift_torque(instant_of(state, time_s, tick_s, command), logged);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       out.position[lane][k] = measured[lane];

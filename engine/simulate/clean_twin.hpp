@@ -28,9 +28,10 @@ namespace torquescope {
 // the loop round the joint; noise is whatever the recording's is
 struct TwinLoop {
   LoopLaw law{};
-  double encoder_step = 0.0;      // rad or m; 0: exact
-  Autoregression torque_noise{};  // of the measurement
-  double disturbance_std = 0.0;   // N m or N, white from tick to tick, acting on the joint
+  double encoder_step = 0.0;           // rad or m; 0: exact
+  Autoregression torque_noise{};       // of the measurement
+  Autoregression slow_torque_noise{};  // the same, beside it
+  double disturbance_std = 0.0;        // N m or N, white from tick to tick, acting on the joint
   // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder

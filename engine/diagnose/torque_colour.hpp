@@ -1,0 +1,41 @@
+#pragma once
+// The noise of the torque measurement where no controller tells it: how much of it is white, how much slow, and how slow.
+//
+// Without a reference nobody knows what the motor was told, so noise can only be read from what the model leaves. A torque
+// channel whose noise has a memory (amplifiers, filters, friction of bearings) is louder at a few hertz than its white part
+// lets expect, and twins with white noise alone would take all of that for missing physics.
+//
+// Model      white noise plus white noise through one pole (corner_hz), both only logged
+// Statistic  energy of the residual's second differences over rows 0.4, 0.8, 1.6 ... periods of the filter's cut-off apart, as
+//            long as eight blocks of eight such steps are left: one per octave below the cut-off. Median over the blocks;
+//            every smooth function of position, velocity, acceleration and jerk that the residual holds is taken out first, with
+//            and without the motion's sign, and a parabola of dry friction's level: what is missing lives there, noise does not
+// Fit        energies of the recording = those of twins without torque noise + of the two noises through the same filter and
+//            projection; gamma likelihood, its degrees of freedom from the noise's own draws; the slow part is taken in when
+//            Akaike's criterion asks for it. Non-negative
+// Corner     from the cut-off to an octave below the lowest band, in steps of half an octave
+// Units      N m or N; Hz
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
+// Source     McCullagh, Nelder 1989, 8.3 (gamma likelihood of spectral estimates: Whittle 1953)
+
+#include <cstddef>
+
+#include "engine/diagnose/record_pipeline.hpp"
+#include "engine/diagnose/twin_batch.hpp"
+
+namespace torquescope {
+
+struct TorqueColour {
+  double white_std = 0.0;
+  double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
+  bool ran_away = false;
+};
+
+// twins >= 8; what torque noise `twin` has is not used
+TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
+                           TwinAddress const& address, std::size_t twins, TwinWorkers const& workers);
+
+// into a loop: the slow part goes beside the white one
+void put_colour(TorqueColour const& colour, double rate_hz, TwinLoop& loop);
+
+}  // namespace torquescope
