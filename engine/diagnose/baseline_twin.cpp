@@ -26,7 +26,8 @@ struct Attempt {
 
 TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
 
-Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
+// reads_colour: of the torque noise, from what the model leaves
+Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& record, RecordPipeline const& pipeline,
                 TwinOptions const& options, TwinWorkers const& workers) {
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
@@ -65,7 +66,7 @@ Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline
   auto const twin = [&] {
     return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
   };
-  if (result.loop.source == LoopSource::tracking) {
+  if (reads_colour) {
     take_colour(torque_colour(record, twin(), pipeline, level_set, options.twins, workers));
     if (result.colour->ran_away) return result;
   }
@@ -146,13 +147,16 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   double const inertia = fitted_inertia(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
-  Attempt made = attempt(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()), record, pipeline,
-                         options, workers);
+  // a controller that is known tells what is noise, even where its law is too poor to be simulated
+  bool const has_no_reference = recording.reference.size() != recording.position.size();
+  Attempt made = attempt(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()), has_no_reference,
+                         record, pipeline, options, workers);
   if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, workers);
+    made = attempt(tracking_loop(in_loop, inertia, filter), has_no_reference, record, pipeline, options, workers);
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
-    Attempt tracking = attempt(tracking_loop(in_loop, inertia, filter), record, pipeline, options, workers);
+    Attempt tracking =
+        attempt(tracking_loop(in_loop, inertia, filter), has_no_reference, record, pipeline, options, workers);
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }
