@@ -10,17 +10,22 @@
 namespace torquescope {
 namespace {
 
-constexpr double longest = 0.6;  // of a sample period
+// of a sample period
+constexpr double longest = 0.6;
+// Without a reference nobody knows the controller's rate either: a torque may be the one told at its row, the one that
+// acts then, or the one that acted until then
+constexpr double longest_without_reference = 0.99;
 
 }  // namespace
 
 std::optional<double> delay_within_a_sample(Selection const& selection, double rate_hz) {
   static Effect const* const delay = find_effect("delay");
+  double const most = selection.final->twin->colour ? longest_without_reference : longest;
   auto const& effects = selection.final->model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (effects[i].effect != delay) continue;
     double const late_s = selection.final->model().effect_parameters(i, selection.final->parameters()).front();
-    if (std::abs(late_s) * rate_hz <= longest) return late_s;
+    if (std::abs(late_s) * rate_hz <= most) return late_s;
   }
   return std::nullopt;
 }

@@ -30,6 +30,10 @@ double relative_error(ProcessedRecord const& record) {
   return record.residual_itself().norm() / record.torque_itself().norm();
 }
 
+constexpr char const* without_reference_sentence =
+    "No reference was recorded: twins follow the measured motion, and the torque's noise is read from what the model "
+    "leaves, so that small effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns).";
+
 std::string source_word(LoopSource source) {
   switch (source) {
     case LoopSource::identified:
@@ -66,8 +70,10 @@ class JointWork {
 
   Diagnosis run() {
     diagnose();
+    bool const was_led = selection_.baseline && selection_.baseline->twin->colour.has_value();
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
+    if (was_led) diagnosis_.reason += std::string(" ") + without_reference_sentence;
     return std::move(diagnosis_);
   }
 
@@ -128,6 +134,8 @@ class JointWork {
     Remainder remainder = judge_remainder(selection_, final_stage());
     bool const has_structure = remainder.is_unexplained && !remainder.is_most_left;
     if (has_structure && !selection_.accepted.empty()) return remainder;
+    // how a joint is driven through a reversal nobody knows who does not know its controller
+    if (selection_.baseline->twin->colour) return remainder;
     Selection const before = selection_;
     look_at_reversals(setting, input_.selection, selection_, progress_);
     if (!selection_.keeps_reversals) return remainder;

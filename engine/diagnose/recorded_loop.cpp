@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
 namespace {
-
-constexpr char const* no_reference =
-    "no reference was recorded (reference = \"COLUMN\" in recording.columns): small effects hide in the doubt; ";
 
 // a line through the first samples: the joint may have been moving when the recording began
 double first_velocity(Recording const& recording) {
@@ -43,6 +42,15 @@ RecordedLoop common_parts(Recording const& recording) {
   return result;
 }
 
+// A step of the encoder must not ask for more torque than the recording has: at a high rate a stiff loop would shake the
+// joint by rounding alone. Its answer is 2 inertia omega per difference of one sample
+double widest_of_encoder(Recording const& recording, double inertia) {
+  double const step = recording.rows.encoder_step;
+  if (step <= 0.0) return std::numeric_limits<double>::infinity();
+  double const torque_rms = std::sqrt(recording.torque.squaredNorm() / static_cast<double>(recording.torque.size()));
+  return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
+}
+
 // The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as the
 // filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it run away
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
@@ -67,7 +75,7 @@ Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const&
 RecordedLoop recorded_loop(Recording const& recording, double inertia, FilterOptions const& filter) {
   if (recording.reference.size() != recording.position.size()) {
     RecordedLoop own = tracking_loop(recording, inertia, filter);
-    own.remark = no_reference + own.remark;
+    own.remark = "there is no reference: " + own.remark;
     return own;
   }
   RecordedLoop result = common_parts(recording);
@@ -85,7 +93,8 @@ RecordedLoop tracking_loop(Recording const& recording, double inertia, FilterOpt
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
-  result.loop.law = tracking_law(inertia, bandwidth_share * recording.rate_hz, recording.rate_hz);
+  double const bandwidth_hz = std::min(bandwidth_share * recording.rate_hz, widest_of_encoder(recording, inertia));
+  result.loop.law = tracking_law(inertia, bandwidth_hz, recording.rate_hz);
   result.loop.torque_noise = white(white_noise(recording.torque));
   result.remark = "twins follow the measured motion in a stiff loop of our own";
   return result;

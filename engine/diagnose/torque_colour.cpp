@@ -205,6 +205,7 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
 
   UnitNoise const white_noise = unit_noise(white(1.0), energies, recording, pipeline, address);
   BandFit best = fit_bands(wanted, none, white_noise, nullptr);
+  result.variance_error = white_noise.relative.maxCoeff();
   double corner_hz = 0.0;
   constexpr double of_two_parameters = 4.0;  // Akaike
   double least = best.deviance - of_two_parameters;
@@ -218,22 +219,17 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
     least = tried.deviance;
     best = tried;
     corner_hz = corner;
+    result.variance_error = slow.relative.maxCoeff();
   }
   result.white_std = std::sqrt(best.white);
   result.slow_std = std::sqrt(best.slow);
   result.corner_hz = best.slow > 0.0 ? corner_hz : 0.0;
-  if (getenv("COLOUR")) {
-    fprintf(stderr, "colour: white %g slow %g corner %g dev %g\n", result.white_std, result.slow_std, corner_hz,
-            best.deviance);
-    for (Eigen::Index k = 0; k < wanted.size(); ++k)
-      fprintf(stderr, "  band %d wanted %g none %g white %g rel %g\n", static_cast<int>(k), wanted[k], none[k],
-              best.white * white_noise.mean[k], white_noise.relative[k]);
-  }
   return result;
 }
 
 void put_colour(TorqueColour const& colour, double rate_hz, TwinLoop& loop) {
   loop.torque_noise = white(colour.white_std);
+  loop.torque_noise_variance_error = colour.variance_error;
   loop.slow_torque_noise = colour.slow_std > 0.0 ? one_pole(colour.slow_std, colour.corner_hz, rate_hz) : white(0.0);
 }
 

@@ -28,6 +28,7 @@ namespace torquescope {
 struct TorqueColour {
   double white_std = 0.0;
   double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
+  double variance_error = 0.0;             // standard error of both variances, as a share: of the band known worst
   bool ran_away = false;
 };
 

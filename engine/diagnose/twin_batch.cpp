@@ -25,9 +25,9 @@ std::string identity_of(CleanTwin const& twin, TwinAddress const& address, TwinR
     digest.bytes(&whole, sizeof whole);
   digest.numbers(std::vector{joint.lanes.inertia, joint.lanes.viscous, joint.lanes.gravity_sin, joint.lanes.gravity_cos,
                              joint.coulomb_forward, joint.coulomb_backward, joint.offset, loop.encoder_step,
-                             loop.torque_noise.std, loop.slow_torque_noise.std, loop.disturbance_std,
-                             loop.disturbance_variance_error, loop.position_noise_std, loop.friction_wander,
-                             loop.friction_wander_variance_error, twin.step_s()});
+                             loop.torque_noise.std, loop.slow_torque_noise.std, loop.torque_noise_variance_error,
+                             loop.disturbance_std, loop.disturbance_variance_error, loop.position_noise_std,
+                             loop.friction_wander, loop.friction_wander_variance_error, twin.step_s()});
   return digest.hex();
 }
 

@@ -12,7 +12,7 @@
 namespace torquescope {
 namespace {
 
-// the torque noise's own stream has a second half: no batch has so many groups
+// streams have a second half, for what goes beside the first: no batch has so many groups
 constexpr std::uint32_t slow_groups = std::uint32_t{1} << 24;
 
 // Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
@@ -171,6 +171,8 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
 void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
   LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
   LaneNoise slow_torque_noise(address, TwinStream::torque, group + slow_groups, loop_.slow_torque_noise);
+  LaneLevels const torque_level(address, TwinStream::level, group + slow_groups, 1.0,
+                                loop_.torque_noise_variance_error);
   LaneNoise disturbance(address, TwinStream::disturbance, group, white(1.0));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
   LaneLevels const disturbance_std(address, TwinStream::level, group, loop_.disturbance_std,
@@ -208,11 +210,13 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
 
     // log
     torque_noise.next(logged);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
     if (loop_.slow_torque_noise.std > 0.0) {
       slow_torque_noise.next(noise);
       for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += noise[lane];
     }
+    if (loop_.torque_noise_variance_error > 0.0)
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] *= torque_level[lane];
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) logged[lane] += command[lane];
     for (auto const& effect : effects) effect->shift_torque(instant_of(state, time_s, tick_s, command), logged);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       out.position[lane][k] = measured[lane];

@@ -31,7 +31,9 @@ struct TwinLoop {
   double encoder_step = 0.0;           // rad or m; 0: exact
   Autoregression torque_noise{};       // of the measurement
   Autoregression slow_torque_noise{};  // the same, beside it
-  double disturbance_std = 0.0;        // N m or N, white from tick to tick, acting on the joint
+  // standard error of both their variances, as a share: every twin draws a level of its own
+  double torque_noise_variance_error = 0.0;
+  double disturbance_std = 0.0;  // N m or N, white from tick to tick, acting on the joint
   // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder

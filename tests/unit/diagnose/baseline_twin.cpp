@@ -115,3 +115,35 @@ TEST(BaselineTwin, RefusesATorqueOfTheWrongSign) {
   auto const pipeline = clean_pipeline(recording);
   EXPECT_THROW(made_from(recording, pipeline), Error);
 }
+
+TEST(BaselineTwin, BlamesTheMissingReferenceBeforeTheTorque) {
+  auto recording = recorded(simulate_joint(clean_joint().plan, 12));
+  recording.torque = -recording.torque;
+  recording.reference.resize(0);
+  auto const pipeline = clean_pipeline(recording);
+  try {
+    made_from(recording, pipeline);
+    FAIL() << "a joint that is driven backwards was followed";
+  } catch (Error const& error) {
+    EXPECT_NE(error.problems().front().what.find("no reference was recorded"), std::string::npos)
+        << error.problems().front().what;
+  }
+}
+
+TEST(BaselineTwin, FollowsAMotionThatEndsInMidMove) {
+  // what a filter makes of the last sample's speed is an acceleration of many times the recording's own
+  auto recording = recorded(simulate_joint(clean_joint().plan, 12));
+  recording.reference.resize(0);
+  Eigen::Index fast = recording.position.size() * 3 / 4;
+  auto const step = [&](Eigen::Index k) { return std::abs(recording.position[k] - recording.position[k - 1]); };
+  for (Eigen::Index k = fast; k < recording.position.size(); ++k)
+    if (step(k) > step(fast)) fast = k;
+  Eigen::Index const n = fast + 1;
+  for (Eigen::VectorXd* channel : {&recording.time_s, &recording.position, &recording.torque})
+    *channel = channel->head(n).eval();
+  Eigen::VectorXd const r = tracking_loop(recording, 0.036, clean_filter()).track.reference;
+  ASSERT_EQ(r.size(), n);
+  Eigen::ArrayXd const bend = (r.tail(n - 2) - 2.0 * r.segment(1, n - 2) + r.head(n - 2)).array().abs();
+  constexpr Eigen::Index end = 20;
+  EXPECT_LE(bend.tail(end).maxCoeff(), bend.head(n - 2 - 10 * end).maxCoeff());
+}

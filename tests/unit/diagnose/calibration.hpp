@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "engine/diagnose/disturbance_level.hpp"
@@ -47,15 +48,20 @@ struct Calibration {
   int not_white = 0;
 };
 
+// spoil: what happens to record number `index` before anybody sees it
+using Spoil = std::function<void(Recording& recording, CleanJoint const& joint, std::uint32_t index)>;
+
 inline Calibration calibrate(std::uint32_t records, std::size_t twins, double disturbance_share = 0.0, int threads = 2,
-                             std::uint32_t first = 0) {
+                             std::uint32_t first = 0, Spoil const& spoil = {}) {
   Calibration result;
   for (std::uint32_t index = first; index < first + records; ++index) {
     CleanJoint joint = clean_joint_number(index);
     joint.plan.noise.disturbance_std = disturbance_share * joint.truth[2];
-    Recording const recording = recorded(simulate_joint(joint.plan, 1000 + index));
+    Recording recording = recorded(simulate_joint(joint.plan, 1000 + index));
+    if (spoil) spoil(recording, joint, index);
     RecordPipeline const pipeline = clean_pipeline(recording);
-    BaselineTwin const made = make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 2 * twin_lanes, index, 0}, threads);
+    BaselineTwin const made =
+        make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 2 * twin_lanes, index, 0}, threads);
     result.not_white += made.loop.source != LoopSource::identified;
 
     Statistics const of_recording = statistics(pipeline, made.record);

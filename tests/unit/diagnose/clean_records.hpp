@@ -3,9 +3,11 @@
 // its own controllers, of which the twin knows only the recording.
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
+#include "engine/base/random_stream.hpp"
 #include "engine/diagnose/baseline_twin.hpp"
 #include "engine/simulate/joint_simulation.hpp"
 #include "unit/simulate/plants.hpp"
@@ -77,6 +79,19 @@ inline Recording recorded(SimulatedRecording const& simulated) {
   recording.torque = simulated.torque;
   recording.reference = simulated.reference;
   recording.rows.encoder_step = 2.0 * std::numbers::pi / counts_per_revolution;
+  return recording;
+}
+
+// as a logger writes it that knows nothing of the controller, on a torque channel whose noise has a memory
+inline Recording without_reference(Recording recording, double slow_std, double corner_hz, std::uint32_t index) {
+  recording.reference.resize(0);
+  double const memory = std::exp(-2.0 * std::numbers::pi * corner_hz / recording.rate_hz);
+  RandomStream random({78, index, RandomDomain::test}, 0, 0);
+  double slow = slow_std * random.normal();
+  for (double& torque : recording.torque) {
+    torque += slow;
+    slow = memory * slow + std::sqrt(1.0 - memory * memory) * slow_std * random.normal();
+  }
   return recording;
 }
 
