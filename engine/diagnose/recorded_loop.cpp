@@ -46,7 +46,8 @@ RecordedLoop common_parts(Recording const& recording) {
 // joint by rounding alone. Its answer is 2 inertia omega per difference of one sample
 double widest_of_encoder(Recording const& recording, double inertia) {
   double const step = recording.rows.encoder_step;
-  if (step <= 0.0) return std::numeric_limits<double>::infinity();
+  if (step <= 0.0 || recording.reference.size() == recording.position.size())
+    return std::numeric_limits<double>::infinity();
   double const torque_rms = std::sqrt(recording.torque.squaredNorm() / static_cast<double>(recording.torque.size()));
   return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
 }
@@ -54,6 +55,8 @@ double widest_of_encoder(Recording const& recording, double inertia) {
 // The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as the
 // filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it run away
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
+  // beside a reference this is the last resort, and a joint that runs away even so is what the torque cannot be right for
+  if (recording.reference.size() == recording.position.size()) return differentiate(recording, filter, {}).q;
   if (filter.cutoff_hz == 0.0) return recording.position;
   constexpr double periods = 3.0;
   Eigen::VectorXd const& q = recording.position;
