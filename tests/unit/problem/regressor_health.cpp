@@ -57,6 +57,14 @@ TEST(RegressorHealth, AsksForWiderSpeedsWhenViscousLooksLikeOffset) {
   EXPECT_THAT(health.words, AllOf(HasSubstr("viscous and offset correlate 0.9"), HasSubstr("wider speeds would help")));
 }
 
+TEST(RegressorHealth, OnlyRemarksOnAPairThatIsToldApartAtACost) {
+  // gravity and an offset on a travel well below a turn: as nearly every recording of a joint with gravity has it
+  auto const health = regressor_health(data_of({"inertia", "viscous", "offset", "gravity"}, test::multisine(10.0)));
+  EXPECT_EQ(health.words, "");
+  EXPECT_THAT(health.remark, HasSubstr("offset and gravity_cos correlate 0.9"));
+  EXPECT_EQ(regressor_health(test::seed_data(20.0)).remark, "");
+}
+
 TEST(RegressorHealth, AsksForBothDirectionsWhenThereIsOne) {
   auto motion = test::multisine(10.0);
   motion.dq = (2.0 + 0.1 * motion.dq.array()).matrix();
