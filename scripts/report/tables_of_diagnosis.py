@@ -26,7 +26,7 @@ def _candidate(one, joint, scale):
             "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
             "z_pixel": pixels(one.z) if tested else None, "z": q.fixed(one.z, 1) if tested else "–",
             "p": diagnosed.p_cell(one.p, joint) if tested else "–", "q": _q(one.q) if tested else "–",
-            "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if math.isfinite(one.cv_gain) else "–"}
+            "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain)}
 
 
 def _q(value):

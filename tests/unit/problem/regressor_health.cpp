@@ -50,7 +50,7 @@ TEST(RegressorHealth, CorrelationIsTheCosineBetweenColumns) {
 TEST(RegressorHealth, AsksForWiderSpeedsWhenViscousLooksLikeOffset) {
   // both directions, but almost always forwards at nearly one speed
   auto motion = test::multisine(10.0);
-  motion.dq = (1.0 + 0.1 * motion.dq.array()).matrix();
+  motion.dq = (1.0 + 0.03 * motion.dq.array()).matrix();
   motion.dq[7] = -0.1;
   auto const health = regressor_health(data_of({"inertia", "viscous", "offset"}, motion));
   EXPECT_TRUE(health.identifiable);
