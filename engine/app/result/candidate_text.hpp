@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "engine/diagnose/diagnosis.hpp"
+#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 

@@ -26,7 +26,7 @@ EffectScan scan_of(char const* name, double gain) {
 Selection selection_of(bool is_gate_open) {
   Selection selection;
   selection.first_scan = {scan_of("stribeck", 9.0), scan_of("presliding", 8.0), scan_of("cogging", 1.0),
-                          scan_of("backlash", 0.5), scan_of("delay", 0.4),      scan_of("gravity_sin", 0.0)};
+                          scan_of("backlash", 0.5), scan_of("delay", 0.4),      scan_of("gravity", 0.0)};
   selection.first_scan.back().is_testable = false;
   selection.first_q = {0.001, 0.001, 0.001, 0.4, 0.001, 1.0};
   selection.first_cv_gain = {8.0, 7.0, unknown, unknown, 0.3, unknown};
@@ -61,7 +61,7 @@ TEST(CandidateTable, SaysWhatKeptItFromANameAtTheFirstStep) {
   EXPECT_EQ(candidate(selection, "presliding").reason, "explains less than what was named");
   EXPECT_EQ(candidate(selection, "cogging").reason, "explains less than the five best");
   EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (q above 0.05)");
-  EXPECT_THAT(candidate(selection, "gravity_sin").reason, HasSubstr("the model's own columns"));
+  EXPECT_THAT(candidate(selection, "gravity").reason, HasSubstr("the model's own columns"));
   EXPECT_EQ(candidate(selection_of(false), "stribeck").reason, "too little to look for: below 0.25 % of the torque");
 }
 
