@@ -148,6 +148,12 @@ class Verdict(unittest.TestCase):
             for row in tables_of_diagnosis.candidates(joint(kind)):
                 self.assertTrue(row["decision"] == "named" or row["reason"] != row["decision"], row)
 
+    def test_what_was_not_tested_is_none_of_the_strongest(self):
+        tested, term = joint("none").candidates, dataclasses.replace(joint("none").candidates[0], name="coulomb_positive", decision="not tested")
+        rows = tables_of_diagnosis.candidates(dataclasses.replace(joint("none"), candidates=[term] + tested))
+        self.assertEqual([row["name"] for row in rows[:3]], [one.name for one in tested[:3]])
+        self.assertEqual(rows[-1]["name"], "coulomb_positive")
+
     def test_shares_beyond_the_whole_are_readable(self):
         said = [row["cv_gain"] for gain in (0.284, 106.7, -5.8, math.nan) for row in tables_of_diagnosis.candidates(dataclasses.replace(
             joint("named"), candidates=[dataclasses.replace(joint("named").candidates[0], cv_gain=gain)]))]
