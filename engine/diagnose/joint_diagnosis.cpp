@@ -12,6 +12,7 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/detection_power.hpp"
+#include "engine/diagnose/error_words.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
 #include "engine/diagnose/joint_search.hpp"
 #include "engine/diagnose/mismatch_map.hpp"
@@ -98,8 +99,9 @@ class JointWork {
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
     Remainder const remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
+    tell("verify", 0, selection_.accepted.size());  // which may have made twins
     describe_baseline();
-    joint_.candidates = candidate_table(selection_);
+    joint_.candidates = candidate_table(selection_, input_.selection.q);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
@@ -154,6 +156,7 @@ class JointWork {
     joint_.omnibus_z = stage.energy.z;
     joint_.omnibus_p = stage.energy.p;
     joint_.mismatch_rms = stage.energy.excess_rms();
+    joint_.mismatch_share = mismatch_share(stage);
     joint_.left_rms = final_stage().energy.excess_rms();
     for (Eigen::Index t = 0; t < rows.n_twins(); ++t)
       joint_.twin_energy.push_back(rows.twins.col(t).squaredNorm() / stage.energy.residual);
@@ -276,7 +279,7 @@ class JointWork {
     bool const is_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(),
                                       [](NamedEffect const& one) { return one.acts_on != word(ActsOn::joint); });
     diagnosis_.verdict = is_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
-    if (is_fault) diagnosis_.way_out = "correct the channel, or record again; the model itself needs nothing more";
+    if (is_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
     joint_.excitation = advice_for(joint_.effects);
   }
 

@@ -49,6 +49,7 @@ class Experiment {
   std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
   std::vector<CheckLine> check(int threads) const;
   std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts
+  std::vector<std::string> remarks() const;   // the same of what is healthy
 
   struct Parts;
   Parts const& parts() const { return *parts_; }
