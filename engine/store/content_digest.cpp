@@ -207,7 +207,13 @@ void ContentDigest::block(std::string const& path, std::size_t index, void const
   }
   auto const is_free = [](Waiting const& waiting) { return !waiting.is_there; };
   auto place = std::find_if(waiting_.begin(), waiting_.end(), is_free);
-  if (place == waiting_.end()) digest_waiting(*(place = waiting_.begin()));
+  if (place == waiting_.end()) {
+    // no other of the size of the one that has waited longest may ever come
+    auto const older = [](Waiting const& a, Waiting const& b) { return a.number < b.number; };
+    place = std::min_element(waiting_.begin(), waiting_.end(), older);
+    digest_waiting(*place);
+  }
+  place->number = n_waited_++;
   place->is_there = true;
   place->path = path;
   place->index = index;

@@ -59,6 +59,7 @@ class ContentDigest {
   // a block of values that waits for another one of its size: two are digested in little more than the time of one
   struct Waiting {
     bool is_there = false;
+    std::size_t number = 0;  // of all that ever waited
     std::string path{};
     std::size_t index = 0;
     std::vector<std::byte> values{};
@@ -78,6 +79,7 @@ class ContentDigest {
 
   std::map<std::string, Object> objects_;
   std::array<Waiting, 2> waiting_;  // populations and fitness come in turns
+  std::size_t n_waited_ = 0;
 };
 
 // Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.
