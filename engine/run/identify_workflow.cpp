@@ -142,6 +142,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   report.content_sha256 = finish_result(writer, options.output, options.threads, beginning, attempt.saved.origins());
   report.seconds = beginning.seconds();
   report.bytes = std::filesystem::file_size(options.output);
+  report.result = writer.take_written();
   return report;
 }
 

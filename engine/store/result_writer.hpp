@@ -8,7 +8,7 @@
 //            std::string sha256 = writer.finish();
 // Shapes     row-major; {} is one number alone
 // Memory     the values of one call (in blocks: 1 MiB of them), a chunk, and 64 KiB per dataset of small runs (for each
-//            block of runs that is begun and not whole: one, when runs come in order)
+//            block of runs that is begun and not whole: one, when runs come in order); attributes and small arrays stay
 // Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
 // Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
 //            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
@@ -29,6 +29,7 @@
 #include "engine/store/h5.hpp"
 #include "engine/store/run_blocks.hpp"
 #include "engine/store/temp_file.hpp"
+#include "engine/store/written_result.hpp"
 
 namespace torquescope {
 
@@ -79,6 +80,8 @@ class ResultWriter {
 
   // returns content_sha256; the file now stands under its final name
   std::string finish();
+  // what it says, of a writer that has finished
+  WrittenResult take_written() { return std::move(written_); }
 
  private:
   struct RunDataset {
@@ -104,6 +107,7 @@ class ResultWriter {
 
   ResultWriterOptions options_;
   ContentDigest digest_;
+  WrittenResult written_;
   ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them
   h5::Handle file_;

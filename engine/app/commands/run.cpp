@@ -115,13 +115,13 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
                                                 shard.index, shard.count, shard.reason, shard.count, shard.index)));
     return run_share(std::move(experiment), options, arguments.job, session);
   }
+  IdentifyReport report;
   {
     ProgressPrinter print_progress(progress_settings(session));
-    identify(std::move(experiment), options,
-             [&print_progress](ProgressUpdate const& update) { print_progress(update); });
+    report = identify(std::move(experiment), options,
+                      [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  ResultSummary const summary = read_summary(output);
-  print_results(session, summary);
+  print_results(session, summary_of(*report.result));
   note_whereabouts(session, "wrote", output);
   return ExitCode::ok;
 }
