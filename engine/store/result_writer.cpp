@@ -216,30 +216,32 @@ void ResultWriter::declare_runs(std::string const& path, std::size_t runs, h5::S
 }
 
 void ResultWriter::write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
-                               std::span<std::byte const> values) {
-  digest_.block(path, first / rows_of_block(runs.info.element, runs.info.shape), values.data(), values.size());
+                               std::span<std::byte const> values, std::shared_ptr<void const> owner) {
+  digest_.block(path, first / rows_of_block(runs.info.element, runs.info.shape), values, std::move(owner));
   chunks_.write(runs.dataset, runs.info, first, count, values.data());
 }
 
 void ResultWriter::put_run(std::string const& path, h5::Element element, std::size_t run,
-                           std::span<std::byte const> values) {
+                           std::span<std::byte const> values, std::shared_ptr<void const> const& owner) {
   TORQUESCOPE_EXPECT(runs_.contains(path));
   RunDataset& runs = runs_.at(path);
   TORQUESCOPE_EXPECT(runs.info.element == element);
   if (!has_values(runs.info.shape)) return;
   guarded(path, [&] {
     runs.blocks.put(run, values, [&](std::size_t first, std::size_t count, std::span<std::byte const> block) {
-      write_block(path, runs, first, count, block);
+      // a block of several runs is not the owner's
+      write_block(path, runs, first, count, block, block.data() == values.data() ? owner : nullptr);
     });
   });
 }
 
-void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values) {
-  put_run(path, h5::Element::number, run, std::as_bytes(values));
+void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values,
+                             std::shared_ptr<void const> const& owner) {
+  put_run(path, h5::Element::number, run, std::as_bytes(values), owner);
 }
 
 void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values) {
-  put_run(path, h5::Element::whole_number, run, std::as_bytes(values));
+  put_run(path, h5::Element::whole_number, run, std::as_bytes(values), {});
 }
 
 void ResultWriter::plottable(std::string const& group, std::string const& signal,

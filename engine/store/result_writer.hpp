@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,7 +72,9 @@ class ResultWriter {
   // [runs][shape_of_one_run...]; runs never written read as NaN (whole numbers: 0)
   void declare_runs(std::string const& path, std::size_t runs, h5::Shape const& shape_of_one_run, Note const& note,
                     RunValues values = RunValues::number);
-  void write_run(std::string const& path, std::size_t run, std::span<double const> values);
+  // owner: while it lives the values stay as they are, and none is copied to be digested later
+  void write_run(std::string const& path, std::size_t run, std::span<double const> values,
+                 std::shared_ptr<void const> const& owner = {});
   void write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values);
 
   // a browser that knows NeXus (silx, h5web) plots the group: `signal` over `axes`, one name per dimension, "." for
@@ -99,9 +102,10 @@ class ResultWriter {
   void write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows, Note const& note);
   void digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
                     std::span<std::byte const> values);
-  void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values);
+  void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values,
+               std::shared_ptr<void const> const& owner);
   void write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
-                   std::span<std::byte const> values);
+                   std::span<std::byte const> values, std::shared_ptr<void const> owner = {});
   template <class Write>
   void guarded(std::string const& path, Write&& write);
 
