@@ -30,7 +30,7 @@ int sync_folder_of(std::filesystem::path const& name);
 class TempFile {
  public:
   // creates FINAL.tmp.<pid> (with .1, .2, ... behind it when a killed process left that name); never follows a link
-  // expected_bytes: how large it will be, as far as that is known; only said where there is no room
+  // expected_bytes: how large it will be, as far as that is known; said where there is no room
   explicit TempFile(std::filesystem::path final_name, std::uintmax_t expected_bytes = 0);
   ~TempFile();  // removes the file unless it was published
   TempFile(TempFile const&) = delete;
@@ -38,6 +38,7 @@ class TempFile {
 
   std::filesystem::path const& final_name() const { return final_name_; }
   std::filesystem::path const& temporary_name() const { return temporary_name_; }
+  std::uintmax_t expected_bytes() const { return expected_bytes_; }
   std::uint64_t size() const { return size_; }  // as it would be had every write succeeded
 
   void write_at(std::uint64_t offset, void const* data, std::size_t size) noexcept;
