@@ -94,6 +94,13 @@ Eigen::MatrixXd CandidateColumns::plain_columns(Effect const& effect, std::span<
   return plain_columns_of(effect, {{shape.begin(), shape.end()}});
 }
 
+Eigen::MatrixXd CandidateColumns::signals(Effect const& effect, std::span<double const> shape) const {
+  Motion const& motion = comparison_->rows.motion;
+  Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(effect.n_linear()));
+  effect.columns(baseline_.input(motion), shape, all);
+  return all;
+}
+
 std::vector<OrthonormalGroup> CandidateColumns::groups(Effect const& effect,
                                                        std::vector<std::vector<double>> const& shapes) const {
   return orthonormal_groups(columns_of(effect, shapes), nuisance_, signs(effect));

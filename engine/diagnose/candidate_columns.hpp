@@ -41,6 +41,8 @@ class CandidateColumns {
 
   Eigen::MatrixXd columns(Effect const& effect, std::span<double const> shape) const;
   Eigen::MatrixXd plain_columns(Effect const& effect, std::span<double const> shape) const;  // before whitening
+  // at the full rate of the common motion, not filtered: what the effect does at every instant, reversals and rests too
+  Eigen::MatrixXd signals(Effect const& effect, std::span<double const> shape) const;
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
   // of several shapes: their columns go through the filter side by side
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;

@@ -16,6 +16,21 @@ Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& c
          stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
 }
 
+// what is cut off at the ends of the record has no place: the filters swing there
+ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
+  auto const& [effect, shape] = stage.model().effects()[i];
+  auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+  Eigen::VectorXd const torque = columns.signals(*effect, shape) *
+                                 stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
+  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.rows.motion, stage.parameters());
+  Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
+  Eigen::Index const n = torque.size();
+  Eigen::VectorXd const kept = stage.pipeline->picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
+  auto const from = static_cast<Eigen::Index>(std::lround(kept[0]));
+  Eigen::Index const length = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1 - from;
+  return acting_region(at.segment(from, length), torque.segment(from, length).array().square().matrix());
+}
+
 // the reading of the map: torque that turns with the direction is counted along the motion
 Eigen::VectorXd reading_sign(SignatureAxis axis, MismatchRows const& rows) {
   switch (shown_reading(axis)) {
@@ -91,7 +106,7 @@ EffectAccount account_of(ModelStage const& stage, std::size_t i) {
     account.region = *wave;
     account.places = {*wave};
   } else {
-    ActingRegion const found = acting_region(values_on(axis, rows), torque.array().square().matrix());
+    ActingRegion const found = region_in_motion(stage, columns, i);
     auto const on_axis = [&](std::pair<double, double> const& interval) {
       return AxisInterval{word(axis), interval.first, interval.second, axis_unit(axis, columns.joint())};
     };

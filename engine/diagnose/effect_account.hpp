@@ -3,7 +3,8 @@
 //
 // Torque     of the effect on the common motion, filtered like the residual, on the rows
 // Region     the interval of its principal axis in which it acts, places: one or two of them (acting_region.hpp); a wave: its
-//            order or frequency with half a resolution to both sides
+//            order or frequency with half a resolution to both sides. Of every sample of the motion, not filtered: a delay acts
+//            most where the joint turns round, and no row is left there
 // Curve      means over the cells of the mismatch map of that axis: effect alone, effect plus what is left, and the spread
 //            of one twin's mean; waves are drawn over position
 // Units      SI

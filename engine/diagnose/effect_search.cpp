@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
@@ -178,6 +179,9 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
     return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                        100.0 * gain / whole);
   if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
+  for (auto const& one : selection_.accepted)
+    if (is_form_of(*one.effect, one.gain * selection_.energy_unit, trial.refined, stage(), columns))
+      return "lies within what another form of " + one.effect->name() + " would explain";
   return std::nullopt;
 }
 

@@ -41,7 +41,7 @@ Eigen::MatrixXd smeared_signs(Motion const& motion, JointScales const& scales) {
   for (int k = 0; k < count; ++k) {
     double const speed = peak * slowest * std::pow(factor, k);
     for (Eigen::Index i = 0; i < motion.dq.size(); ++i)
-      signals(i, k) = scales.friction_sign(motion.dq[i]) * (std::tanh(std::abs(motion.dq[i]) / speed) - 1.0);
+      signals(i, k) = scales.friction_sign()(motion.dq[i]) * (std::tanh(std::abs(motion.dq[i]) / speed) - 1.0);
   }
   return signals;
 }

@@ -108,15 +108,22 @@ class JointWork {
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
-  // what the names leave; where that has no structure of its own, the reversals are looked at as well
+  // what the names leave; where that has no structure of its own, the reversals are looked at as well. What these say must
+  // not cost the names that hold without them
   Remainder judge_with_reversals(StageSetting& setting) {
     Remainder remainder = judge_remainder(selection_, final_stage());
     bool const has_structure = remainder.is_unexplained && !remainder.is_most_left;
     if (has_structure && !selection_.accepted.empty()) return remainder;
+    Selection const before = selection_;
     look_at_reversals(setting, input_.selection, selection_, progress_);
     if (!selection_.keeps_reversals) return remainder;
+    Remainder const with_reversals = judge_remainder(selection_, final_stage());
+    if (with_reversals.is_unexplained && !remainder.is_unexplained) {
+      selection_ = before;
+      return remainder;
+    }
     setting.keeps_reversals = true;
-    return judge_remainder(selection_, final_stage());
+    return with_reversals;
   }
 
   // the recording by itself; may replace its torque by what the user's simulator cannot say

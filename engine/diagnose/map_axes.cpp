@@ -71,22 +71,22 @@ std::string axis_unit(SignatureAxis axis, JointKind joint) {
   return length;
 }
 
-Eigen::VectorXd values_on(SignatureAxis axis, MismatchRows const& rows) {
+Eigen::VectorXd values_on(SignatureAxis axis, MotionAxes const& axes) {
   switch (axis) {
     case SignatureAxis::velocity:
-      return rows.dq;
+      return axes.dq;
     case SignatureAxis::since_velocity_reversal:
-      return rows.since_velocity_reversal;
+      return axes.since_velocity_reversal;
     case SignatureAxis::since_torque_reversal:
-      return rows.since_torque_reversal;
+      return axes.since_torque_reversal;
     case SignatureAxis::load:
-      return (rows.dq.array() < 0.0).select(-rows.load_torque, rows.load_torque);
+      return (axes.dq.array() < 0.0).select(-axes.load_torque, axes.load_torque);
     case SignatureAxis::position:
-      return rows.q;
+      return axes.q;
     case SignatureAxis::acceleration:
-      return rows.ddq;
+      return axes.ddq;
     case SignatureAxis::time:
-      return rows.time_s;
+      return axes.time_s;
     case SignatureAxis::order:
     case SignatureAxis::frequency:
       break;

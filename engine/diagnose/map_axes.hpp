@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/diagnose/mismatch_rows.hpp"
+#include "engine/diagnose/motion_axes.hpp"
 #include "engine/effects/effect_traits.hpp"
 #include "engine/effects/joint_scales.hpp"
 
@@ -48,8 +48,8 @@ constexpr bool is_spectrum(SignatureAxis axis) {
 
 std::string axis_unit(SignatureAxis axis, JointKind joint);
 
-// place of every row; not for spectra
-Eigen::VectorXd values_on(SignatureAxis axis, MismatchRows const& rows);
+// place of every row, or sample; not for spectra
+Eigen::VectorXd values_on(SignatureAxis axis, MotionAxes const& axes);
 
 // n_map_cells + 1 edges, ascending; from the finite values
 std::vector<double> cell_edges(SignatureAxis axis, Eigen::VectorXd const& values);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -30,36 +29,6 @@ void check_rows(std::vector<Eigen::Index> const& rows, RecordPipeline const& pip
     problem.help = "record a longer motion with fewer reversals per second, or raise filter.parallel_cutoff_hz";
     return problem;
   });
-}
-
-// path length since the sign of `signal` last changed
-Eigen::VectorXd distance_since(Eigen::VectorXd const& signal, Eigen::VectorXd const& q) {
-  Eigen::VectorXd distance = Eigen::VectorXd::Zero(q.size());
-  for (Eigen::Index k = 1; k < q.size(); ++k)
-    distance[k] = signal[k] * signal[k - 1] < 0.0 ? 0.0 : distance[k - 1] + std::abs(q[k] - q[k - 1]);
-  return distance;
-}
-
-void fill_axes(MismatchRows& rows, RecordPipeline const& pipeline, ProcessedRecord const& common,
-               Eigen::VectorXd const& parameters) {
-  auto const& model = pipeline.model();
-  auto const& motion = rows.motion;
-  Eigen::MatrixXd const columns = model.columns(motion);
-  Eigen::VectorXd const all = columns * parameters;
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(all.size());
-  auto const& owners = model.regressor().column_owners();
-  for (std::size_t k = 0; k < owners.size(); ++k)
-    if (owners[k].needs_position || owners[k].needs_acceleration)
-      load += columns.col(static_cast<Eigen::Index>(k)) * parameters[static_cast<Eigen::Index>(k)];
-  auto const pick = [&](Eigen::VectorXd const& signal) { return pipeline.picked(signal, common); };
-  rows.time_s = pick(motion.time_s);
-  rows.q = pick(motion.q);
-  rows.dq = pick(motion.dq);
-  rows.ddq = pick(motion.ddq);
-  rows.load_torque = pick(load);
-  rows.model_torque = pick(all);
-  rows.since_velocity_reversal = pick(distance_since(motion.dq, motion.q));
-  rows.since_torque_reversal = pick(distance_since(all, motion.q));
 }
 
 }  // namespace
@@ -104,7 +73,10 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = safe;
   rows.motion = result.common.motion;
-  fill_axes(rows, pipeline, result.common, result.common.parameters);
+  static_cast<MotionAxes&>(rows) =
+      motion_axes(pipeline.model(), rows.motion, result.common.parameters).picked([&](Eigen::VectorXd const& signal) {
+        return pipeline.picked(signal, result.common);
+      });
   rows.torque = result.recording.torque_itself();
   rows.residual = result.recording.residual;
 

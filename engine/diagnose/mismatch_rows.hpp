@@ -3,7 +3,8 @@
 //
 // Common motion  of a twin without noise and encoder: candidate columns and axes are computed from it, once, for data and
 //                twins alike. Columns of each one's own measured motion would carry its own noise into the statistic
-// Rows           kept samples at which the recording, the common motion and the pilot twins all surely move one way; with reversals (friction_buildup.hpp): all but rests
+// Rows           kept samples at which the recording, the common motion and the pilot twins all surely move one way; with
+//                reversals (friction_buildup.hpp): all but rests
 // Residual       torque - own columns * own least squares, everything filtered and whitened alike; data and twins in the same
 //                way. The plain ones are the same before whitening, empty where nothing was whitened
 // Shapes         n rows in time order, M twins
@@ -15,25 +16,22 @@
 #include <vector>
 
 #include "engine/data/motion.hpp"
+#include "engine/diagnose/motion_axes.hpp"
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/twin_exchange.hpp"
 #include "engine/simulate/clean_twin.hpp"
 
 namespace torquescope {
 
-struct MismatchRows {
-  double rate_hz = 0.0;                        // of the kept samples before the mask
-  std::vector<Eigen::Index> kept_rows{};       // of each row: index among the pipeline's kept samples
-  Motion motion{};                             // common motion, full rate; its torque is that of the model
-  Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};  // of the common motion, per row
-  Eigen::VectorXd load_torque{};               // per row: terms of position and acceleration
-  Eigen::VectorXd model_torque{};              // per row: all terms
-  Eigen::VectorXd since_velocity_reversal{};   // distance travelled, rad or m
-  Eigen::VectorXd since_torque_reversal{};     // distance travelled since the model's torque changed its sign
-  Eigen::VectorXd torque{};                    // of the recording, filtered, never whitened
-  Eigen::VectorXd residual{};                  // of the recording
-  Eigen::VectorXd twin_mean{};                 // mean residual of the twins
-  Eigen::MatrixXd twins{};                     // n x M: residual of each twin
+// axes: of the common motion, per row
+struct MismatchRows : MotionAxes {
+  double rate_hz = 0.0;                   // of the kept samples before the mask
+  std::vector<Eigen::Index> kept_rows{};  // of each row: index among the pipeline's kept samples
+  Motion motion{};                        // common motion, full rate; its torque is that of the model
+  Eigen::VectorXd torque{};               // of the recording, filtered, never whitened
+  Eigen::VectorXd residual{};             // of the recording
+  Eigen::VectorXd twin_mean{};            // mean residual of the twins
+  Eigen::MatrixXd twins{};                // n x M: residual of each twin
   Eigen::VectorXd plain_residual{};
   Eigen::MatrixXd plain_twins{};
 

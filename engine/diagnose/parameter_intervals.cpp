@@ -1,8 +1,11 @@
 #include "engine/diagnose/parameter_intervals.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/diagnose/block_jackknife.hpp"
+#include "engine/diagnose/bounded_projection.hpp"
+#include "engine/diagnose/profiled_interval.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -18,6 +21,39 @@ Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& 
   Eigen::VectorXd const chance = two_sided * parameter_deviations(stage, columns);
   Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), columns.with_tangents());
   return chance.cwiseMax(blocks);
+}
+
+// where on the recording, or on the travel: its column may not change at all, or jump
+bool is_placed(EffectParameter const& parameter) {
+  return parameter.is_instant() || (parameter.is_shape && parameter.lower.to == RelativeTo::position);
+}
+
+// what moving the instant, or the place, to both sides shows is wider where the motion does not tell it
+void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& stage, std::size_t i) {
+  auto const& [effect, shape] = stage.model().effects()[i];
+  auto const& parameters = effect->parameters();
+  std::size_t const n_linear = effect->n_linear();
+  if (std::none_of(parameters.begin(), parameters.end(), is_placed)) return;
+  CandidateColumns const beside(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), i);
+  Eigen::VectorXd const linear = stage.parameters().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
+                                                            static_cast<Eigen::Index>(n_linear));
+  Eigen::VectorXd const signal = stage.mismatch() + beside.columns(*effect, shape) * linear;
+  double const row_noise = stage.energy.noise / static_cast<double>(stage.comparison.rows.size());
+  auto const bounds = effect->shape_bounds(beside.scales());
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    if (!is_placed(parameters[n_linear + k])) continue;
+    auto const gain = [&, moved = shape](double at) mutable {
+      moved[k] = at;
+      OrthonormalGroup const group = beside.group(*effect, moved);
+      return bounded_gain(group, group.q.transpose() * signal).gain;
+    };
+    auto& own = estimates[n_linear + k];
+    double const least_step = 1e-6 * (bounds[k].upper - bounds[k].lower);
+    auto const [from, to] = profiled_interval(
+        {shape[k], bounds[k].lower, bounds[k].upper, std::max(own.upper - own.value, least_step)}, row_noise, gain);
+    own.lower = std::min(own.lower, from);
+    own.upper = std::max(own.upper, to);
+  }
 }
 
 }  // namespace
@@ -53,6 +89,7 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
           k < effect.n_linear() ? static_cast<Eigen::Index>(model.first_parameter(i) + k) : shape_at++;
       own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], half[at]));
     }
+    widen_placed(own, stage, i);
     result.effects.push_back(std::move(own));
   }
   return result;

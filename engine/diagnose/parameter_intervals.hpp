@@ -4,6 +4,7 @@
 // Equation   deviation of twin t = [columns | tangents]^+ (its torque - columns * the truth it was simulated with);
 //            interval = value -+ the larger of 1.96 standard deviations over twins * sqrt(1 + 1/M) and 2.26 of the block
 //            jackknife on the recording's own mismatch (block_jackknife.hpp): a law that is not quite the joint's is no chance
+//            Instants and places: as far as their profile goes where that is further (profiled_interval.hpp)
 // Value      corrected for the bias of processing (baseline_correction.hpp); shapes by the last step of joint_refinement.hpp
 // Threads    free function
 // Source     PHYSICS.md section 2 step 12; parametric bootstrap: Efron, Tibshirani 1993

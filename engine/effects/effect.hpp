@@ -36,6 +36,7 @@
 #include "engine/data/motion.hpp"
 #include "engine/effects/effect_traits.hpp"
 #include "engine/effects/joint_scales.hpp"
+#include "engine/effects/joint_states.hpp"
 
 namespace torquescope {
 
@@ -69,13 +70,6 @@ inline EffectParameter shape_parameter(std::string name, std::string unit_revolu
 struct ParameterRange {
   double lower = 0.0, upper = 0.0;
   Spacing spacing = Spacing::linear;
-};
-
-// one instant of a joint
-struct JointState {
-  double time_s = 0.0, q = 0.0, dq = 0.0, ddq = 0.0;
-  double load_torque = 0.0;   // of the baseline: gravity, springs and inertia
-  double motor_torque = 0.0;  // what the motor gives; for columns, what the whole baseline says it gives
 };
 
 struct EffectInput {

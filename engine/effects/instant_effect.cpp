@@ -48,11 +48,8 @@ std::unique_ptr<EffectRunner> InstantEffect::runner(std::span<double const> para
 
 double InstantEffect::torque(JointState const& state, std::span<double const> parameters,
                              JointScales const& scales) const {
-  auto const alone = [](double const& value) { return JointStates::Quantity(&value, 1); };
-  JointStates const at{alone(state.time_s), alone(state.q),           alone(state.dq),
-                       alone(state.ddq),    alone(state.load_torque), alone(state.motor_torque)};
   double torque = 0.0;
-  torques(at, parameters, scales, {&torque, 1});
+  torques(JointStates::of(state), parameters, scales, {&torque, 1});
   return torque;
 }
 

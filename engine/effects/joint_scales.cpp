@@ -38,10 +38,9 @@ double inertia_or_torque(JointScales const& scales) {
 
 double JointScales::resolution() const { return encoder_step > 0.0 ? encoder_step : 1e-6 * position_range; }
 
-double JointScales::friction_sign(double velocity) const {
-  if (velocity == 0.0) return 0.0;
-  if (!(coulomb() > 0.0)) return velocity > 0.0 ? 1.0 : -1.0;
-  return (velocity > 0.0 ? coulomb_positive : -coulomb_negative) / coulomb();
+FrictionSign JointScales::friction_sign() const {
+  if (!(coulomb() > 0.0)) return {};
+  return {coulomb_positive / coulomb(), -coulomb_negative / coulomb()};
 }
 
 double bound_value(Bound const& bound, JointScales const& scales) {

@@ -12,6 +12,12 @@ namespace torquescope {
 
 enum class JointKind { revolute, prismatic };
 
+// -1, 0, 1 weighted by the levels of dry friction of either direction
+struct FrictionSign {
+  double forward = 1.0, backward = -1.0;
+  double operator()(double velocity) const { return velocity > 0.0 ? forward : velocity < 0.0 ? backward : 0.0; }
+};
+
 struct JointScales {
   JointKind joint = JointKind::revolute;
   double start_s = 0.0;           // time of the first sample
@@ -37,7 +43,7 @@ struct JointScales {
   double coulomb() const { return 0.5 * (coulomb_positive + coulomb_negative); }
   // sign(dq) times the Coulomb level of that direction over the mean one (1 without Coulomb friction): friction that is
   // modulated keeps the asymmetry the baseline has, else its even part would pass for gravity (LESSONS.md item 14)
-  double friction_sign(double velocity) const;
+  FrictionSign friction_sign() const;
 };
 
 enum class RelativeTo {

@@ -1,5 +1,5 @@
 #pragma once
-// Instants of a joint side by side, one array per quantity, and the functions that laws of effects are written with.
+// One instant of a joint, instants side by side, one array per quantity, and the functions that laws of effects are written with.
 //
 // Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of twins, or one instant
 // Bits       of a law over them: the same for any n and any place (kernels/elementary.hpp), so that simulation and
@@ -16,12 +16,29 @@ namespace torquescope {
 // a column of a block and a temporary stay in the L1 cache
 inline constexpr Eigen::Index states_at_once = 256;
 
+// one instant of a joint
+struct JointState {
+  double time_s = 0.0, q = 0.0, dq = 0.0, ddq = 0.0;
+  double load_torque = 0.0;   // of the baseline: gravity, springs and inertia
+  double motor_torque = 0.0;  // what the motor gives; for columns, what the whole baseline says it gives
+};
+
 struct JointStates {
   using Quantity = Eigen::Map<Eigen::ArrayXd const>;
   Quantity time_s, q, dq, ddq;
   Quantity load_torque, motor_torque;  // as in JointState
 
   Eigen::Index size() const { return q.size(); }
+  JointState state(std::size_t i) const {
+    auto const at = static_cast<Eigen::Index>(i);
+    return {time_s[at], q[at], dq[at], ddq[at], load_torque[at], motor_torque[at]};
+  }
+  // a view of one instant, which outlives it
+  static JointStates of(JointState const& one) {
+    auto const alone = [](double const& value) { return Quantity(&value, 1); };
+    return {alone(one.time_s), alone(one.q),           alone(one.dq),
+            alone(one.ddq),    alone(one.load_torque), alone(one.motor_torque)};
+  }
 };
 
 // a quantity a law needs on its way
@@ -34,10 +51,8 @@ inline auto sign(JointStates::Quantity const& velocity) {
   return velocity.unaryExpr([](double v) { return static_cast<double>((v > 0.0) - (v < 0.0)); });
 }
 
-// JointScales::friction_sign of each
 inline auto friction_sign(JointStates::Quantity const& velocity, JointScales const& scales) {
-  double const forward = scales.friction_sign(1.0), backward = scales.friction_sign(-1.0);
-  return velocity.unaryExpr([=](double v) { return v > 0.0 ? forward : v < 0.0 ? backward : 0.0; });
+  return velocity.unaryExpr(scales.friction_sign());
 }
 
 // 1 from `start` on, 0 before

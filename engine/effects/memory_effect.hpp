@@ -1,19 +1,33 @@
 #pragma once
 // An effect whose columns depend on what happened before: it runs a state over the motion, the same one for
-// identification and for simulation. Files in effects/ add the state.
+// identification and for simulation. Files in effects/ add the state, a plain class:
+//
+//   void start(JointState const& state)
+//   void advance(JointState const& state, double step_s)                                    step_s > 0
+//   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
+//
+// Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
+//            them and not once for each: a twin takes 50 000 steps per second
+// Threads    an EffectMemory is used by one thread
 
+#include <array>
+#include <utility>
+
+#include "engine/base/contract.hpp"
 #include "engine/effects/effect.hpp"
+#include "engine/effects/joint_states.hpp"
 
 namespace torquescope {
 
-// the state behind the columns of one effect at one shape
+// the states behind the columns of one effect at one shape, one per lane
 class EffectMemory {
  public:
   virtual ~EffectMemory() = default;
-  virtual void start(JointState const& state) = 0;
-  virtual void advance(JointState const& state, double step_s) = 0;  // step_s > 0
-  // torque per unit of each linear parameter, memory as it stands
-  virtual void row(JointState const& state, std::span<double> out) const = 0;
+  // of one lane that starts with the motion; out: input.size() x linear parameters
+  virtual void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) = 0;
+  // the lanes have come to `at`; they start with the first call
+  virtual void advance(JointStates const& at, double step_s) = 0;
+  virtual void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const = 0;
 };
 
 class MemoryEffect : public Effect {
@@ -22,9 +36,57 @@ class MemoryEffect : public Effect {
   bool has_memory() const final { return true; }
   void columns(EffectInput const& input, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override;
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
-
- protected:
-  virtual std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const = 0;
+  // of several joints with one shape
+  virtual std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                               std::size_t lanes) const = 0;
 };
+
+// what a file in effects/ returns as memory(): `lanes` copies of a state that has not started
+template <typename State>
+std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
+  class Lanes final : public EffectMemory {
+   public:
+    Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
+
+    void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
+      for (Eigen::Index i = 0; i < input.size(); ++i) {
+        JointState const now = input.state(i);
+        if (i == 0)
+          states_.front().start(now);
+        else
+          states_.front().advance(now, input.motion.time_s[i] - input.motion.time_s[i - 1]);
+        auto const row = states_.front().row(now);
+        for (std::size_t k = 0; k < row.size(); ++k) out(i, static_cast<Eigen::Index>(k)) = row[k];
+      }
+    }
+
+    void advance(JointStates const& at, double step_s) override {
+      bool const has_started = std::exchange(has_started_, true);
+      for (std::size_t lane = 0; lane < states_.size(); ++lane) {
+        if (has_started)
+          states_[lane].advance(at.state(lane), step_s);
+        else
+          states_[lane].start(at.state(lane));
+      }
+    }
+
+    void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
+      using Row = decltype(states_.front().row(JointState{}));
+      constexpr std::size_t width = std::tuple_size_v<Row>;
+      TORQUESCOPE_EXPECT(linear.size() == width && out.size() == states_.size());
+      for (std::size_t lane = 0; lane < states_.size(); ++lane) {
+        Row const row = states_[lane].row(at.state(lane));
+        double sum = 0.0;
+        for (std::size_t k = 0; k < width; ++k) sum += linear[k] * row[k];
+        out[lane] = sum;
+      }
+    }
+
+   private:
+    std::vector<State> states_;
+    bool has_started_ = false;
+  };
+  return std::make_unique<Lanes>(fresh, lanes);
+}
 
 }  // namespace torquescope

@@ -8,6 +8,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/instant_effect.hpp"
+#include "engine/effects/memory_effect.hpp"
 
 namespace torquescope {
 namespace {
@@ -28,6 +29,11 @@ class CatalogueEffect final : public LaneEffect {
         scales_(scales) {
     if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
     if (law_ != nullptr) return;
+    if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
+      memory_ = remembering->memory(std::span(parameters_).subspan(effect.n_linear()), scales, twin_lanes);
+      linear_ = std::span(parameters_).first(effect.n_linear());
+      return;
+    }
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
 
@@ -37,8 +43,7 @@ class CatalogueEffect final : public LaneEffect {
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;
     LaneTorques const load = load_torques(at);
-    for (std::size_t lane = 0; lane < runners_.size(); ++lane)
-      runners_[lane]->advance(state_of(at, load, lane), at.step_s);
+    advance(at, load);
     LaneInstant trial = at;
     if (is_dry_friction_) {
       add_to(demand.forward, sliding(trial, at, load, 1.0));
@@ -81,8 +86,23 @@ class CatalogueEffect final : public LaneEffect {
 
   void shift(LaneInstant const& tick, double* channel) {
     LaneTorques const load = load_torques(tick);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      channel[lane] += runners_[lane]->torque(state_of(tick, load, lane), tick.step_s);
+    advance(tick, load);
+    add_to(channel, torques(tick, load));
+  }
+
+  void advance(LaneInstant const& at, LaneTorques const& load) {
+    LaneTorques time_s;
+    if (memory_) memory_->advance(states_of(at, load, time_s), at.step_s);
+    for (std::size_t lane = 0; lane < runners_.size(); ++lane)
+      runners_[lane]->advance(state_of(at, load, lane), at.step_s);
+  }
+
+  // time_s: room for what the lanes have in common
+  static JointStates states_of(LaneInstant const& at, LaneTorques const& load, LaneTorques& time_s) {
+    time_s.fill(at.time_s);
+    auto const of_lanes = [](double const* values) { return JointStates::Quantity(values, twin_lanes); };
+    return {of_lanes(time_s.data()), of_lanes(at.q),        of_lanes(at.dq),
+            of_lanes(at.ddq),        of_lanes(load.data()), of_lanes(at.motor_torque)};
   }
 
   static void add_to(double* sum, LaneTorques const& torque) {
@@ -92,17 +112,15 @@ class CatalogueEffect final : public LaneEffect {
   // memory as it stands
   LaneTorques torques(LaneInstant const& at, LaneTorques const& load) const {
     LaneTorques found{};
-    if (law_ == nullptr) {
+    LaneTorques time_s;
+    JointStates const states = states_of(at, load, time_s);
+    if (law_ != nullptr)
+      law_->torques(states, parameters_, scales_, found);
+    else if (memory_)
+      memory_->torques(states, linear_, found);
+    else
       for (std::size_t lane = 0; lane < twin_lanes; ++lane)
         found[lane] = runners_[lane]->torque(state_of(at, load, lane));
-      return found;
-    }
-    LaneTorques time_s;
-    time_s.fill(at.time_s);
-    auto const of_lanes = [](double const* values) { return JointStates::Quantity(values, twin_lanes); };
-    JointStates const states{of_lanes(time_s.data()), of_lanes(at.q),        of_lanes(at.dq),
-                             of_lanes(at.ddq),        of_lanes(load.data()), of_lanes(at.motor_torque)};
-    law_->torques(states, parameters_, scales_, found);
     return found;
   }
 
@@ -118,8 +136,11 @@ class CatalogueEffect final : public LaneEffect {
   LaneJoint baseline_;
   std::vector<double> parameters_;
   JointScales scales_;
-  InstantEffect const* law_ = nullptr;                  // in the joint without memory: all lanes at once
-  std::vector<std::unique_ptr<EffectRunner>> runners_;  // otherwise one per lane: each twin has its own memory
+  // all lanes at once: a law of the instant in the joint, or what each twin remembers
+  InstantEffect const* law_ = nullptr;
+  std::unique_ptr<EffectMemory> memory_;
+  std::span<double const> linear_{};                    // of parameters_
+  std::vector<std::unique_ptr<EffectRunner>> runners_;  // otherwise one per lane
 };
 
 }  // namespace

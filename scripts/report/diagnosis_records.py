@@ -29,10 +29,6 @@ class Parameter:
     lower: float  # 95 %
     upper: float
 
-    @property
-    def half_interval(self):
-        return (self.upper - self.lower) / 2
-
 
 @dataclass
 class Region:

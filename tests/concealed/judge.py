@@ -32,6 +32,7 @@ class Found:
     intervals: tuple = ()              # (truth inside the 95 % interval) per reported parameter
     family: str = ""                   # its own, of those it may answer to
     form: str = ""                     # the law it was made with
+    catalogue_form: bool = False       # which is the catalogue's own: every parameter has an exact partner
     rank: int | None = None            # guess that has its family, from 1; None: no guess has
     blind: float | None = None         # chance that three guesses drawn from the list have its family; None: no list
 
@@ -140,7 +141,8 @@ def blind_chance(n, n_right, guesses=3):
 def match(reported, true_effects):
     """-> (list of Found, in the order of true_effects; names that answer nothing)."""
     known = [t for t in true_effects if t["name"]]
-    found = [Found(t["name"], t["size"]["snr_eff"], family=t["families"][0], form=t.get("form", "")) for t in known]
+    found = [Found(t["name"], t["size"]["snr_eff"], family=t["families"][0], form=t.get("form", ""),
+                   catalogue_form=bool(t.get("catalogue_form"))) for t in known]
     free = list(range(len(reported)))
     for level in LEVELS:
         for f, t in zip(found, known):

@@ -94,8 +94,8 @@ def overlaps(js):
     return [f.iou for f in _found(js) if f.iou is not None]
 
 
-def _intervals(js):
-    return measures.share(itertools.chain.from_iterable(f.intervals for f in _found(js)), bool)
+def _intervals(js, catalogue_forms=(False, True)):
+    return measures.share(itertools.chain.from_iterable(f.intervals for f in _found(js) if f.catalogue_form in catalogue_forms), bool)
 
 
 def _errors(probability):
@@ -151,6 +151,7 @@ ROWS = (
         Level("≤ 15 %", high=0.15), Level("≤ 8 %", high=0.08)),
     Row("coverage", "95 % intervals that hold the truth", "percent", _intervals,
         Level("92 to 97.5 %", 0.92, 0.975), Level("94 to 96 %", 0.94, 0.96), 400),
+    Row("coverage_same_law", "The same, where the concealed law has the catalogue's form", "percent", lambda js: _intervals(js, (True,))),
     Row("gap_closed", "Gap to the oracle closed on unseen data, SNR ≥ 1, median", "percent",
         lambda js: measures.quantile(gaps(js)),
         Level("≥ 80 %", low=0.80), Level("≥ 92 %", low=0.92)),

@@ -199,9 +199,15 @@ std::string next_text(JointDiagnosis const& joint) {
   return text;
 }
 
+// an interval that reaches much further to one side is said by its ends
 std::string interval_text(ParameterEstimate const& one) {
-  bool const known = std::isfinite(one.lower) && std::isfinite(one.upper);
-  return short_number(one.value) + (known ? " +- " + two_digits(0.5 * (one.upper - one.lower)) : "");
+  constexpr double lopsided = 0.1;
+  std::string const value = short_number(one.value);
+  if (!std::isfinite(one.lower) || !std::isfinite(one.upper)) return value;
+  double const half = 0.5 * (one.upper - one.lower), middle = 0.5 * (one.upper + one.lower);
+  if (std::abs(one.value - middle) > lopsided * half)
+    return fmt::format("{} ({} to {})", value, short_number(one.lower), short_number(one.upper));
+  return value + " +- " + two_digits(half);
 }
 
 ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& parameters, std::string const& name) {

@@ -17,6 +17,7 @@
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -120,19 +121,19 @@ class Flank {
   Fading remembered_{};
 };
 
-class LoadBehindGap final : public EffectMemory {
+class LoadBehindGap {
  public:
   LoadBehindGap(double half_gap, double frequency_hz, double damping, double film_per_s, JointScales const& scales)
       : half_gap_(half_gap), flank_(frequency_hz, damping), grease_(film_per_s), scales_(scales) {}
 
   // as if the same push had lasted for long
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     drive_ = drive_of(state);
     at_ = {flank_.rest(drive_) - std::copysign(half_gap_, drive_), 0.0};
     side_ = side_at(at_);
   }
 
-  void advance(JointState const& state, double step_s) override {
+  void advance(JointState const& state, double step_s) {
     if (step_s != step_s_) remember_step(step_s);
     double const end = drive_of(state);
     Drive drive{drive_, (end - drive_) / step_s};
@@ -143,9 +144,9 @@ class LoadBehindGap final : public EffectMemory {
     drive_ = end;
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
+  std::array<double, 1> row(JointState const& state) const {
     double const push = side_ == 0.0 ? -grease_.push(at_) : -flank_.push(on_flank(at_, side_));
-    out[0] = push - drive_of(state);
+    return {push - drive_of(state)};
   }
 
  private:
@@ -249,8 +250,9 @@ class Backlash final : public MemoryEffect {
              .needs_baseline = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<LoadBehindGap>(shape[0], shape[1], shape[2], shape[3], scales);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
+    return memory_of(LoadBehindGap(shape[0], shape[1], shape[2], shape[3], scales), lanes);
   }
 };
 

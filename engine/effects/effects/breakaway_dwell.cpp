@@ -8,6 +8,7 @@
 // Confused   stribeck; rests of different length tell them apart
 // Source     Rabinowicz 1958; Ruina 1983 (law of ageing)
 
+#include <array>
 #include <cmath>
 
 #include "engine/effects/memory_effect.hpp"
@@ -15,30 +16,30 @@
 namespace torquescope::effects {
 namespace {
 
-class AgeingContact final : public EffectMemory {
+class AgeingContact {
  public:
   AgeingContact(double dwell_s, double distance, JointScales const& scales)
-      : dwell_s_(dwell_s), distance_(distance), scales_(scales) {}
+      : dwell_s_(dwell_s), distance_(distance), sign_(scales.friction_sign()) {}
 
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     q_ = state.q;
     age_s_ = 0.0;
   }
 
-  void advance(JointState const& state, double step_s) override {
+  void advance(JointState const& state, double step_s) {
     double const renewed = std::abs(state.q - q_) / distance_;
     q_ = state.q;
     double const grown_s = renewed > 0.0 ? -std::expm1(-renewed) / renewed * step_s : step_s;
     age_s_ = age_s_ * std::exp(-renewed) + grown_s;
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = -scales_.friction_sign(state.dq) * std::expm1(-age_s_ / dwell_s_);
+  std::array<double, 1> row(JointState const& state) const {
+    return {-sign_(state.dq) * std::expm1(-age_s_ / dwell_s_)};
   }
 
  private:
   double dwell_s_, distance_;
-  JointScales scales_;
+  FrictionSign sign_;
   double q_ = 0.0, age_s_ = 0.0;
 };
 
@@ -61,8 +62,9 @@ class BreakawayDwell final : public MemoryEffect {
                       .is_dry_friction = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<AgeingContact>(shape[0], shape[1], scales);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
+    return memory_of(AgeingContact(shape[0], shape[1], scales), lanes);
   }
 };
 

@@ -8,6 +8,7 @@
 // Confused   spring, gravity, presliding
 // Source     PHYSICS.md G3; Dahl 1968 (loop)
 
+#include <array>
 #include <cmath>
 
 #include "engine/effects/memory_effect.hpp"
@@ -15,27 +16,23 @@
 namespace torquescope::effects {
 namespace {
 
-class CableLoop final : public EffectMemory {
+class CableLoop {
  public:
   explicit CableLoop(double distance) : distance_(distance) {}
 
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     q_ = state.q;
     z_ = 0.0;
   }
 
-  void advance(JointState const& state, double) override {
+  void advance(JointState const& state, double) {
     double const step = state.q - q_;
     q_ = state.q;
     double const full = std::copysign(1.0, step);
     z_ = full + (z_ - full) * std::exp(-std::abs(step) / distance_);
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = state.q;
-    out[1] = state.q * state.q * state.q;
-    out[2] = z_;
-  }
+  std::array<double, 3> row(JointState const& state) const { return {state.q, state.q * state.q * state.q, z_}; }
 
  private:
   double distance_;
@@ -68,8 +65,9 @@ class Cable final : public MemoryEffect {
                       .parity = Parity::neither}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&) const override {
-    return std::make_unique<CableLoop>(shape[0]);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&,
+                                       std::size_t lanes) const override {
+    return memory_of(CableLoop(shape[0]), lanes);
   }
 };
 

@@ -9,19 +9,21 @@
 // Confused   actuator_lag, friction_lag, joint_elasticity, presliding
 // Source     MuJoCo sysid apply_delay; LESSONS.md item 10
 
+#include <array>
+
 #include "engine/effects/lagged_signal.hpp"
 #include "engine/effects/memory_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class LateTorque final : public EffectMemory {
+class LateTorque {
  public:
   explicit LateTorque(double span_s) : span_s_(span_s), torque_(span_s) {}
-  void start(JointState const& state) override { torque_.start(state.time_s, state.motor_torque); }
-  void advance(JointState const& state, double) override { torque_.push(state.time_s, state.motor_torque); }
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = (torque_.lagged() - state.motor_torque) / span_s_;
+  void start(JointState const& state) { torque_.start(state.time_s, state.motor_torque); }
+  void advance(JointState const& state, double) { torque_.push(state.time_s, state.motor_torque); }
+  std::array<double, 1> row(JointState const& state) const {
+    return {(torque_.lagged() - state.motor_torque) / span_s_};
   }
 
  private:
@@ -49,8 +51,9 @@ class Delay final : public MemoryEffect {
              .needs_baseline = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&) const override {
-    return std::make_unique<LateTorque>(shape[0]);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&,
+                                       std::size_t lanes) const override {
+    return memory_of(LateTorque(shape[0]), lanes);
   }
 };
 

@@ -9,27 +9,29 @@
 // Confused   delay, presliding
 // Source     Hess, Soom 1990; Armstrong-Helouvry, Dupont, Canudas de Wit 1994 (seven-parameter model)
 
+#include <array>
+
 #include "engine/effects/lagged_signal.hpp"
 #include "engine/effects/memory_effect.hpp"
 
 namespace torquescope::effects {
 namespace {
 
-class LaggingCurve final : public EffectMemory {
+class LaggingCurve {
  public:
   LaggingCurve(double lag_s, double speed, JointScales const& scales)
-      : speed_(speed), scales_(scales), velocity_(lag_s) {}
-  void start(JointState const& state) override { velocity_.start(state.time_s, state.dq); }
-  void advance(JointState const& state, double) override { velocity_.push(state.time_s, state.dq); }
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = scales_.friction_sign(state.dq) * (curve(velocity_.lagged()) - curve(state.dq));
+      : speed_(speed), sign_(scales.friction_sign()), velocity_(lag_s) {}
+  void start(JointState const& state) { velocity_.start(state.time_s, state.dq); }
+  void advance(JointState const& state, double) { velocity_.push(state.time_s, state.dq); }
+  std::array<double, 1> row(JointState const& state) const {
+    return {sign_(state.dq) * (curve(velocity_.lagged()) - curve(state.dq))};
   }
 
  private:
   double curve(double velocity) const { return 1.0 / (1.0 + velocity * velocity / (speed_ * speed_)); }
 
   double speed_;
-  JointScales scales_;
+  FrictionSign sign_;
   LaggedSignal velocity_;
 };
 
@@ -53,8 +55,9 @@ class FrictionLag final : public MemoryEffect {
              .is_dry_friction = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<LaggingCurve>(shape[0], shape[1], scales);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
+    return memory_of(LaggingCurve(shape[0], shape[1], scales), lanes);
   }
 };
 

@@ -14,6 +14,7 @@
 // Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +23,7 @@
 namespace torquescope::effects {
 namespace {
 
-class LoadOnSpring final : public EffectMemory {
+class LoadOnSpring {
  public:
   // acceleration: a; 0: the spring is straight
   LoadOnSpring(double frequency_hz, double damping, double hardening, double acceleration)
@@ -32,13 +33,13 @@ class LoadOnSpring final : public EffectMemory {
         per_square_(acceleration > 0.0 ? hardening * std::pow(omega_ * omega_ / acceleration, 2) : 0.0) {}
 
   // as if the acceleration had been the same for long
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     ddq_ = state.ddq;
     y_ = -ddq_ / (omega_ * omega_);
     dy_ = 0.0;
   }
 
-  void advance(JointState const& state, double step_s) override {
+  void advance(JointState const& state, double step_s) {
     if (step_s != whole_step_s_) remember_step(step_s);
     double const jerk = (state.ddq - ddq_) / step_s;
     for (int part = 0; part < parts_; ++part) {
@@ -49,8 +50,8 @@ class LoadOnSpring final : public EffectMemory {
     ddq_ = state.ddq;
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    out[0] = -(2.0 * decay_ * dy_ + omega_ * omega_ * y_ + stiffened()) - state.ddq;
+  std::array<double, 1> row(JointState const& state) const {
+    return {-(2.0 * decay_ * dy_ + omega_ * omega_ * y_ + stiffened()) - state.ddq};
   }
 
  private:
@@ -113,9 +114,10 @@ class JointElasticity final : public MemoryEffect {
              .parity = Parity::even}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
     double const acceleration = scales.inertia > 0.0 ? scales.torque_rms / scales.inertia : 0.0;
-    return std::make_unique<LoadOnSpring>(shape[0], shape[1], shape[2], acceleration);
+    return memory_of(LoadOnSpring(shape[0], shape[1], shape[2], acceleration), lanes);
   }
 };
 

@@ -17,35 +17,35 @@
 namespace torquescope::effects {
 namespace {
 
-class SlipElements final : public EffectMemory {
+class SlipElements {
  public:
-  SlipElements(double longest, JointScales const& scales)
-      : longest_(longest), scales_(scales), lowest_(scales.friction_sign(-1.0)), highest_(scales.friction_sign(1.0)) {}
+  SlipElements(double longest, JointScales const& scales) : longest_(longest), sign_(scales.friction_sign()) {}
 
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     q_ = state.q;
-    z_.fill(scales_.friction_sign(state.dq));
+    z_.fill(sign_(state.dq));
   }
 
-  void advance(JointState const& state, double) override {
+  void advance(JointState const& state, double) {
     double const step = state.q - q_;
     q_ = state.q;
     double distance = longest_;
     for (auto& z : z_) {
-      z = std::clamp(z + step / distance, lowest_, highest_);
+      z = std::clamp(z + step / distance, sign_.backward, sign_.forward);
       distance /= 4.0;
     }
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    double const full = scales_.friction_sign(state.dq);
+  std::array<double, 4> row(JointState const& state) const {
+    double const full = sign_(state.dq);
+    std::array<double, 4> out{};
     for (std::size_t i = 0; i < z_.size(); ++i) out[i] = z_[i] - full;
+    return out;
   }
 
  private:
   double longest_;
-  JointScales scales_;
-  double lowest_, highest_;
+  FrictionSign sign_;
   double q_ = 0.0;
   std::array<double, 4> z_{};
 };
@@ -70,8 +70,9 @@ class MaxwellSlip final : public MemoryEffect {
                       .is_dry_friction = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<SlipElements>(shape[0], scales);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
+    return memory_of(SlipElements(shape[0], scales), lanes);
   }
 };
 

@@ -10,6 +10,7 @@
 // Confused   maxwell_slip, backlash, joint_elasticity, the filter's own artefact
 // Source     Dahl 1968; Canudas de Wit, Olsson, Astrom, Lischinsky 1995 (LuGre)
 
+#include <array>
 #include <cmath>
 
 #include "engine/effects/memory_effect.hpp"
@@ -17,32 +18,31 @@
 namespace torquescope::effects {
 namespace {
 
-class DahlBristle final : public EffectMemory {
+class DahlBristle {
  public:
-  DahlBristle(double distance, JointScales const& scales) : distance_(distance), scales_(scales) {}
+  DahlBristle(double distance, JointScales const& scales) : distance_(distance), sign_(scales.friction_sign()) {}
 
-  void start(JointState const& state) override {
+  void start(JointState const& state) {
     q_ = state.q;
-    z_ = scales_.friction_sign(state.dq);
+    z_ = sign_(state.dq);
   }
 
-  void advance(JointState const& state, double) override {
+  void advance(JointState const& state, double) {
     double const step = state.q - q_;
     q_ = state.q;
-    double const full = scales_.friction_sign(step);
+    double const full = sign_(step);
     // the stiffness 1 / distance is the same both ways, so the weaker direction is full sooner
     if (step != 0.0) z_ = full == 0.0 ? 0.0 : full + (z_ - full) * std::exp(-step / (distance_ * full));
   }
 
-  void row(JointState const& state, std::span<double> out) const override {
-    double const full = scales_.friction_sign(state.dq);
-    out[0] = z_ - full;
-    out[1] = full == 0.0 ? 0.0 : state.dq * (1.0 - z_ / full);
+  std::array<double, 2> row(JointState const& state) const {
+    double const full = sign_(state.dq);
+    return {z_ - full, full == 0.0 ? 0.0 : state.dq * (1.0 - z_ / full)};
   }
 
  private:
   double distance_;
-  JointScales scales_;
+  FrictionSign sign_;
   double q_ = 0.0, z_ = 0.0;
 };
 
@@ -66,8 +66,9 @@ class Presliding final : public MemoryEffect {
              .is_dry_friction = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales) const override {
-    return std::make_unique<DahlBristle>(shape[0], scales);
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
+                                       std::size_t lanes) const override {
+    return memory_of(DahlBristle(shape[0], scales), lanes);
   }
 };
 

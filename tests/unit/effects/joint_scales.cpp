@@ -112,13 +112,13 @@ TEST(Bounds, AreReadableWithoutTheData) {
 
 TEST(FrictionSign, KeepsTheAsymmetryOfTheBaseline) {
   JointScales scales;
-  EXPECT_EQ(scales.friction_sign(2.0), 1.0);
-  EXPECT_EQ(scales.friction_sign(-2.0), -1.0);
+  EXPECT_EQ(scales.friction_sign()(2.0), 1.0);
+  EXPECT_EQ(scales.friction_sign()(-2.0), -1.0);
   scales.coulomb_positive = 0.3;
   scales.coulomb_negative = 0.5;
-  EXPECT_DOUBLE_EQ(scales.coulomb() * scales.friction_sign(2.0), 0.3);
-  EXPECT_DOUBLE_EQ(scales.coulomb() * scales.friction_sign(-2.0), -0.5);
-  EXPECT_EQ(scales.friction_sign(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(scales.coulomb() * scales.friction_sign()(2.0), 0.3);
+  EXPECT_DOUBLE_EQ(scales.coulomb() * scales.friction_sign()(-2.0), -0.5);
+  EXPECT_EQ(scales.friction_sign()(0.0), 0.0);
 }
 
 TEST(FittedBaseline, TellsLevelsLoadAndWholeTorqueApart) {
