@@ -23,11 +23,26 @@ constexpr std::size_t n_refined = 5;
 
 EffectSearch::EffectSearch(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress)
     : setting_(setting), options_(&options), progress_(&progress) {
-  validate(begin(setting_), [&] {
+  validate(begin_somehow(), [&] {
     Problem problem{ExitCode::bad_data, setting_.recording.name + ": the fitted joint cannot follow the reference"};
     problem.help = "check recording.columns, units and torque_per_unit: the torque may be another signal";
     return problem;
   });
+}
+
+// What is missing may have taken nearly all of the inertia away, so that no loop holds the joint: then a heavier one is the start
+bool EffectSearch::begin_somehow() {
+  constexpr double heavier_share = 0.1;
+  try {
+    return begin(setting_);
+  } catch (Error const& unfit) {
+    setting_.least_inertia_share = heavier_share;
+    try {
+      return begin(setting_);
+    } catch (Error const&) {
+      throw unfit;
+    }
+  }
 }
 
 // forgets what was selected, unless twins cannot be made as the setting says

@@ -48,6 +48,7 @@ class EffectSearch {
 
  private:
   bool begin(StageSetting const& setting);
+  bool begin_somehow();
   void tell(char const* what, std::size_t done, std::size_t total) const;
   bool opens(CandidateColumns const& columns, std::vector<EffectScan> const& scans, std::vector<double> const& q);
   double largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,

@@ -10,6 +10,7 @@
 #include "engine/diagnose/abstention.hpp"
 #include "engine/diagnose/blocked_cv.hpp"
 #include "engine/diagnose/candidate_table.hpp"
+#include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/detection_power.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
 #include "engine/diagnose/friction_buildup.hpp"
@@ -92,6 +93,7 @@ class JointWork {
     if (!why)
       why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
         selection_ = select_effects(setting, input_.selection, progress_);
+        search_with_right_timing(setting, recording);
         return std::nullopt;
       });
     if (why) return hopeless(*why);
@@ -106,6 +108,18 @@ class JointWork {
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
+  }
+
+  // recording: the setting's
+  void search_with_right_timing(StageSetting const& setting, Recording& recording) {
+    constexpr int most_times = 2;  // the second for what other effects hid of it
+    for (int i = 0; i < most_times; ++i) {
+      auto const late_s = delay_within_a_sample(selection_, recording.rate_hz);
+      if (!late_s || std::abs(torque_late_s_ + *late_s) * recording.rate_hz >= 1.0) return;
+      torque_late_s_ += *late_s;
+      recording = with_torque_earlier(std::move(recording), *late_s);
+      selection_ = select_effects(setting, input_.selection, progress_);
+    }
   }
 
   // what the names leave; where that has no structure of its own, the reversals are looked at as well. What these say must
@@ -135,8 +149,10 @@ class JointWork {
                                   input_.filter_section);
     // columns that the motion cannot tell apart
     auto why = verdict_of(Verdict::insufficient, [&] {
-      joint_.train_relerr = relative_error(pipeline.process(recording));
-      return check_recording(facts, joint_.train_relerr);
+      ProcessedRecord const record = pipeline.process(recording);
+      joint_.train_relerr = relative_error(record);
+      auto const wrong_sign = check_sign(record);
+      return wrong_sign ? wrong_sign : check_recording(facts, joint_.train_relerr);
     });
     if (!why && recording.simulated_torque.size() > 0) {
       SimulatorGap gap = gap_to_simulator(recording, pipeline);
@@ -157,6 +173,10 @@ class JointWork {
     if (selection_.keeps_reversals) joint_.rows = "with reversals";
     joint_.loop_source = source_word(stage.twin->loop.source);
     joint_.loop_remark = stage.twin->loop.remark;
+    if (torque_late_s_ != 0.0) {
+      if (!joint_.loop_remark.empty()) joint_.loop_remark += "; ";
+      joint_.loop_remark += timing_remark(torque_late_s_, input_.train.rate_hz);
+    }
     joint_.torque_noise = stage.twin->loop.loop.torque_noise.std;
     joint_.disturbance = stage.twin->disturbance.std;
     joint_.friction_wander = stage.twin->friction_wander.std;
@@ -202,7 +222,9 @@ class JointWork {
     double torque = 0.0, promised_floor = 0.0;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : input_.validate) {
-      UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
+      UnseenResult result =
+          check_unseen(torque_late_s_ == 0.0 ? recording : with_torque_earlier(recording, torque_late_s_), setting,
+                       baseline(), final_stage());
       torque += result.energy;
       sum.before += result.before_energy;
       sum.after += result.after_energy;
@@ -314,7 +336,8 @@ class JointWork {
   Selection selection_;
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   double parameter_share_ = 0.0;
-  bool is_refuted_ = false;  // what was named, by unseen recordings
+  double torque_late_s_ = 0.0;  // taken out of all recordings (channel_timing.hpp)
+  bool is_refuted_ = false;     // what was named, by unseen recordings
   bool unseen_twins_ran_away_ = false;
 };
 

@@ -51,9 +51,11 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
 }  // namespace
 
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model) {
+  bool const is_plain = model.effects().empty();
   RecordPipeline pipeline(std::move(model), setting.filter, recording.rate_hz, recording.position.size(),
                           setting.filter_section);
   if (setting.keeps_reversals) pipeline.keep_reversals();
+  if (is_plain && setting.least_inertia_share > 0.0) pipeline.hold_inertia_below(setting.least_inertia_share);
   return pipeline;
 }
 

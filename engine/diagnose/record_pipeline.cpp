@@ -4,8 +4,8 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/diagnose/joint_fit.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
-#include "engine/problem/least_squares.hpp"
 
 namespace torquescope {
 namespace {
@@ -34,7 +34,8 @@ RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, d
       rate_hz_(rate_hz),
       n_samples_(n_samples),
       cutoff_hz_(parallel_cutoff_of(options)),
-      filter_(options, rate_hz, n_samples, filter) {}
+      filter_(options, rate_hz, n_samples, filter),
+      least_inertia_share_(least_inertia_share) {}
 
 ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   ProcessedRecord record = prepare(recording);
@@ -99,44 +100,7 @@ void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const
     record.columns = signals.leftCols(record.columns.cols());
     record.torque = signals.col(record.columns.cols());
   }
-  record.parameters = Eigen::VectorXd::Zero(record.columns.cols());
-  record.residual = record.torque;
-  std::vector<Eigen::Index> present = present_columns(record.columns);
-  std::vector<bool> const signs = model_.non_negative();
-  while (true) {
-    Eigen::VectorXd const solved = solved_with(record, present, name);
-    // a parameter that would be negative where it cannot be is 0; the most negative first, the others are asked again
-    std::ptrdiff_t worst = -1;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-      auto const at = static_cast<Eigen::Index>(i);
-      if (!signs[static_cast<std::size_t>(present[i])] || !(solved[at] < 0.0)) continue;
-      double const size = solved[at] * record.columns.col(present[i]).norm();
-      if (worst < 0 || size < solved[worst] * record.columns.col(present[static_cast<std::size_t>(worst)]).norm())
-        worst = at;
-    }
-    if (worst >= 0) {
-      present.erase(present.begin() + worst);
-      continue;
-    }
-    record.parameters(present) = solved;
-    break;
-  }
-  record.residual -= record.columns * record.parameters;
-}
-
-Eigen::VectorXd RecordPipeline::solved_with(ProcessedRecord& record, std::vector<Eigen::Index> const& present,
-                                            std::string const& name) const {
-  std::vector<RegressorColumn> const owners = model_.column_owners();
-  RegressionData data;
-  for (Eigen::Index k : present) data.columns.push_back(owners[static_cast<std::size_t>(k)]);
-  data.recording_names = {name};
-  bool const all_are = present.size() == owners.size();
-  data.phi = all_are ? std::move(record.columns) : Eigen::MatrixXd(record.columns(Eigen::all, present));
-  data.tau = std::move(record.torque);
-  Eigen::VectorXd solved = solve_weighted(data, {});
-  if (all_are) record.columns = std::move(data.phi);
-  record.torque = std::move(data.tau);
-  return solved;
+  fit_joint(record, model_, present_columns(record.columns), name, least_inertia_share_);
 }
 
 ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,

@@ -3,8 +3,8 @@
 //
 // Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, weights of the
 //            rows by their noise (noise_weights.hpp) where they were set, least squares
-// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column. Parameters of
-//            effects that cannot be negative are not: one that least squares would make so is 0
+// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column, but for
+//            parameters that are at a bound (joint_fit.hpp)
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
 // Memory     about 60 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
@@ -35,6 +35,7 @@ struct ProcessedRecord {
   // before whitening, in torque units throughout; empty where nothing was whitened
   Eigen::MatrixXd plain_columns{};
   Eigen::VectorXd plain_torque{};
+  std::string held{};  // "inertia" or "dry friction" where its fit is at a bound (joint_fit.hpp)
 
   double energy() const { return residual.squaredNorm(); }
   bool is_whitened() const { return plain_torque.size() > 0; }
@@ -61,6 +62,9 @@ class RecordPipeline {
 
   // from now on process() keeps exactly these rows, whatever its own mask would be
   void restrict_to(std::vector<Eigen::Index> kept_rows);
+
+  // from now on an inertia that takes less than this share of the torque is held (joint_fit.hpp)
+  void hold_inertia_below(double share) { least_inertia_share_ = share; }
 
   // from now on its own mask drops rests alone (reversal_mask.hpp)
   void keep_reversals() { keeps_reversals_ = true; }
@@ -94,9 +98,6 @@ class RecordPipeline {
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   bool is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
-  // least squares on these columns; the record is borrowed, and as it was afterwards
-  Eigen::VectorXd solved_with(ProcessedRecord& record, std::vector<Eigen::Index> const& present,
-                              std::string const& name) const;
 
   JointModel model_;
   FilterOptions options_;
@@ -106,6 +107,7 @@ class RecordPipeline {
   double cutoff_hz_;
   ParallelFilter filter_;
   bool keeps_reversals_ = false;
+  double least_inertia_share_;
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
   std::shared_ptr<NoiseWeights const> weights_{};
   WanderOnRows fixed_wander_{};  // on fixed_rows_

@@ -40,4 +40,12 @@ std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) 
   return std::nullopt;
 }
 
+std::optional<Hopeless> check_sign(ProcessedRecord const& record) {
+  double const work = record.motion.torque.dot(record.motion.dq);
+  if (record.held.empty() || work >= 0.0) return std::nullopt;
+  return Hopeless{Verdict::data_fault,
+                  "the torque takes work out of the joint, and the fitted " + record.held + " is less than none",
+                  "the torque column may have the wrong sign: check recording.columns and torque_per_unit"};
+}
+
 }  // namespace torquescope

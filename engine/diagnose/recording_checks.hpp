@@ -2,7 +2,8 @@
 // What makes a diagnosis of a recording hopeless before it begins: no search, no name, a way out.
 //
 // Insufficient   one direction, one speed, hardly more than the encoder's steps, too short
-// Data fault     the torque channel sits at its limit, or has nothing to do with the motion
+// Data fault     the torque channel sits at its limit, has nothing to do with the motion, or its sign is wrong: it takes work
+//                out of a joint that only has friction, and the fit asks for less inertia or friction than none
 // Units          as Excitation
 // Threads        free function
 // Source         PHYSICS.md section 2 step 1; UX.md section 3 (abstention)
@@ -12,6 +13,7 @@
 
 #include "engine/data/excitation.hpp"
 #include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/record_pipeline.hpp"
 
 namespace torquescope {
 
@@ -23,5 +25,8 @@ struct Hopeless {
 
 // relerr: of the baseline on the recording it was fitted to
 std::optional<Hopeless> check_recording(Excitation const& facts, double relerr);
+
+// record: of the baseline, with its motion
+std::optional<Hopeless> check_sign(ProcessedRecord const& record);
 
 }  // namespace torquescope
