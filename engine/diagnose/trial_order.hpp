@@ -1,8 +1,8 @@
 #pragma once
 // In which order candidates with a refined shape are tried for a name, and whether they help where they were not fitted.
 //
-// Order      most gain first. Something that acts all the time and explains half as much on blocks it was not fitted to comes
-//            before what happens once, for that fits any one peak and can be checked nowhere else. Among those that give 97 %
+// Order      most gain first. Something that acts all the time and explains, on blocks it was not fitted to, half as much and no less
+//            than what happens once does there comes before that, for it fits any one peak. Among those that give 97 %
 //            of the first one's gain, another wave of what is named already first, then fewer parameters
 // Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so that its
 //            spread says nothing

@@ -15,8 +15,9 @@ bool belongs_to_a_recording(Effect const& effect) {
 
 bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
-  double const enough = quarter * energies.before;
-  return energies.after >= energies.before && energies.before - energies.floor >= enough && energies.moved >= enough;
+  double const enough = quarter * energies.before, promised = energies.before - energies.floor;
+  bool const is_kept = energies.before - energies.after >= quarter * promised;
+  return !is_kept && promised >= enough && energies.moved >= enough;
 }
 
 bool must_carry_over(std::vector<AcceptedEffect> const& accepted) {

@@ -2,8 +2,8 @@
 // Names that unseen recordings speak against: a law that explains one recording and spoils the prediction of another is not
 // the joint's, however certain it was.
 //
-// Refuted    when the model with its names predicts unseen torque no better than the baseline, though its own twins of these
-//            recordings promise that a quarter of the residual's energy goes, and though the names change the prediction by as
+// Refuted    when the model with its names keeps less than a quarter of what its own twins of these recordings promise, though they
+//            promise that a quarter of the residual's energy goes, and though the names change the prediction by as
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
 //            spares a right law on a recording that has something else wrong with it
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording

@@ -42,6 +42,11 @@ TEST(TrialOrder, WhatRepeatsComesBeforeAnEventWhenItHoldsOnOtherBlocks) {
             (Names{"contact", "stribeck"}));
 }
 
+TEST(TrialOrder, AnEventThatHoldsBetterOnOtherBlocksNeedNotGiveWay) {
+  EXPECT_EQ(names(in_order_of_trial({trial("payload_change", 4.0, 3.5), trial("periodic_disturbance", 3.0, 2.9)})),
+            (Names{"payload_change", "periodic_disturbance"}));
+}
+
 TEST(TrialOrder, FewerParametersWinWhenTheyExplainNearlyAsMuch) {
   ASSERT_LT(find_effect("asymmetric_viscous")->parameters().size(), find_effect("stribeck")->parameters().size());
   EXPECT_EQ(names(in_order_of_trial({trial("stribeck", 1.0, 1.0), trial("asymmetric_viscous", 0.98, 0.98)})),

@@ -13,7 +13,8 @@ using torquescope::speak_against;
 
 TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
   EXPECT_TRUE(speak_against({.before = 4.0, .after = 5.0, .floor = 2.0, .moved = 3.0}));
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0})) << "it helps, if little";
+  EXPECT_TRUE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0})) << "a crumb of what its twins promise";
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.4, .floor = 2.0, .moved = 3.0})) << "it keeps more than a quarter";
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 5.0, .floor = 3.5, .moved = 3.0})) << "twins promise little";
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = 2.0, .moved = 0.5}))
       << "the rest is another matter";
