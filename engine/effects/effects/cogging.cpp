@@ -1,7 +1,8 @@
 // Cogging: the magnets' preferred angles, whatever the current.
 //
 // Equation   tau = A cos(N q) + B sin(N q)
-// Parameters cogging_cos A, cogging_sin B [N m; N], either sign; cogging_order N [1/rad; 1/m]: waves per turn
+// Parameters cogging_cos A, cogging_sin B [N m; N], either sign; cogging_order N [1/rad; 1/m]: waves per turn. Two and a half of them
+//            at least on the travel: fewer are any smooth law of the position
 // Signature  order: fixed in the angle, its frequency follows the speed, its size neither speed nor load
 // Confused   torque_ripple, transmission_error, encoder_eccentricity; periodic_disturbance at a single speed
 // Source     Islam, Mir, Sebastian 2004; usual size 1 to 5 % of rated torque (MuJoCo documentation)
@@ -22,7 +23,7 @@ class Cogging final : public InstantEffect {
              .separated_by = "constant speed at two or more speeds in both directions, with and without load",
              .parameters = {{"cogging_cos", "N m", "N", {-1.0, RelativeTo::torque}, {1.0, RelativeTo::torque}},
                             {"cogging_sin", "N m", "N", {-1.0, RelativeTo::torque}, {1.0, RelativeTo::torque}},
-                            shape_parameter("cogging_order", "1/rad", "1/m", {2.0, RelativeTo::lowest_order},
+                            shape_parameter("cogging_order", "1/rad", "1/m", {2.5, RelativeTo::lowest_order},
                                             {1.0, RelativeTo::highest_order}, Spacing::linear)},
              .families = {EffectFamily::order_locked},
              .signature = {SignatureAxis::order, SignatureAxis::position},
