@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/parallel.hpp"
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/store/segment_folder.hpp"
+#include "engine/store/written_result.hpp"
 
 namespace torquescope {
 
@@ -95,6 +97,7 @@ struct IdentifyReport {
   double seconds = 0.0;
   std::uintmax_t bytes = 0;
   std::string content_sha256;
+  std::optional<WrittenResult> result{};  // what it says
 };
 
 // runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed.
