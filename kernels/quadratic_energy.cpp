@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 #include "kernels/dispatch-inl.hpp"
 #include "kernels/lane_sum.hpp"
@@ -35,35 +36,73 @@ struct DoubledSum {
   HWY_INLINE void add_correction(V a, V b) { error = fused_mul_add(a, b, error); }
 };
 
-// members side by side in lanes; high: [r][n_lanes] the members, then members - centre; low: what that lost when it was
-// rounded (Knuth's TwoSum); energy: n_lanes
-void lanes_energy(QuadraticForm const& form, double* HWY_RESTRICT high, double* HWY_RESTRICT low,
-                  double* HWY_RESTRICT energy) {
-  hn::CappedTag<double, n_lanes> const d;
-  for (std::size_t lane = 0; lane < n_lanes; lane += hn::MaxLanes(d)) {
-    for (std::size_t r = 0; r < form.n_regressors; ++r) {
-      auto const member = hn::LoadU(d, high + r * n_lanes + lane), centre = hn::Set(d, form.centre[r]);
-      auto const step = hn::Sub(member, centre), back = hn::Sub(step, member);
-      hn::StoreU(step, d, high + r * n_lanes + lane);
-      hn::StoreU(hn::Sub(hn::Sub(member, hn::Sub(step, back)), hn::Add(centre, back)), d, low + r * n_lanes + lane);
+// Vectors of members that go side by side: one alone waits for its own sums.
+inline constexpr std::size_t vectors = 2;
+
+// energies of as many members as the vectors have lanes: those from candidates on whose places are in `place`
+template <class Reals, class Place>
+HWY_INLINE void lanes_energy(QuadraticForm const& form, double const* HWY_RESTRICT candidates, Place const* place,
+                             double* HWY_RESTRICT high, double* HWY_RESTRICT low, double* HWY_RESTRICT energy) {
+  using V = hn::Vec<Reals>;
+  constexpr Reals d;
+  constexpr std::size_t lanes = hn::MaxLanes(d), width = vectors * lanes;
+  // high: [r][width] members - centre; low: what that lost when it was rounded (Knuth's TwoSum)
+  for (std::size_t r = 0; r < form.n_regressors; ++r) {
+    for (std::size_t v = 0; v < vectors; ++v) {
+      V const member = hn::GatherIndex(d, candidates + r, place[v]), centre = hn::Set(d, form.centre[r]);
+      V const step = hn::Sub(member, centre), back = hn::Sub(step, member);
+      hn::StoreU(step, d, high + r * width + v * lanes);
+      hn::StoreU(hn::Sub(hn::Sub(member, hn::Sub(step, back)), hn::Add(centre, back)), d, low + r * width + v * lanes);
     }
-    auto squares = hn::Zero(d), slope = hn::Zero(d);
-    for (std::size_t i = 0; i < form.n_regressors; ++i) {
-      DoubledSum<hn::Vec<decltype(d)>> row{hn::Zero(d), hn::Zero(d)};
-      for (std::size_t j = i; j < form.n_regressors; ++j) {
-        auto const root = hn::Set(d, form.root[i * form.n_regressors + j]);
-        auto const step = hn::LoadU(d, high + j * n_lanes + lane);
-        row.add_product(root, step);
-        row.add_correction(root, hn::LoadU(d, low + j * n_lanes + lane));
-        row.add_correction(hn::Set(d, form.root_low[i * form.n_regressors + j]), step);
+  }
+  V squares[vectors] = {hn::Zero(d), hn::Zero(d)}, slope[vectors] = {hn::Zero(d), hn::Zero(d)};
+  for (std::size_t i = 0; i < form.n_regressors; ++i) {
+    DoubledSum<V> row[vectors] = {{hn::Zero(d), hn::Zero(d)}, {hn::Zero(d), hn::Zero(d)}};
+    for (std::size_t j = i; j < form.n_regressors; ++j) {
+      V const root = hn::Set(d, form.root[i * form.n_regressors + j]);
+      V const root_low = hn::Set(d, form.root_low[i * form.n_regressors + j]);
+      for (std::size_t v = 0; v < vectors; ++v) {
+        V const step = hn::LoadU(d, high + j * width + v * lanes);
+        row[v].add_product(root, step);
+        row[v].add_correction(root, hn::LoadU(d, low + j * width + v * lanes));
+        row[v].add_correction(root_low, step);
       }
-      auto const sum = hn::Add(row.sum, row.error);
-      squares = fused_mul_add(sum, sum, squares);
     }
+    for (std::size_t v = 0; v < vectors; ++v) {
+      V const sum = hn::Add(row[v].sum, row[v].error);
+      squares[v] = fused_mul_add(sum, sum, squares[v]);
+    }
+  }
+  for (std::size_t v = 0; v < vectors; ++v) {
     for (std::size_t j = 0; j < form.n_regressors; ++j)
-      slope = fused_mul_add(hn::Set(d, form.slope[j]), hn::LoadU(d, high + j * n_lanes + lane), slope);
-    auto const above = fused_neg_mul_add(hn::Set(d, 2.0), slope, squares);
-    hn::StoreU(hn::Add(hn::Set(d, form.constant), above), d, energy + lane);
+      slope[v] = fused_mul_add(hn::Set(d, form.slope[j]), hn::LoadU(d, high + j * width + v * lanes), slope[v]);
+    V const above = fused_neg_mul_add(hn::Set(d, 2.0), slope[v], squares[v]);
+    hn::StoreU(hn::Add(hn::Set(d, form.constant), above), d, energy + v * lanes);
+  }
+}
+
+void all_energies(QuadraticForm const& form, Candidates const& candidates, double* HWY_RESTRICT energy,
+                  double* HWY_RESTRICT workspace) {
+  using Reals = hn::CappedTag<double, n_lanes>;
+  using Indices = hn::RebindToSigned<Reals>;
+  constexpr Indices indices;
+  constexpr std::size_t lanes = hn::MaxLanes(indices), width = vectors * lanes;
+  double* const high = workspace;
+  double* const low = high + form.n_regressors * width;
+  // made once: Highway 1.0.3 builds it through memory
+  auto const lane = hn::Iota(indices, 0);
+  auto const last = hn::Set(indices, static_cast<std::int64_t>(candidates.n_members) - 1);
+  auto const stride = hn::Set(indices, static_cast<std::int64_t>(candidates.leading_dimension));
+  double energies[width];
+  for (std::size_t first = 0; first < candidates.n_members; first += width) {
+    hn::Vec<Indices> place[vectors];
+    for (std::size_t v = 0; v < vectors; ++v) {
+      auto const begin = hn::Set(indices, static_cast<std::int64_t>(first + v * lanes));
+      // lanes without a member repeat the last one
+      place[v] = hn::Mul(hn::Min(hn::Add(begin, lane), last), stride);
+    }
+    lanes_energy<Reals>(form, candidates.data, place, high, low, energies);
+    std::copy_n(energies, std::min(width, candidates.n_members - first), energy + first);
   }
 }
 
@@ -74,28 +113,18 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 
-TORQUESCOPE_EXPORT(lanes_energy);
+TORQUESCOPE_EXPORT(all_energies);
+
+// of the widest vectors
+constexpr std::size_t most_side_by_side = 2 * n_lanes;
 
 }  // namespace
 
-std::size_t quadratic_workspace_size(std::size_t n_regressors) { return (2 * n_regressors + 1) * n_lanes; }
+std::size_t quadratic_workspace_size(std::size_t n_regressors) { return 2 * n_regressors * most_side_by_side; }
 
 void quadratic_energy(QuadraticForm const& form, Candidates const& candidates, double* energy, double* workspace) {
   assert(candidates.n_members == 0 || candidates.leading_dimension >= form.n_regressors);
-  auto const evaluate = TORQUESCOPE_DISPATCH(lanes_energy);
-  double* const high = workspace;
-  double* const low = high + form.n_regressors * n_lanes;
-  double* const lanes = low + form.n_regressors * n_lanes;
-  for (std::size_t first = 0; first < candidates.n_members; first += n_lanes) {
-    std::size_t const count = std::min(n_lanes, candidates.n_members - first);
-    for (std::size_t lane = 0; lane < n_lanes; ++lane) {
-      // lanes without a member repeat the last one
-      double const* const member = candidates.data + (first + std::min(lane, count - 1)) * candidates.leading_dimension;
-      for (std::size_t r = 0; r < form.n_regressors; ++r) high[r * n_lanes + lane] = member[r];
-    }
-    evaluate(form, high, low, lanes);
-    std::copy_n(lanes, count, energy + first);
-  }
+  TORQUESCOPE_DISPATCH(all_energies)(form, candidates, energy, workspace);
 }
 
 }  // namespace torquescope::kernels

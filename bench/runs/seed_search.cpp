@@ -158,8 +158,9 @@ int run(Request const& request) {
         std::vector<Workspace> workspaces;
         return optimise(std::move(starts), setting, team, workspaces);
       },
-      [&](std::size_t index, RunHistory const& history) {
-        mse.push_back(history.best.back());
+      [&](std::size_t index, RunHistory&& found) {
+        auto const history = std::make_shared<RunHistory const>(std::move(found));
+        mse.push_back(history->best.back());
         if (writer) timed([&] { write_history(*writer, "de", index, history); });
       });
   if (writer) timed([&] { writer->finish(); });

@@ -156,6 +156,13 @@ bool has_lanes() {
 
 }  // namespace
 
+std::size_t texts_side_by_side() {
+#if defined(__x86_64__)
+  if (has_lanes()) return n_lanes;
+#endif
+  return 2;
+}
+
 void sha256_of_each(std::span<std::byte const* const> texts, std::size_t bytes, Sha256* digests) {
 #if defined(__x86_64__)
   while (texts.size() >= worth_lanes && has_lanes()) {

@@ -11,6 +11,9 @@
 
 namespace torquescope {
 
+// how many texts together cost least, each
+std::size_t texts_side_by_side();
+
 // texts: where each begins; digests: as many
 void sha256_of_each(std::span<std::byte const* const> texts, std::size_t bytes, Sha256* digests);
 

@@ -32,6 +32,26 @@ std::string with_digits(double value, int digits) {
   return fmt::format("{:.{}f}", value, decimals_for(value, digits));
 }
 
+// of the last digit that is shown
+double step_of(double value, int digits) {
+  return value == 0.0 ? 0.0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+}
+
+// digits that make the rounding of either end small beside the interval between them
+int digits_between(double from, double to) {
+  constexpr double small = 0.3;
+  constexpr int fewest = 2, most = 6;
+  int digits = fewest;
+  while (digits < most && std::max(step_of(from, digits), step_of(to, digits)) > small * std::abs(to - from)) ++digits;
+  return digits;
+}
+
+std::string quantity_with_digits(double value, std::string const& unit, int digits) {
+  bool const takes_milli = unit == "s" || unit == "rad" || unit == "m";
+  if (takes_milli && value != 0.0 && std::abs(value) < 0.00995) return with_digits(1e3 * value, digits) + " m" + unit;
+  return unit.empty() || unit == "1" ? with_digits(value, digits) : with_digits(value, digits) + " " + unit;
+}
+
 // the next number of one digit that is not smaller: 0.004975 -> "0.005"
 std::string rounded_up(double p) {
   double const step = std::pow(10.0, std::floor(std::log10(p)));
@@ -43,10 +63,15 @@ std::string rounded_up(double p) {
 
 std::string two_digits(double value) { return with_digits(value, 2); }
 
-std::string quantity_text(double value, std::string const& unit) {
-  bool const takes_milli = unit == "s" || unit == "rad" || unit == "m";
-  if (takes_milli && value != 0.0 && std::abs(value) < 0.00995) return two_digits(1e3 * value) + " m" + unit;
-  return unit.empty() || unit == "1" ? two_digits(value) : two_digits(value) + " " + unit;
+std::string quantity_text(double value, std::string const& unit) { return quantity_with_digits(value, unit, 2); }
+
+std::string between_text(double from, double to, std::string const& unit) {
+  int const digits = digits_between(from, to);
+  std::string const first = quantity_with_digits(from, unit, digits), last = quantity_with_digits(to, unit, digits);
+  for (std::string const& shared : {" m" + unit, " " + unit})
+    if (shared.size() > 1 && first.ends_with(shared) && last.ends_with(shared))
+      return fmt::format("between {} and {}", first.substr(0, first.size() - shared.size()), last);
+  return fmt::format("between {} and {}", first, last);
 }
 
 std::string percent_text(double share) {

@@ -23,14 +23,21 @@ PhiloxBlock philox4x32(PhiloxBlock counter, std::array<std::uint32_t, 2> key) {
   return counter;
 }
 
-std::uint64_t RandomStream::computed_bits() {
+void RandomStream::compute_block() {
+  counter_[0] = static_cast<std::uint32_t>(next_word_ / 4);
+  block_ = philox4x32(counter_, key_);
+}
+
+std::uint64_t RandomStream::bits() {
   std::size_t const place = next_word_ % 4;
-  if (place == 0) {
-    counter_[0] = static_cast<std::uint32_t>(next_word_ / 4);
-    block_ = philox4x32(counter_, key_);
-  }
+  if (place == 0) compute_block();
   next_word_ += 2;
   return (std::uint64_t{block_[place + 1]} << 32) | block_[place];
+}
+
+void RandomStream::skip(std::size_t n_draws) {
+  next_word_ += 2 * n_draws;
+  if (next_word_ % 4 != 0) compute_block();
 }
 
 double RandomStream::normal() { return normal_quantile(probability(bits())); }

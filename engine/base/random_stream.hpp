@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "engine/base/contract.hpp"
 
@@ -34,14 +33,6 @@ class RandomStream {
  public:
   RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member)
       : key_(philox_key(key)), counter_(first_counter(key, generation, member)) {}
-  // the same stream; its first blocks, four words each, were computed before (kernels/philox.hpp) and must outlive it
-  RandomStream(RandomKey key, std::uint32_t generation, std::uint32_t member,
-               std::span<std::uint32_t const> first_blocks)
-      : RandomStream(key, generation, member) {
-    TORQUESCOPE_EXPECT(first_blocks.size() % 4 == 0);
-    first_blocks_ = first_blocks;
-  }
-
   // counter of its first block, and the key of all
   static PhiloxBlock first_counter(RandomKey key, std::uint32_t generation, std::uint32_t member) {
     TORQUESCOPE_EXPECT(key.run < (1u << 24));
@@ -52,12 +43,9 @@ class RandomStream {
   }
 
   // 64 random bits
-  std::uint64_t bits() {
-    if (next_word_ >= first_blocks_.size()) return computed_bits();
-    std::uint64_t const low = first_blocks_[next_word_], high = first_blocks_[next_word_ + 1];
-    next_word_ += 2;
-    return (high << 32) | low;
-  }
+  std::uint64_t bits();
+  // as if bits() had been called n_draws times
+  void skip(std::size_t n_draws);
   // [0, 1), 53 bits; signed because x86 converts signed numbers in one instruction
   double uniform() { return static_cast<double>(static_cast<std::int64_t>(bits() >> 11)) * 0x1.0p-53; }
   // low + uniform() * (high - low)
@@ -75,14 +63,12 @@ class RandomStream {
   }
 
  private:
-  // behind the blocks that were computed before
-  std::uint64_t computed_bits();
+  void compute_block();
 
   std::array<std::uint32_t, 2> key_;
   PhiloxBlock counter_;
-  std::span<std::uint32_t const> first_blocks_{};
   std::size_t next_word_ = 0;  // of the stream
-  PhiloxBlock block_{};        // holds it when it is neither among the first ones nor at the start of a block
+  PhiloxBlock block_{};        // holds it unless it is the first of a block
 };
 
 }  // namespace torquescope

@@ -109,13 +109,14 @@ std::vector<DataWarning> warnings_of(RowFacts const& facts, double rate_hz) {
   auto const counted = [](Eigen::Index count, char const* what) {
     return count > 0 ? fmt::format(", {} {}", count, what) : std::string();
   };
+  constexpr double told = 0.0005;  // of a step; below it is how the stamps were printed
+  std::string const unevenness =
+      facts.jitter > told ? fmt::format("uneven by {:.2g} % of a step", 100 * facts.jitter) : std::string("with gaps");
   if (facts.resampled > 0 || facts.repeated > 0)
-    warnings.push_back(
-        {"jitter",
-         fmt::format("{} samples resampled at {:g} Hz: the time steps jitter by {:.2g} % of a step{}{}",
-                     facts.resampled, rate_hz, 100 * facts.jitter,
-                     counted(facts.repeated, facts.repeated == 1 ? "repeated time stamp" : "repeated time stamps"),
-                     counted(facts.missing, "missing"))});
+    warnings.push_back({"jitter", fmt::format("time stamps {}, put on an even grid of {:g} Hz{}{}", unevenness, rate_hz,
+                                              counted(facts.repeated, facts.repeated == 1 ? "repeated time stamp"
+                                                                                          : "repeated time stamps"),
+                                              counted(facts.missing, "missing"))});
   if (facts.torque_limit_share >= worth_a_warning)
     warnings.push_back(
         {"saturation", fmt::format("torque sits at its limit {:.2g} % of the time", 100 * facts.torque_limit_share)});

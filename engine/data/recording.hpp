@@ -14,16 +14,16 @@ namespace torquescope {
 // something a person should know about the data, which does not stop a run
 struct DataWarning {
   std::string topic;  // "jitter", "saturation", "delay", "excitation", "separable"
-  std::string text;   // "3 samples resampled: ..."
+  std::string text;   // "time stamps uneven by 3 % of a step, ..."
 };
 
 // what only the rows of the file show, before they were resampled; zeros for a simulated recording
 struct RowFacts {
-  double jitter = 0.0;            // rms deviation of the time steps from their median, share of a step
-  Eigen::Index resampled = 0;     // samples that do not stand where a row stood
-  Eigen::Index repeated = 0;      // rows dropped because their time stamp repeats
-  Eigen::Index missing = 0;       // rows the clock says are missing
-  double encoder_step = 0.0;      // smallest step of the position (rad or m); 0: not quantised, or too finely to see
+  double jitter = 0.0;              // rms deviation of the time steps from their median, share of a step
+  Eigen::Index resampled = 0;       // samples that do not stand where a row stood
+  Eigen::Index repeated = 0;        // rows dropped because their time stamp repeats
+  Eigen::Index missing = 0;         // rows the clock says are missing
+  double encoder_step = 0.0;        // smallest step of the position (rad or m); 0: not quantised, or too finely to see
   double torque_limit_share = 0.0;  // share of time the torque sits exactly at its largest or smallest value
 };
 
@@ -33,11 +33,11 @@ struct Recording {
   double rate_hz = 0.0;
   Eigen::VectorXd time_s;
   Eigen::VectorXd position;
-  Eigen::VectorXd torque;                // motor torque or force: column times torque_per_unit
-  Eigen::VectorXd reference{};           // commanded position, optional
-  Eigen::VectorXd velocity{};            // optional: used instead of differentiating the position
-  Eigen::VectorXd acceleration{};        // optional, only together with velocity
-  Eigen::VectorXd simulated_torque{};    // optional: the user's own simulator on the same motion
+  Eigen::VectorXd torque;              // motor torque or force: column times torque_per_unit
+  Eigen::VectorXd reference{};         // commanded position, optional
+  Eigen::VectorXd velocity{};          // optional: used instead of differentiating the position
+  Eigen::VectorXd acceleration{};      // optional, only together with velocity
+  Eigen::VectorXd simulated_torque{};  // optional: the user's own simulator on the same motion
   std::vector<DataWarning> warnings{};
   RowFacts rows{};
 };

@@ -2,6 +2,8 @@
 // The candidates as the diagnosis lists them: the step at which nothing was named yet, and what became of each.
 //
 // Order      by what they explain of the mismatch; without a mismatch by how far they are beyond chance
+// Reason     of every one but what is named: what the search said of it last (Selection::rejected), else what is known of it from the
+//            first step
 // Threads    free functions
 
 #include <string>
@@ -12,7 +14,12 @@
 
 namespace torquescope {
 
-std::vector<Candidate> candidate_table(Selection const& selection);
+// q: level above which one is within chance
+std::vector<Candidate> candidate_table(Selection const& selection, double q);
+
+// A round of the search after the first: why those that were beyond chance at first are not looked at again
+void note_not_tried(Selection& selection, std::vector<EffectScan> const& scans, std::vector<double> const& q,
+                    double level, bool is_open);
 
 // those that some named effect could be as well
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects);

@@ -76,10 +76,10 @@ struct Candidate {
   std::string family;
   double z = 0.0, p = 1.0, q = 1.0;
   double gain = 0.0;          // share of the mismatch (residual beyond the twins) it explains, at its best shape
-  double cv_gain = unknown;   // the same on blocks it was not fitted to
+  double cv_gain = unknown;   // the same predicted on blocks it was not fitted to; may be above 1 and below 0
   double chance_z = unknown;  // the largest z that 95 % of the twins stay below
   Decision decision = Decision::rejected;
-  std::string reason{};  // one clause: why this decision
+  std::string reason{};  // one clause: why this decision; "" for what is named
 };
 
 struct EffectGain {
@@ -174,8 +174,9 @@ struct JointDiagnosis {
   std::size_t twins = 0;
   double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, before anything was named
   double mismatch_rms = 0.0;                // torque beyond the twins
-  double left_rms = 0.0;                    // the same with everything named in the model
-  std::vector<double> twin_energy{};        // residual energy of each twin over that of the recording
+  double mismatch_share = unknown;    // the same over the torque's rms, rows weighed; told in the reason, not stored
+  double left_rms = 0.0;              // the same with everything named in the model
+  std::vector<double> twin_energy{};  // residual energy of each twin over that of the recording
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
@@ -77,6 +78,7 @@ Round EffectSearch::next_round() {
   auto const scans = scan_candidates(columns, options_->candidates, setting_.threads);
   std::vector<double> const q = q_of(scans);
   bool const is_open = opens(columns, scans, q);
+  note_not_tried(selection_, scans, q, options_->q, is_open);
   std::vector<Trial> trials = is_open ? refined_trials(columns, scans, q) : std::vector<Trial>{};
   tell("search", n_candidates, n_candidates);
   Round round;
@@ -89,6 +91,8 @@ Round EffectSearch::next_round() {
       // asked of the line before the round: this one has another stage now
       if (is_near && effect->family() != EffectFamily::time && !round.before->refusal(columns, trial))
         round.nearly_taken.push_back(trial);
+      note_refusal(effect, (trial.refined.gain < taken_gain ? "explains less than " : "is less simple than ") +
+                               selection_.accepted.back().effect->name());
       continue;
     }
     if (auto reason = refusal(columns, trial)) {

@@ -7,13 +7,16 @@ namespace torquescope {
 namespace {
 
 constexpr double what_a_form_may_cost = 0.1;
-constexpr double most_share = 0.5;
-constexpr Eigen::Index n_free_knots = 12;
+constexpr double most_beside_it = 0.5;
+constexpr Eigen::Index n_knots_of_form = 12;
 
 // at the full rate
 Eigen::MatrixXd forms_of(Effect const& effect, ModelStage const& stage) {
   MotionAxes const axes = motion_axes(stage.model(), stage.comparison.rows.motion, stage.parameters());
-  Eigen::MatrixXd const any = hats(values_on(effect.signature().front(), axes), n_free_knots);
+  SignatureAxis const axis = effect.signature().front();
+  Eigen::VectorXd const at = values_on(axis, axes);
+  // of the speed: a function of the velocity would be of either parity
+  Eigen::MatrixXd const any = hats(axis == SignatureAxis::velocity ? at.cwiseAbs() : at, n_knots_of_form);
   Eigen::MatrixXd along_motion = any;
   along_motion.array().colwise() *= axes.dq.array().sign();
   if (effect.parity() == Parity::even) return any;
@@ -37,7 +40,7 @@ bool is_form_of(Effect const& named, double named_gain, RefinedEffect const& can
   Eigen::VectorXd const mismatch = stage.mismatch();
   CandidateColumns beside = columns;
   beside.add_nuisance(forms_of(named, stage));
-  return gain_of(candidate, beside, mismatch) < most_share * gain_of(candidate, columns, mismatch);
+  return gain_of(candidate, beside, mismatch) < most_beside_it * gain_of(candidate, columns, mismatch);
 }
 
 }  // namespace torquescope

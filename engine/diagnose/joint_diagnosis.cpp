@@ -12,8 +12,9 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/detection_power.hpp"
+#include "engine/diagnose/error_words.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
-#include "engine/diagnose/friction_buildup.hpp"
+#include "engine/diagnose/joint_search.hpp"
 #include "engine/diagnose/mismatch_map.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/parameter_intervals.hpp"
@@ -98,15 +99,15 @@ class JointWork {
     auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
     if (!why)
       why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
-        selection_ = select_effects(setting, input_.selection, progress_);
-        search_with_right_timing(setting, recording);
+        selection_ = search_in_time(setting, recording, input_.selection, progress_, torque_late_s_);
         return std::nullopt;
       });
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
-    Remainder const remainder = judge_with_reversals(setting);
+    Remainder const remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
+    tell("verify", 0, selection_.accepted.size());  // which may have made twins
     describe_baseline();
-    joint_.candidates = candidate_table(selection_);
+    joint_.candidates = candidate_table(selection_, input_.selection.q);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
@@ -114,38 +115,6 @@ class JointWork {
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
-  }
-
-  // recording: the setting's
-  void search_with_right_timing(StageSetting const& setting, Recording& recording) {
-    constexpr int most_times = 2;  // the second for what other effects hid of it
-    for (int i = 0; i < most_times; ++i) {
-      auto const late_s = delay_within_a_sample(selection_, recording.rate_hz);
-      if (!late_s || std::abs(torque_late_s_ + *late_s) * recording.rate_hz >= 1.0) return;
-      torque_late_s_ += *late_s;
-      recording = with_torque_earlier(std::move(recording), *late_s);
-      selection_ = select_effects(setting, input_.selection, progress_);
-    }
-  }
-
-  // what the names leave; where that has no structure of its own, the reversals are looked at as well. What these say must
-  // not cost the names that hold without them
-  Remainder judge_with_reversals(StageSetting& setting) {
-    Remainder remainder = judge_remainder(selection_, final_stage());
-    bool const has_structure = remainder.is_unexplained && !remainder.is_most_left;
-    if (has_structure && !selection_.accepted.empty()) return remainder;
-    // how a joint is driven through a reversal nobody knows who does not know its controller
-    if (selection_.baseline->twin->colour) return remainder;
-    Selection const before = selection_;
-    look_at_reversals(setting, input_.selection, selection_, progress_);
-    if (!selection_.keeps_reversals) return remainder;
-    Remainder const with_reversals = judge_remainder(selection_, final_stage());
-    if (with_reversals.is_unexplained && !remainder.is_unexplained) {
-      selection_ = before;
-      return remainder;
-    }
-    setting.keeps_reversals = true;
-    return with_reversals;
   }
 
   // the recording by itself; may replace its torque by what the user's simulator cannot say
@@ -193,6 +162,7 @@ class JointWork {
     joint_.omnibus_z = stage.energy.z;
     joint_.omnibus_p = stage.energy.p;
     joint_.mismatch_rms = stage.energy.excess_rms();
+    joint_.mismatch_share = mismatch_share(stage);
     joint_.left_rms = final_stage().energy.excess_rms();
     for (Eigen::Index t = 0; t < rows.n_twins(); ++t)
       joint_.twin_energy.push_back(rows.twins.col(t).squaredNorm() / stage.energy.residual);
@@ -315,7 +285,7 @@ class JointWork {
     bool const is_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(),
                                       [](NamedEffect const& one) { return one.acts_on != word(ActsOn::joint); });
     diagnosis_.verdict = is_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
-    if (is_fault) diagnosis_.way_out = "correct the channel, or record again; the model itself needs nothing more";
+    if (is_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
     joint_.excitation = advice_for(joint_.effects);
   }
 

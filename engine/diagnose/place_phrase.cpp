@@ -39,13 +39,7 @@ struct Place {
   }
   std::string from() const { return quantity_text(interval.from, interval.unit); }
   std::string to() const { return quantity_text(interval.to, interval.unit); }
-  std::string between() const {
-    std::string const first = from(), last = to();
-    std::string const unit = " " + interval.unit;
-    // "between 0.4 and 0.9 rad": the unit once where both have it
-    bool const same = first.ends_with(unit) && last.ends_with(unit);
-    return fmt::format("between {} and {}", same ? first.substr(0, first.size() - unit.size()) : first, last);
-  }
+  std::string between() const { return between_text(interval.from, interval.to, interval.unit); }
 };
 
 std::string velocity_phrase(Place const& place) {
@@ -98,15 +92,16 @@ std::string spectrum_phrase(Place const& place) {
   double const middle = 0.5 * (from + to);
   bool const narrow = to - from <= 0.3 * middle;
   std::string const& unit = place.interval.unit;
+  if (place.at_start && place.at_end)
+    return unit == "1/m" ? "at all wavelengths" : unit == "1/rad" ? "at all orders of the angle" : "at all frequencies";
   if (unit == "1/m") {
     // k waves per 2 pi metres mean nothing to anybody: a wavelength does
     if (narrow) return fmt::format("with a wavelength around {}", quantity_text(2.0 * pi / middle, "m"));
-    return fmt::format("with wavelengths between {} and {}", quantity_text(2.0 * pi / to, "m"),
-                       quantity_text(2.0 * pi / std::max(from, 1e-9), "m"));
+    return "with wavelengths " + between_text(2.0 * pi / to, 2.0 * pi / std::max(from, 1e-9), "m");
   }
   std::string const words = unit == "1/rad" ? "waves per turn" : unit;
   if (narrow) return fmt::format("around {} {}", two_digits(middle), words);
-  return fmt::format("between {} and {} {}", two_digits(from), two_digits(to), words);
+  return between_text(from, to, words);
 }
 
 }  // namespace
@@ -134,6 +129,10 @@ std::string place_phrase(JointDiagnosis const& joint, std::vector<AxisInterval> 
   auto const& [axis, from, to, unit] = intervals.front();
   Extent const extent = extent_of(joint, axis);
   Place const low(intervals.front(), extent), high(intervals.back(), extent);
+  // both reach the same end, or one another: as good as one
+  if ((low.at_start && high.at_start) || (low.at_end && high.at_end) || intervals.back().from <= to)
+    return place_phrase(
+        joint, AxisInterval{axis, std::min(from, intervals.back().from), std::max(to, intervals.back().to), unit});
   if (axis == "velocity") {
     if (std::string mirrored = both_directions(low, high); !mirrored.empty()) return mirrored;
     return fmt::format("at velocities {} and {}", side_phrase(low), side_phrase(high));

@@ -8,7 +8,7 @@ namespace torquescope {
 namespace {
 
 constexpr std::size_t most_lines = 2;
-constexpr double enough_left = 0.5;
+constexpr double clearly_less = 0.5;
 constexpr double clear_deviance = 25.0;  // five standard deviations of one parameter
 
 // a round's other choice, and the line before that round
@@ -35,7 +35,7 @@ double noise_of_row(ModelStage const& stage) {
 bool is_better(EffectSearch const& line, EffectSearch const& than) {
   if (line.selection().accepted.size() > than.selection().accepted.size()) return false;
   double const gap = (than.left_share() - line.left_share()) * than.selection().whole();
-  return line.left_share() < enough_left * than.left_share() && gap > clear_deviance * noise_of_row(than.stage());
+  return line.left_share() < clearly_less * than.left_share() && gap > clear_deviance * noise_of_row(than.stage());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
+#include "engine/diagnose/error_words.hpp"
 #include "engine/effects/effect.hpp"
 
 namespace torquescope {
@@ -17,7 +18,15 @@ std::string spaced(std::string name) {
   return name;
 }
 
+// a file is called as it is called: "train.csv: ..."
+bool begins_with_a_file(std::string const& text) {
+  std::string const first = text.substr(0, text.find(' '));
+  std::size_t const at = first.find_first_of("./\\");
+  return at != std::string::npos && at + 1 < first.size();
+}
+
 std::string capital(std::string text) {
+  if (begins_with_a_file(text)) return text;
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
@@ -92,13 +101,14 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
   if (effect.acts_on == word(ActsOn::recorded_torque)) {
     // a channel that is wrong by a time is wrong everywhere
     if (!linear.empty() && linear[0].unit == "s")
-      return fmt::format("the torque of joint {} comes {} {} the motion", joint.joint,
+      return fmt::format("the torque of joint {} comes {} {} the motion, a fault of the recording", joint.joint,
                          quantity_text(std::abs(linear[0].value), "s"), linear[0].value >= 0.0 ? "after" : "before");
-    return fmt::format("the torque channel of joint {} is off by {}{}", joint.joint, amount(joint, effect), at);
+    return fmt::format("the torque channel of joint {} is off by {}{}, a fault of the recording", joint.joint,
+                       amount(joint, effect), at);
   }
   if (effect.acts_on == word(ActsOn::recorded_position))
-    return fmt::format("the position of joint {} is misread{}, as if {} were missing", joint.joint, at,
-                       amount(joint, effect));
+    return fmt::format("the position of joint {} is misread{}, as if {} were missing, a fault of the recording",
+                       joint.joint, at, amount(joint, effect));
   return joint_clause(joint, effect) + at;
 }
 
@@ -120,18 +130,6 @@ std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, 
 
 std::string effect_clauses(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
   return sentence(finding_clause(joint, effect) + ": " + name_clause(joint, effect, one_of_class));
-}
-
-// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded
-std::string gain_sentence(JointDiagnosis const& joint) {
-  bool const unseen = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
-  double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
-  double const after = unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
-  if (!std::isfinite(before) || !std::isfinite(after)) return "";
-  std::string text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated", percent_text(before),
-                                 percent_text(after));
-  if (std::isfinite(joint.floor_relerr)) text += ", floor " + percent_text(joint.floor_relerr);
-  return text + ".";
 }
 
 constexpr std::size_t effects_told = 2;           // as sentences of their own
@@ -158,10 +156,7 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
 }
 
 std::string none_reason(JointDiagnosis const& joint) {
-  bool const tested = joint.twins > 0;
-  std::string text = tested ? fmt::format("The residual of joint {} looks like that of {} clean twins ({}).",
-                                          joint.joint, joint.twins, p_text(joint.omnibus_p, false, least_p(joint)))
-                            : fmt::format("Nothing is missing in the model of joint {}.", joint.joint);
+  std::string text = likeness_sentence(joint);
   append(text, joint.power_sentence);
   return text;
 }
@@ -209,6 +204,7 @@ std::string recording_reason(Diagnosis const& diagnosis) {
       if (advice.would_separate.size() > 1)
         append(text, sentence(joined(advice.would_separate, "and") + " cannot be told apart"));
   }
+  for (auto const& joint : diagnosis.joints) append(text, unseen_is_other_sentence(joint));
   append(text, sentence(diagnosis.way_out));
   return text;
 }
@@ -254,7 +250,10 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   if (diagnosis.verdict == Verdict::insufficient || diagnosis.verdict == Verdict::data_fault)
     return recording_reason(diagnosis);
   std::string text;
-  for (auto const& joint : diagnosis.joints) append(text, joint_reason(diagnosis.verdict, joint));
+  for (auto const& joint : diagnosis.joints) {
+    append(text, joint_reason(diagnosis.verdict, joint));
+    append(text, unseen_is_other_sentence(joint));
+  }
   return text;
 }
 

@@ -25,8 +25,8 @@ std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
 // because of what they leave: "backlash, the closest of 29 known effects, explains 37 % of what is missing". Share: 0 to 1
 std::string too_little_clause(JointDiagnosis const& joint, double share);
 
-// of the whole verdict: the effects' sentences and "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; what is left when
-// nothing is named; what to do when the recording cannot tell
+// of the whole verdict: the effects' sentences and what naming them brings (error_words.hpp); what is left when nothing is
+// named; what to do when the recording cannot tell; whether the unseen recording is of another kind
 std::string reason_sentence(Diagnosis const& diagnosis);
 
 // "below 0.12 rad/s in both directions", "around 12 waves per turn"; "" for an interval without axis

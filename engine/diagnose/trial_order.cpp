@@ -8,11 +8,11 @@ namespace {
 bool is_event(Trial const& trial) { return trial.refined.effect->is_event(); }
 
 void prefer_what_repeats(std::vector<Trial>& trials) {
-  constexpr double half = 0.5;
+  constexpr double share_enough = 0.5;
   for (auto event = trials.begin(); event != trials.end(); ++event) {
     if (!is_event(*event)) continue;
     // a load that was picked up and kept is on all later blocks: there it can be checked as anything else
-    double const enough = std::max(half * event->refined.gain, event->cv.gain);
+    double const enough = std::max(share_enough * event->refined.gain, event->cv.gain);
     std::stable_partition(event, trials.end(),
                           [&](Trial const& trial) { return !is_event(trial) && trial.cv.gain >= enough; });
   }

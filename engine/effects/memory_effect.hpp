@@ -6,6 +6,7 @@
 //   void advance(JointState const& state, double step_s)                                    step_s > 0
 //   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
 //
+// Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or time
 // Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
 //            them and not once for each: a twin takes 50 000 steps per second
 // Threads    an EffectMemory is used by one thread

@@ -1,7 +1,6 @@
 #include "engine/optim/generational_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -9,7 +8,6 @@
 
 #include "engine/optim/optimiser_state.hpp"
 #include "engine/optim/selection.hpp"
-#include "kernels/philox.hpp"
 
 namespace torquescope {
 
@@ -17,43 +15,6 @@ namespace {
 
 constexpr double state_version = 1.0;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-// The first blocks of many neighbouring members' streams, computed all at once and kept on the stack: the numbers are
-// those that each stream would compute by itself, one by one.
-class StreamsAhead {
- public:
-  StreamsAhead(RandomKey key, std::uint32_t generation, std::size_t dimension)
-      : key_(key), generation_(generation), n_blocks_(std::min(blocks_of_trial(dimension), most_blocks)) {}
-
-  std::size_t members_at_once() const { return words_.size() / n_words(); }
-
-  void compute(std::size_t first_member, std::size_t n_members) {
-    first_member_ = first_member;
-    auto const counter = RandomStream::first_counter(key_, generation_, static_cast<std::uint32_t>(first_member));
-    auto const philox_key = RandomStream::philox_key(key_);
-    kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, n_members, n_blocks_,
-                           words_.data());
-  }
-
-  RandomStream stream(std::size_t member) const {
-    return {key_, generation_, static_cast<std::uint32_t>(member),
-            std::span(words_).subspan((member - first_member_) * n_words(), n_words())};
-  }
-
- private:
-  static constexpr std::size_t members_side_by_side = 8;  // of the kernel
-  static constexpr std::size_t most_blocks = 64;          // longer trials draw the rest one by one
-
-  // of two draws each: three members, j_rand, one draw per parameter; random repairs draw behind them
-  static std::size_t blocks_of_trial(std::size_t dimension) { return (dimension + 5) / 2; }
-  std::size_t n_words() const { return 4 * n_blocks_; }
-
-  RandomKey key_;
-  std::uint32_t generation_;
-  std::size_t n_blocks_;
-  std::size_t first_member_ = 0;
-  std::array<std::uint32_t, 4 * most_blocks * members_side_by_side> words_;
-};
 
 }  // namespace
 
@@ -72,15 +33,7 @@ void GenerationalSearch::ask(MatrixView<double> candidates) const {
     fill_initial_population(key_, bounds_, candidates);
     return;
   }
-  StreamsAhead streams(key_, static_cast<std::uint32_t>(progress_.generation + 1), dimension());
-  for (std::size_t first = 0; first < candidates.rows(); first += streams.members_at_once()) {
-    std::size_t const last = std::min(first + streams.members_at_once(), candidates.rows());
-    streams.compute(first, last - first);
-    for (std::size_t i = first; i < last; ++i) {
-      RandomStream random = streams.stream(i);
-      make_trial(i, random, candidates.row(i));
-    }
-  }
+  make_trials({key_, static_cast<std::uint32_t>(progress_.generation + 1)}, candidates);
 }
 
 void GenerationalSearch::tell(MatrixView<double const> asked, std::span<double const> fitness) {

@@ -14,6 +14,7 @@
 
 #include "engine/optim/optimiser.hpp"
 #include "engine/optim/population.hpp"
+#include "engine/optim/trial_vector.hpp"
 
 namespace torquescope {
 
@@ -43,7 +44,8 @@ class GenerationalSearch : public Optimiser {
  protected:
   Bounds const& bounds() const { return bounds_; }
 
-  virtual void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const = 0;
+  // one row per member
+  virtual void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const = 0;
   // after selection: writes F, CR, PC, FC of the generation just told where the kind has them, and adapts
   virtual void learn(Selected const& step, Progress& progress) = 0;
   virtual void save_more(OptimiserState&) const {}

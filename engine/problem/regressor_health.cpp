@@ -14,7 +14,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double reported_correlation = 0.95;
+constexpr double worth_a_warning = 0.995, worth_a_remark = 0.95;  // correlations
 constexpr double reported_condition = 30.0;
 // a column belongs to a weak direction when it holds at least this share of it
 constexpr double member_share = 0.2;
@@ -66,11 +66,12 @@ std::vector<std::string> names_of(RegressionData const& data, std::vector<std::s
   return names;
 }
 
-std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correlation) {
+// of pairs that correlate at least so much
+std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correlation, double least) {
   std::string words;
   for (Eigen::Index i = 0; i < correlation.cols(); ++i) {
     for (Eigen::Index j = i + 1; j < correlation.cols(); ++j) {
-      if (std::abs(correlation(i, j)) < reported_correlation) continue;
+      if (std::abs(correlation(i, j)) < least) continue;
       std::vector<std::size_t> const pair{static_cast<std::size_t>(i), static_cast<std::size_t>(j)};
       words += fmt::format("{}{} correlate {:.{}f}: {}", words.empty() ? "" : "; ", listed(names_of(data, pair)),
                            correlation(i, j), std::abs(correlation(i, j)) > 0.995 ? 4 : 2, advice(data, pair));
@@ -107,12 +108,13 @@ RegressorHealth regressor_health(RegressionData const& data, Reductions const& r
   health.condition_number_raw = condition(right_svd(reductions.raw).singularValues());
   health.identifiable = health.condition_number * identifiable_threshold < 1.0;
 
-  health.words = pair_words(data, health.correlation);
+  health.words = pair_words(data, health.correlation, worth_a_warning);
   if (health.words.empty() && health.condition_number > reported_condition) {
     auto const members = weakest_members(svd.matrixV());
     health.words = fmt::format("{} are nearly dependent (condition number {:.0f}): {}", listed(names_of(data, members)),
                                health.condition_number, advice(data, members));
   }
+  if (health.words.empty()) health.remark = pair_words(data, health.correlation, worth_a_remark);
   return health;
 }
 

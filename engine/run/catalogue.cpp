@@ -108,6 +108,14 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<EncoderOptions>(entries);
   add_section<NoiseOptions>(entries);
   add_section<DiagnoseOptions>(entries);
+  entries.back().text = {
+      "CV gain, in the table of candidates: share of the mismatch (what the residual has beyond the clean twins) that "
+      "the "
+      "effect predicts on blocks of time it was not fitted to. Above 100 % where the model alone predicts such blocks "
+      "worse than nothing does; none where the effect predicts them no better.",
+      "Decisions: named; class (fits as well as what is named); measurement (a fault of a recorded channel); no (why "
+      "stands "
+      "below the table); not tested (the model's own columns explain it on this motion)."};
   add_section<OutputOptions>(entries);
 }
 

@@ -53,6 +53,12 @@ Json effect_json(NamedEffect const& effect) {
           {"sentence", effect.sentence}};
 }
 
+Json candidate_json(Candidate const& candidate) {
+  return {{"name", candidate.name},     {"family", candidate.family},     {"decision", word(candidate.decision)},
+          {"reason", candidate.reason}, {"z", number(candidate.z)},       {"p", number(candidate.p)},
+          {"q", number(candidate.q)},   {"gain", number(candidate.gain)}, {"cv_gain", number(candidate.cv_gain)}};
+}
+
 Json unexplained_json(UnexplainedPart const& part) {
   return {{"axis", part.where.axis},
           {"from", number(part.where.from)},
@@ -75,6 +81,7 @@ Json joint_json(JointDiagnosis const& joint) {
             {"validation_relerr", number(joint.validation_relerr)}}},
           {"mismatch", mismatch},
           {"effects", list(joint.effects, effect_json)},
+          {"candidates", list(joint.candidates, candidate_json)},
           {"augmented",
            {{"train_relerr", number(joint.augmented_train_relerr)},
             {"validation_relerr", number(joint.augmented_validation_relerr)},

@@ -93,12 +93,14 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
                       RunValues::whole_number);
 }
 
-void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history) {
+void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
+                   std::shared_ptr<RunHistory const> const& history) {
   std::string const group = group_of(label) + "/";
-  writer.write_run(group + "population", run, history.population);
-  writer.write_run(group + "fitness", run, history.fitness);
-  for (auto const& dataset : per_generation()) writer.write_run(group + dataset.name, run, history.*dataset.values);
-  writer.write_run(group + "evaluations", run, history.evaluations);
+  writer.write_run(group + "population", run, history->population, history);
+  writer.write_run(group + "fitness", run, history->fitness, history);
+  for (auto const& dataset : per_generation())
+    writer.write_run(group + dataset.name, run, (*history).*dataset.values, history);
+  writer.write_run(group + "evaluations", run, history->evaluations);
 }
 
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,

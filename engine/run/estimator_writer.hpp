@@ -5,6 +5,7 @@
 // Errors     those of ResultWriter
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "engine/problem/fitness_choice.hpp"
@@ -18,7 +19,9 @@ namespace torquescope {
 // torque_unit: "N m" or "N"
 void declare_histories(ResultWriter& writer, std::string const& label, HistoryShape const& shape,
                        std::string const& torque_unit);
-void write_history(ResultWriter& writer, std::string const& label, std::size_t run, RunHistory const& history);
+// the writer may keep it for a while
+void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
+                   std::shared_ptr<RunHistory const> const& history);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
                    std::string const& torque_unit);
 

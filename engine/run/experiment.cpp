@@ -135,6 +135,12 @@ std::vector<std::string> Experiment::warnings() const {
   return lines;
 }
 
+std::vector<std::string> Experiment::remarks() const {
+  std::vector<std::string> lines;
+  if (!parts_->health.remark.empty()) lines.push_back("regressor: " + parts_->health.remark);
+  return lines;
+}
+
 std::vector<CheckLine> Experiment::check(int threads) const {
   using Level = CheckLine::Level;
   std::vector<CheckLine> lines;
@@ -157,7 +163,9 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   for (auto const& facts : parts_->train.excitation)
     lines.push_back({Level::ok, "excitation", excitation_words(facts, parts_->regressor->joint())});
   if (parts_->health.words.empty())
-    lines.push_back({Level::ok, "separable", fmt::format("condition number {:.3g}", parts_->health.condition_number)});
+    lines.push_back({Level::ok, "separable",
+                     fmt::format("condition number {:.3g}{}{}", parts_->health.condition_number,
+                                 parts_->health.remark.empty() ? "" : "; ", parts_->health.remark)});
   else
     lines.push_back({Level::warn, "separable", parts_->health.words});
 

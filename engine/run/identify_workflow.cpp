@@ -74,21 +74,22 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   declare_histories(study.writer, plan.label, shape, study.torque_unit);
   RunResults results;
   std::vector<double> PC, FC;
-  auto const commit = [&](std::size_t run, RunHistory const& history) {
+  auto const commit = [&](std::size_t run, std::shared_ptr<RunHistory const> const& history) {
     write_history(study.writer, plan.label, run, history);
     Eigen::VectorXd const parameters =
-        Eigen::Map<Eigen::VectorXd const>(history.parameters.data(), static_cast<Eigen::Index>(shape.parameters));
-    keep_run(study, parameters, history.stop_reason, history.evaluations.back(), history.nonfinite, results);
-    PC.insert(PC.end(), history.PC.begin(), history.PC.end());
-    FC.insert(FC.end(), history.FC.begin(), history.FC.end());
+        Eigen::Map<Eigen::VectorXd const>(history->parameters.data(), static_cast<Eigen::Index>(shape.parameters));
+    keep_run(study, parameters, history->stop_reason, history->evaluations.back(), history->nonfinite, results);
+    PC.insert(PC.end(), history->PC.begin(), history->PC.end());
+    FC.insert(FC.end(), history->FC.begin(), history->FC.end());
   };
   if (!study.merges) {
     run_population({parts, plan, choice, study.floor, study.progress, study.attempt}, runs_of_shard(parts, {}), commit);
   } else {
     StageProgress progress(study.progress, plan.label, parts.experiment.runs, 0);
     for (std::size_t run = 0; run < shape.runs; ++run) {
-      auto const part = study.attempt.saved.load(plan.label, shape, run);
-      commit(run, part && part->ended ? part->history : missing_history(shape));
+      auto part = study.attempt.saved.load(plan.label, shape, run);
+      bool const is_there = part && part->ended;
+      commit(run, std::make_shared<RunHistory const>(is_there ? std::move(part->history) : missing_history(shape)));
       progress.count_run();
     }
   }
@@ -142,6 +143,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   report.content_sha256 = finish_result(writer, options.output, options.threads, beginning, attempt.saved.origins());
   report.seconds = beginning.seconds();
   report.bytes = std::filesystem::file_size(options.output);
+  report.result = writer.take_written();
   return report;
 }
 

@@ -198,7 +198,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
       [&](std::size_t index, History history) {
         {
           std::lock_guard const alone(stage.attempt.hdf5);
-          commit(runs[index], *history);
+          commit(runs[index], history);
         }
         progress.count_run();
       });

@@ -46,7 +46,7 @@ struct PopulationStage {
   ProgressSink const& progress;
   Attempt& attempt;
 };
-using CommitRun = std::function<void(std::size_t run, RunHistory const& history)>;
+using CommitRun = std::function<void(std::size_t run, std::shared_ptr<RunHistory const> const& history)>;
 void run_population(PopulationStage const& stage, std::vector<std::size_t> const& runs, CommitRun const& commit);
 
 // writes what the attempt has kept and says how to go on; throws Error 75

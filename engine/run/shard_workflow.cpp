@@ -35,7 +35,7 @@ ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, Pro
       // what segments have to the end needs no second look
       auto runs = runs_of_shard(parts, options.shard);
       std::erase_if(runs, [&](std::size_t run) { return attempt.saved.has_ended(plan.label, run); });
-      run_population({parts, plan, choice, floor, progress, attempt}, runs, [](std::size_t, RunHistory const&) {});
+      run_population({parts, plan, choice, floor, progress, attempt}, runs, [](std::size_t, auto const&) {});
     }
   } catch (Error const& error) {
     if (error.code() != ExitCode::stopped) throw;

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/parallel.hpp"
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/store/segment_folder.hpp"
+#include "engine/store/written_result.hpp"
 
 namespace torquescope {
 
@@ -49,6 +51,7 @@ class Experiment {
   std::filesystem::path output_file() const;  // [output] file, or NAME.h5 in the working folder
   std::vector<CheckLine> check(int threads) const;
   std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts
+  std::vector<std::string> remarks() const;   // the same of what is healthy
 
   struct Parts;
   Parts const& parts() const { return *parts_; }
@@ -94,6 +97,7 @@ struct IdentifyReport {
   double seconds = 0.0;
   std::uintmax_t bytes = 0;
   std::string content_sha256;
+  std::optional<WrittenResult> result{};  // what it says
 };
 
 // runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed.

@@ -6,13 +6,25 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/digest_batch.hpp"
-#include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
 namespace {
 
-// more is not worth a copy, nor the memory
-constexpr std::size_t most_waiting_bytes = std::size_t{1} << 18;
+// more of one size is not worth the memory, a longer block not the copy
+constexpr std::size_t most_waiting_bytes = std::size_t{1} << 21, most_copied_bytes = std::size_t{1} << 18;
+
+// how many blocks of a size shall wait for each other
+std::size_t together(std::size_t bytes) {
+  std::size_t const most = texts_side_by_side();
+  return most * bytes <= most_waiting_bytes ? most : 2;
+}
+
+// values that somebody will change: as they are now
+std::shared_ptr<std::byte const> copy_of(std::span<std::byte const> values) {
+  std::shared_ptr<std::byte[]> const copy(new std::byte[values.size()]);
+  std::copy(values.begin(), values.end(), copy.get());
+  return {copy, copy.get()};
+}
 
 bool is_about_the_file(std::string const& path, std::string const& attribute) {
   return path == "/" &&
@@ -133,8 +145,9 @@ class FileWalk {
       std::size_t const end = std::min(first + step, info.rows());
       h5::read_rows(dataset, info, first, end - first, buffer.data());
       for (std::size_t row = first; row < end; row += block_rows)
-        digest_.block(path, row / block_rows, buffer.data() + (row - first) * info.values_per_row(),
-                      std::min(block_rows, end - row) * row_bytes);
+        digest_.block(path, row / block_rows,
+                      std::as_bytes(std::span(buffer))
+                          .subspan((row - first) * row_bytes, std::min(block_rows, end - row) * row_bytes));
     }
   }
 
@@ -184,34 +197,35 @@ bool ContentDigest::has_dataset(std::string const& path) const {
   return known != objects_.end() && !known->second.element.empty();
 }
 
-ContentDigest::Waiting* ContentDigest::waiting_of_size(std::size_t bytes) {
+ContentDigest::Waiting& ContentDigest::waiting_of_size(std::size_t bytes) {
   for (auto& waiting : waiting_)
-    if (waiting.is_there && waiting.values.size() == bytes) return &waiting;
-  return nullptr;
+    if (waiting.bytes == bytes) return waiting;
+  // no other of the size that has waited longest may ever come
+  auto const older = [](Waiting const& a, Waiting const& b) { return a.number < b.number; };
+  Waiting& oldest = *std::min_element(waiting_.begin(), waiting_.end(), older);
+  digest_waiting(oldest);
+  oldest.bytes = bytes;
+  return oldest;
 }
 
-void ContentDigest::block(std::string const& path, std::size_t index, void const* values, std::size_t bytes) {
+void ContentDigest::block(std::string const& path, std::size_t index, std::span<std::byte const> values,
+                          std::shared_ptr<void const> owner) {
   Object& dataset = object(path);
   TORQUESCOPE_EXPECT(index < dataset.blocks.size());
-  auto const* const first = static_cast<std::byte const*>(values);
-  if (Waiting* const other = waiting_of_size(bytes)) {
-    auto const both = sha256_of_two(other->values, {first, bytes});
-    object(other->path).blocks[other->index] = both.first;
-    dataset.blocks[index] = both.second;
-    other->is_there = false;
+  if (2 * values.size() > most_waiting_bytes || (!owner && values.size() > most_copied_bytes)) {
+    dataset.blocks[index] = Digest().bytes(values.data(), values.size()).raw();
     return;
   }
-  if (bytes > most_waiting_bytes) {
-    dataset.blocks[index] = Digest().bytes(values, bytes).raw();
-    return;
+  Waiting& waiting = waiting_of_size(values.size());
+  waiting.number = ++n_waited_;
+  if (owner) {
+    waiting.blocks.push_back({path, index, values.data(), std::move(owner)});
+  } else {
+    auto copy = copy_of(values);
+    std::byte const* const first = copy.get();
+    waiting.blocks.push_back({path, index, first, std::move(copy)});
   }
-  auto const is_free = [](Waiting const& waiting) { return !waiting.is_there; };
-  auto place = std::find_if(waiting_.begin(), waiting_.end(), is_free);
-  if (place == waiting_.end()) digest_waiting(*(place = waiting_.begin()));
-  place->is_there = true;
-  place->path = path;
-  place->index = index;
-  place->values.assign(first, first + bytes);
+  if (waiting.blocks.size() >= together(values.size())) digest_waiting(waiting);
 }
 
 void ContentDigest::blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
@@ -226,7 +240,7 @@ void ContentDigest::blocks(std::string const& path, std::size_t first_index, std
   std::vector<std::size_t> repeating, others;
   for (std::size_t i = 0; i < n_blocks; ++i) (repeats(i) ? repeating : others).push_back(i);
   // a single one may as well wait for the next, unless others repeat it
-  if (others.size() == 1 && repeating.empty()) return block(path, first_index, values.data(), block_bytes);
+  if (others.size() == 1 && repeating.empty()) return block(path, first_index, values);
   std::vector<std::byte const*> texts;
   for (std::size_t const i : others) texts.push_back(block_at(i).data());
   std::vector<Sha256> digests(texts.size());
@@ -237,9 +251,15 @@ void ContentDigest::blocks(std::string const& path, std::size_t first_index, std
 }
 
 void ContentDigest::digest_waiting(Waiting& waiting) {
-  if (!waiting.is_there) return;
-  object(waiting.path).blocks[waiting.index] = Digest().bytes(waiting.values.data(), waiting.values.size()).raw();
-  waiting.is_there = false;
+  std::vector<std::byte const*> texts;
+  for (auto const& block : waiting.blocks) texts.push_back(block.values);
+  std::vector<Sha256> digests(texts.size());
+  sha256_of_each(texts, waiting.bytes, digests.data());
+  for (std::size_t i = 0; i < digests.size(); ++i) {
+    auto const& block = waiting.blocks[i];
+    object(block.path).blocks[block.index] = digests[i];
+  }
+  waiting.blocks.clear();
 }
 
 void ContentDigest::texts(std::string const& path, std::span<std::string const> texts) {
@@ -287,7 +307,7 @@ void ArrayDigest::add(std::span<std::byte const> values) {
 
 void ArrayDigest::end() {
   if (begun_.empty()) return;
-  digest_.block(path_, index_++, begun_.data(), begun_.size());
+  digest_.block(path_, index_++, begun_);
   begun_.clear();
 }
 

@@ -11,11 +11,13 @@
 //            match)
 // Hostile    a file in which two names lead to one object (so paths could be endless), or that claims more values in
 //            all than its bytes can hold, is refused
-// Memory     32 bytes per block and attribute; content_digest(): 4 MiB of values (or one row of a dataset, if more)
+// Memory     32 bytes per block and attribute, up to 6 MiB of blocks that wait; content_digest(): 4 MiB of values (or one
+//            row of a dataset, if more)
 // Threads    one at a time
 
 #include <array>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,8 +47,10 @@ class ContentDigest {
   void attribute(std::string const& path, std::string const& name, OptionValue const& value);
   void dataset(std::string const& path, h5::Element element, h5::Shape const& shape);
   bool has_dataset(std::string const& path) const;
-  // row-major values of the rows of one block
-  void block(std::string const& path, std::size_t index, void const* values, std::size_t bytes);
+  // row-major values of the rows of one block. While `owner` lives they stay as they are; without one they are copied, if
+  // they have to wait
+  void block(std::string const& path, std::size_t index, std::span<std::byte const> values,
+             std::shared_ptr<void const> owner = {});
   // several blocks of block_bytes each, one after the other: none is copied, and one that repeats the one before (a
   // column of one value) is not digested again
   void blocks(std::string const& path, std::size_t first_index, std::span<std::byte const> values,
@@ -56,12 +60,17 @@ class ContentDigest {
   std::string hex(FilePart part = FilePart::content);
 
  private:
-  // a block of values that waits for another one of its size: two are digested in little more than the time of one
+  // blocks of one size, which wait for more of it: sixteen are digested in the time of four (digest_batch.hpp)
   struct Waiting {
-    bool is_there = false;
-    std::string path{};
-    std::size_t index = 0;
-    std::vector<std::byte> values{};
+    struct Block {
+      std::string path;
+      std::size_t index;
+      std::byte const* values;
+      std::shared_ptr<void const> owner;
+    };
+    std::size_t bytes = 0;   // of each
+    std::size_t number = 0;  // of the last one, of all that ever waited
+    std::vector<Block> blocks{};
   };
 
   struct Object {
@@ -73,11 +82,12 @@ class ContentDigest {
 
   Object& object(std::string const& path);  // with all the groups that lead to it
 
-  Waiting* waiting_of_size(std::size_t bytes);
+  Waiting& waiting_of_size(std::size_t bytes);
   void digest_waiting(Waiting& waiting);
 
   std::map<std::string, Object> objects_;
-  std::array<Waiting, 2> waiting_;  // populations and fitness come in turns
+  std::array<Waiting, 3> waiting_;  // populations and fitness come in turns, and whole and last blocks of columns
+  std::size_t n_waited_ = 0;
 };
 
 // Digests an array of which the values come in their order, in pieces of any size. The digest outlives it.

@@ -85,6 +85,12 @@ Handle create_file(TempFile& file) {
   prepare_library();
   Handle const access = access_list();
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), "choose the file version");
+  // metadata of a larger file together, not in pieces of 2 KB all over it: each of them is a write of its own in the end, into
+  // a page that was written past the cache and has to be read again
+  constexpr std::uintmax_t larger = std::uintmax_t{1} << 20;
+  constexpr hsize_t metadata_bytes = std::size_t{16} << 10;
+  if (file.expected_bytes() >= larger)
+    checked(H5Pset_meta_block_size(access.id(), metadata_bytes), "gather the metadata");
   if (!use_output_driver(access.id(), file)) fail("use the output driver");
   Handle const creation = property_list(H5P_FILE_CREATE);
   checked(H5Pset_obj_track_times(creation.id(), 0), "switch times off");

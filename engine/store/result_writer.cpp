@@ -64,13 +64,14 @@ void ResultWriter::guarded(std::string const& path, Write&& write) {
 }
 
 ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
-    : options_(options), chunks_(options.gzip), temp_(final_name, options.expected_bytes) {
+    : options_(options), written_(final_name), chunks_(options.gzip), temp_(final_name, options.expected_bytes) {
   try {
     file_ = h5::create_file(temp_);
   } catch (h5::Failure const& failure) {
     temp_.check();
     throw cannot_write(final_name, "/", failure);
   }
+  written_.keep_object("/");
   attribute("/", "format", result_format);
   attribute("/", "creator", std::string("torquescope ") + version);
 }
@@ -80,13 +81,17 @@ ResultWriter::~ResultWriter() = default;
 void ResultWriter::add_attribute(h5::Handle const& object, std::string const& path, std::string const& name,
                                  OptionValue const& value) {
   h5::write_attribute(object, name, value);
-  digest_.attribute(path, name, h5::as_stored(value));
+  OptionValue stored = h5::as_stored(value);
+  digest_.attribute(path, name, stored);
+  written_.keep_attribute(path, name, std::move(stored));
 }
 
 // is made when there is none
 h5::Handle const& ResultWriter::group(std::string const& path) {
   auto const known = groups_.find(path);
-  return known != groups_.end() ? known->second : groups_.emplace(path, h5::make_groups(file_, path)).first->second;
+  if (known != groups_.end()) return known->second;
+  written_.keep_object(path.empty() ? "/" : path);
+  return groups_.emplace(path, h5::make_groups(file_, path)).first->second;
 }
 
 h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& plan, Note const& note) {
@@ -94,6 +99,7 @@ h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& 
   auto const [group, name] = split(path);
   h5::Handle dataset = h5::create_dataset(this->group(group), name, plan);
   digest_.dataset(path, plan.element, plan.shape);
+  written_.keep_object(path, plan.shape);
   add_attribute(dataset, path, "unit", note.unit);
   add_attribute(dataset, path, "long_name", note.long_name);
   if (!note.source.empty()) add_attribute(dataset, path, "source", note.source);
@@ -129,6 +135,7 @@ void ResultWriter::numbers(std::string const& path, h5::Shape const& shape, std:
   TORQUESCOPE_EXPECT(values.size() == count_of(shape));
   write_dataset(path, {.element = h5::Element::number, .shape = shape, .chunk = {}}, values.data(), note);
   digest_array(path, h5::Element::number, shape, std::as_bytes(values));
+  written_.keep_numbers(path, values);
 }
 
 void ResultWriter::whole_numbers(std::string const& path, h5::Shape const& shape, std::span<std::int64_t const> values,
@@ -177,6 +184,7 @@ void ResultWriter::texts(std::string const& path, std::span<std::string const> v
                 {.element = h5::Element::text, .shape = {values.size()}, .chunk = {}, .text_size = padded.size_of_one},
                 padded.bytes.data(), note);
   if (!values.empty()) digest_.texts(path, padded.texts());
+  written_.keep_texts(path, padded.texts());
 }
 
 void ResultWriter::attribute(std::string const& object_path, std::string const& name, OptionValue const& value) {
@@ -208,30 +216,32 @@ void ResultWriter::declare_runs(std::string const& path, std::size_t runs, h5::S
 }
 
 void ResultWriter::write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
-                               std::span<std::byte const> values) {
-  digest_.block(path, first / rows_of_block(runs.info.element, runs.info.shape), values.data(), values.size());
+                               std::span<std::byte const> values, std::shared_ptr<void const> owner) {
+  digest_.block(path, first / rows_of_block(runs.info.element, runs.info.shape), values, std::move(owner));
   chunks_.write(runs.dataset, runs.info, first, count, values.data());
 }
 
 void ResultWriter::put_run(std::string const& path, h5::Element element, std::size_t run,
-                           std::span<std::byte const> values) {
+                           std::span<std::byte const> values, std::shared_ptr<void const> const& owner) {
   TORQUESCOPE_EXPECT(runs_.contains(path));
   RunDataset& runs = runs_.at(path);
   TORQUESCOPE_EXPECT(runs.info.element == element);
   if (!has_values(runs.info.shape)) return;
   guarded(path, [&] {
     runs.blocks.put(run, values, [&](std::size_t first, std::size_t count, std::span<std::byte const> block) {
-      write_block(path, runs, first, count, block);
+      // a block of several runs is not the owner's
+      write_block(path, runs, first, count, block, block.data() == values.data() ? owner : nullptr);
     });
   });
 }
 
-void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values) {
-  put_run(path, h5::Element::number, run, std::as_bytes(values));
+void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<double const> values,
+                             std::shared_ptr<void const> const& owner) {
+  put_run(path, h5::Element::number, run, std::as_bytes(values), owner);
 }
 
 void ResultWriter::write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values) {
-  put_run(path, h5::Element::whole_number, run, std::as_bytes(values));
+  put_run(path, h5::Element::whole_number, run, std::as_bytes(values), {});
 }
 
 void ResultWriter::plottable(std::string const& group, std::string const& signal,

@@ -8,7 +8,7 @@
 //            std::string sha256 = writer.finish();
 // Shapes     row-major; {} is one number alone
 // Memory     the values of one call (in blocks: 1 MiB of them), a chunk, and 64 KiB per dataset of small runs (for each
-//            block of runs that is begun and not whole: one, when runs come in order)
+//            block of runs that is begun and not whole: one, when runs come in order); attributes and small arrays stay
 // Bytes      equal calls in equal order give equal files; equal content in any order gives an equal sha256
 // Errors     Error with exit code 74 when the disk fails (in the call that meets it or a later one; then nothing is
 //            published, and the only thing left to do is to destroy the writer); 73 when the name is a folder
@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@
 #include "engine/store/h5.hpp"
 #include "engine/store/run_blocks.hpp"
 #include "engine/store/temp_file.hpp"
+#include "engine/store/written_result.hpp"
 
 namespace torquescope {
 
@@ -70,7 +72,9 @@ class ResultWriter {
   // [runs][shape_of_one_run...]; runs never written read as NaN (whole numbers: 0)
   void declare_runs(std::string const& path, std::size_t runs, h5::Shape const& shape_of_one_run, Note const& note,
                     RunValues values = RunValues::number);
-  void write_run(std::string const& path, std::size_t run, std::span<double const> values);
+  // owner: while it lives the values stay as they are, and none is copied to be digested later
+  void write_run(std::string const& path, std::size_t run, std::span<double const> values,
+                 std::shared_ptr<void const> const& owner = {});
   void write_run(std::string const& path, std::size_t run, std::span<std::int64_t const> values);
 
   // a browser that knows NeXus (silx, h5web) plots the group: `signal` over `axes`, one name per dimension, "." for
@@ -79,6 +83,8 @@ class ResultWriter {
 
   // returns content_sha256; the file now stands under its final name
   std::string finish();
+  // what it says, of a writer that has finished
+  WrittenResult take_written() { return std::move(written_); }
 
  private:
   struct RunDataset {
@@ -96,14 +102,16 @@ class ResultWriter {
   void write_blocks(std::string const& path, h5::DatasetPlan plan, MakeRows<Value> const& rows, Note const& note);
   void digest_array(std::string const& path, h5::Element element, h5::Shape const& shape,
                     std::span<std::byte const> values);
-  void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values);
+  void put_run(std::string const& path, h5::Element element, std::size_t run, std::span<std::byte const> values,
+               std::shared_ptr<void const> const& owner);
   void write_block(std::string const& path, RunDataset const& runs, std::size_t first, std::size_t count,
-                   std::span<std::byte const> values);
+                   std::span<std::byte const> values, std::shared_ptr<void const> owner = {});
   template <class Write>
   void guarded(std::string const& path, Write&& write);
 
   ResultWriterOptions options_;
   ContentDigest digest_;
+  WrittenResult written_;
   ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them
   h5::Handle file_;

@@ -120,14 +120,34 @@ void TempFile::start_tail() {
 
 void TempFile::hand_over_tail() {
   std::uint64_t const end = tail_end();
-  if (tail_.size > 0) writer_.put(std::exchange(tail_, {}));
+  if (tail_.size > 0 && tail_.offset == 0)
+    head_ = std::exchange(tail_, {});
+  else if (tail_.size > 0)
+    writer_.put(std::exchange(tail_, {}));
   tail_.offset = end;
   tail_.size = 0;
 }
 
+// in front of the tail
 void TempFile::write_behind(std::uint64_t offset, std::byte const* bytes, std::size_t size) {
+  if (offset < head_.size) {
+    std::size_t const part = std::min(size, head_.size - static_cast<std::size_t>(offset));
+    std::memcpy(head_.bytes.data() + offset, bytes, part);
+    bytes += part;
+    offset += part;
+    size -= part;
+  }
+  if (size == 0) return;
   writer_.wait();
   if (!failed()) error_number_ = write_piece(offset, bytes, size);
+}
+
+// whole pages past the cache
+void TempFile::write_out(FilePiece const& piece) {
+  std::size_t const whole_pages = piece.size / page * page;
+  if (!failed()) error_number_ = write_piece(piece.offset, piece.bytes.data(), whole_pages);
+  if (!failed())
+    error_number_ = write_piece(piece.offset + whole_pages, piece.bytes.data() + whole_pages, piece.size - whole_pages);
 }
 
 // bytes: nullptr for zeros
@@ -179,6 +199,13 @@ bool TempFile::read_at(std::uint64_t offset, void* data, std::size_t size) noexc
     if (begin < end) std::memcpy(bytes + (begin - offset), tail_.bytes.data() + (begin - tail_.offset), end - begin);
     size = offset < tail_.offset ? static_cast<std::size_t>(tail_.offset - offset) : 0;
   }
+  if (offset < head_.size) {
+    std::size_t const part = std::min(size, head_.size - static_cast<std::size_t>(offset));
+    std::memcpy(bytes, head_.bytes.data() + offset, part);
+    bytes += part;
+    offset += part;
+    size -= part;
+  }
   if (size == 0) return true;
   writer_.wait();
   write_past_cache(false);
@@ -204,6 +231,7 @@ void TempFile::resize(std::uint64_t size) noexcept {
   writer_.wait();
   auto const cut = [&] { return ::ftruncate(descriptor_, static_cast<off_t>(size)); };
   if (!failed() && unless_interrupted(cut) != 0) error_number_ = errno;
+  head_.size = std::min(head_.size, static_cast<std::size_t>(size));
   tail_.offset = size;
   tail_.size = 0;
 }
@@ -216,9 +244,8 @@ void TempFile::publish() {
   TORQUESCOPE_EXPECT(descriptor_ >= 0);
   if (!failed()) {
     writer_.wait();
-    std::size_t const whole_pages = tail_.size / page * page;
-    write_behind(tail_.offset, tail_.bytes.data(), whole_pages);
-    write_behind(tail_.offset + whole_pages, tail_.bytes.data() + whole_pages, tail_.size - whole_pages);
+    write_out(head_);
+    write_out(tail_);
   }
   // an fsync that failed is never tried again: the second one would not tell what the first one lost
   if (!failed() && sync_file(descriptor_) != 0) error_number_ = errno;

@@ -34,7 +34,25 @@ def axis_unit(row_or_interval):
 
 
 def range_words(start, stop, unit):
-    return f"{q.tick(float(f'{start:.2g}'))} … {q.tick(float(f'{stop:.2g}'))} {unit}".strip()
+    """Two digits, or as many as tell the two ends apart."""
+    digits = 2
+    while digits < 6 and max(_step(start, digits), _step(stop, digits)) > 0.3 * abs(stop - start):
+        digits += 1
+    return f"{q.tick(float(f'{start:.{digits}g}'))} … {q.tick(float(f'{stop:.{digits}g}'))} {unit}".strip()
+
+
+def _step(value, digits):
+    return 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1) if value else 0.0
+
+
+def share_words(share):
+    """Of a share that other data may make larger than the whole, or negative."""
+    return "–" if not math.isfinite(share) else "> 100 %" if share > 1 else "none" if share <= 0 else q.percent(share)
+
+
+def is_fault(effect):
+    """Of a recorded channel, not physics of the joint."""
+    return effect.acts_on not in ("", "joint")
 
 
 def figure_name(study, joint, base):
@@ -130,7 +148,14 @@ def has_floor(joint):
 def share_closed(joint):
     """Of the error that a complete model would take away on the unseen recording (or in training); NaN when there is none."""
     before, after, floor = unseen_errors(joint)
-    return (before - after) / (before - floor) if has_after(joint) and before > floor else math.nan
+    if not has_after(joint) or is_at_floor(before, floor) or not before > floor:
+        return math.nan
+    return min(1.0, (before - after) / (before - floor))
+
+
+def is_at_floor(error, floor):
+    """A fiftieth above it is at it, as the verdict's sentence has it: the floor is a mean over twins."""
+    return error <= 1.02 * floor
 
 
 def unseen_errors(joint):

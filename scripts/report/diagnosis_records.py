@@ -29,6 +29,10 @@ class Parameter:
     lower: float  # 95 %
     upper: float
 
+    @property
+    def half_interval(self):
+        return (self.upper - self.lower) / 2
+
 
 @dataclass
 class Region:

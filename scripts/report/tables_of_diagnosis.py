@@ -13,9 +13,10 @@ MARKS = {"named": "●", "class": "◍", "measurement": "✕", "no": "○", "not
 
 
 def candidates(joint):
-    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge."""
+    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. Strongest first; what
+    was not tested is none of the strongest and comes last."""
     scale = (DOTS_WIDTH - 12) / max([1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)])
-    return [_candidate(one, joint, scale) for one in joint.candidates]
+    return [_candidate(one, joint, scale) for one in sorted(joint.candidates, key=lambda one: one.decision == "not tested")]
 
 
 def _candidate(one, joint, scale):
@@ -26,7 +27,7 @@ def _candidate(one, joint, scale):
             "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
             "z_pixel": pixels(one.z) if tested else None, "z": q.fixed(one.z, 1) if tested else "–",
             "p": diagnosed.p_cell(one.p, joint) if tested else "–", "q": _q(one.q) if tested else "–",
-            "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if math.isfinite(one.cv_gain) else "–"}
+            "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain)}
 
 
 def _q(value):

@@ -28,7 +28,10 @@ def verdict(study):
     # the class that keeps the verdict from a single name
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
     headlines, evidence = _set(found)
-    return {"mark": mark, "word": word.format(count=q.count_word(several[0]) if several else "several"), "tone": tone,
+    word = word.format(count=q.count_word(several[0]) if several else "several")
+    if found.verdict in ("named", "class") and any(diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects):
+        word += ", and a fault of the recording"
+    return {"mark": mark, "word": word, "tone": tone,
             "sentence": " ".join(headlines), "headlines": [kept_together(line) for line in headlines],
             "evidence": kept_together(" ".join(evidence))}
 
@@ -81,7 +84,9 @@ def big_numbers(joint):
     elif math.isfinite(before):
         found.append((q.percent(before), "", f"error of the baseline {where}"))
     if math.isfinite(floor):
-        found.append((q.percent(floor), "", "floor: what a complete model would leave"))
+        reached = diagnosed.is_at_floor(after if diagnosed.has_after(joint) and math.isfinite(after) else before, floor)
+        found.append((f"about {q.percent(floor)}", "", "floor: it is reached") if reached else
+                     (q.percent(floor), "", "floor: what a complete model would leave"))
     closed = diagnosed.share_closed(joint)
     if math.isfinite(closed):
         found.append((q.percent(closed), "", "of the closable gap is closed"))
@@ -112,7 +117,8 @@ def candidates_answer(joint):
     said = f"{q.count(tested, 'candidate')} tested, strongest first" if tested else "No candidate was tested"
     if tested and not named:
         said += "; none is named"
-    return f"{said}. Grey: what 95 % of the clean twins stay below."
+    return (f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch predicted on blocks of time that the "
+            "effect was not fitted to.")
 
 
 def fit_answer(study, joint):
@@ -121,10 +127,17 @@ def fit_answer(study, joint):
         return f"An unseen recording {given}: whether the model holds on another motion, this file cannot say."
     refitted = f" Refitted on the head of the unseen recording: {q.listed(joint.nuisances)}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
-        return f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}." + refitted
+        at = _floor_words(joint.validation_relerr, joint.floor_relerr)
+        return f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}{at}." + refitted
     before, after, floor = diagnosed.unseen_errors(joint)
-    to = f", floor {q.percent(floor)}" if math.isfinite(floor) else ""
+    to = _floor_words(after, floor)
     return f"Unseen error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
+
+
+def _floor_words(error, floor):
+    if not math.isfinite(floor):
+        return ""
+    return f", at the floor (about {q.percent(floor)})" if diagnosed.is_at_floor(error, floor) else f", floor {q.percent(floor)}"
 
 
 def title(effect):
@@ -136,7 +149,7 @@ def effect_line(joint, effect):
     p = diagnosed.p_cell(effect.p, joint, effect.p_is_bound)
     said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
     gains = [(effect.gain_train, "in training"), (effect.gain_cv, "cross-validated"), (effect.gain_validation, "unseen")]
-    gains = [f"{q.percent(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
+    gains = [f"{diagnosed.share_words(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
         said.append(f"of the residual's energy it takes {q.listed(gains)}")
     if math.isfinite(effect.region_gain):
@@ -145,7 +158,8 @@ def effect_line(joint, effect):
         said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
     if effect.equivalent:
         said.append(f"cannot be told from {q.listed(diagnosed.plain(name) for name in effect.equivalent)}")
-    return "; ".join(said) + "."
+    fault = "A fault of the recording, not physics of the joint. " if diagnosed.is_fault(effect) else ""
+    return fault + "; ".join(said) + "."
 
 
 def forward_answer(joint):

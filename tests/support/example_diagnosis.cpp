@@ -289,6 +289,7 @@ Diagnosis invented_class() {
   JointDiagnosis joint = invented_joint();
   joint.effects.resize(1);
   joint.candidates[2].decision = Decision::rejected;
+  joint.candidates[2].reason = "explains less than stribeck";
   return of(Verdict::one_of_class, std::move(joint));
 }
 

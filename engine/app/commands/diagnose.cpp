@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/commands/shard_choice.hpp"
+#include "engine/app/phase_times.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
 #include "engine/app/session_progress.hpp"
@@ -38,38 +38,6 @@ struct DiagnoseArguments {
   bool allow_full_disk = false;
 };
 
-// what each stage did in all: twins are made again after every effect that is named, so stages come and go
-class StageTotals {
- public:
-  void note(ProgressUpdate const& update) {
-    if (update.stage != current_.stage) close();
-    current_ = update;
-  }
-
-  // in the order in which they came first
-  std::vector<ProgressUpdate> const& finish() {
-    close();
-    return totals_;
-  }
-
- private:
-  void close() {
-    if (current_.stage.empty()) return;
-    auto const known = std::find_if(totals_.begin(), totals_.end(),
-                                    [this](ProgressUpdate const& total) { return total.stage == current_.stage; });
-    if (known == totals_.end()) {
-      totals_.push_back(current_);
-    } else {
-      known->runs_done += current_.runs_done;
-      known->seconds += current_.seconds;
-    }
-    current_ = {};
-  }
-
-  std::vector<ProgressUpdate> totals_;
-  ProgressUpdate current_{};
-};
-
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     std::string line =
@@ -81,9 +49,11 @@ void print_baseline(Session const& session, Diagnosis const& diagnosis) {
 }
 
 void print_stages(Session const& session, std::vector<ProgressUpdate> const& stages) {
-  for (auto const& stage : stages)
-    session.note(session.topic_line(stage.stage, fmt::format("{} {}, {}", count_text(stage.runs_done), stage.counted,
-                                                             seconds_text(stage.seconds))));
+  for (auto const& stage : stages) {
+    std::string const done =
+        stage.counted.empty() ? "" : fmt::format("{} {}, ", count_text(stage.runs_done), stage.counted);
+    session.note(session.topic_line(stage.stage, done + seconds_text(stage.seconds)));
+  }
 }
 
 void print_diagnosis(Session const& session, Diagnosis const& diagnosis, std::string const& json, bool all) {
@@ -122,6 +92,7 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
 }
 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
+  PhaseTimes phases(progress_settings(session).clock);
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
@@ -149,12 +120,11 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     session.note(session.topic_line(
         "shard", fmt::format("{}/{} ({}): twins are shared in {}; --shard 0/1 makes all of them here", shard.index,
                              shard.count, shard.reason, segment_folder_of(output).string())));
-  StageTotals totals;
   Diagnosis diagnosis;
   try {
     ProgressPrinter print_progress(progress_settings(session));
     diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
-      totals.note(update);
+      phases.note(update);
       print_progress(update);
     });
   } catch (Error const&) {
@@ -163,7 +133,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
     return print_kept(arguments, session, output);
   }
   print_baseline(session, diagnosis);
-  print_stages(session, totals.finish());
+  print_stages(session, phases.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
   note_whereabouts(session, "wrote", output, session.options().json);
   // whatever the verdict: the diagnosis itself succeeded

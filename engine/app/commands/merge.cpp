@@ -52,12 +52,13 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     });
     options.more_segments.emplace_back(folder);
   }
+  IdentifyReport report;
   {
     ProgressPrinter print_progress(progress_settings(session));
-    merge(std::move(experiment), options, arguments.partial ? Completeness::partial : Completeness::whole,
-          [&print_progress](ProgressUpdate const& update) { print_progress(update); });
+    report = merge(std::move(experiment), options, arguments.partial ? Completeness::partial : Completeness::whole,
+                   [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  print_results(session, read_summary(output));
+  print_results(session, summary_of(*report.result));
   note_whereabouts(session, "wrote", output);
   return ExitCode::ok;
 }

@@ -14,6 +14,7 @@ void note_start(Session const& session, std::string const& job_line, Experiment 
                                                          vector_target(), experiment.seed())));
   if (!threads.warning.empty()) session.note(session.topic_line("warning", threads.warning));
   for (auto const& warning : experiment.warnings()) session.note(session.topic_line("warning", warning));
+  for (auto const& remark : experiment.remarks()) session.note(session.topic_line("remark", remark));
 }
 
 void note_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& file,

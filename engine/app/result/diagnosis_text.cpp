@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/app/result/candidate_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
@@ -16,7 +17,6 @@ namespace torquescope {
 namespace {
 
 constexpr int lead_columns = 7;  // "where  ", "what   ", "next   "
-constexpr std::size_t candidates_shown = 3;
 constexpr std::size_t spark_places = 16;
 constexpr double quiet_z = 4.0;  // a row without a stronger cell stays low
 
@@ -134,61 +134,6 @@ std::string where_text(JointDiagnosis const& joint, bool utf8) {
 
 std::string share_cell(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : ""; }
 
-std::string q_cell(double q) {
-  if (!std::isfinite(q)) return "";
-  return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
-}
-
-bool is_shown(std::vector<Candidate> const& candidates, std::size_t i, bool all) {
-  Decision const decision = candidates[i].decision;
-  return all || i < candidates_shown || (decision != Decision::rejected && decision != Decision::not_tested);
-}
-
-std::string candidate_table(JointDiagnosis const& joint, bool all, bool with_family) {
-  using Align = TextTable::Align;
-  double const least_p = joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
-  std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
-                             Align::right, Align::right, Align::left};
-  if (!with_family) columns.erase(columns.begin() + 1);
-  TextTable table(columns, std::string(lead_columns, ' '));
-  auto const row = [&](std::vector<std::string> cells) {
-    if (!with_family) cells.erase(cells.begin() + 1);
-    table.row(std::move(cells));
-  };
-  row({"effect", "family", "z", "p", "q", "CV gain", ""});
-  for (std::size_t i = 0; i < joint.candidates.size(); ++i) {
-    if (!is_shown(joint.candidates, i, all)) continue;
-    Candidate const& one = joint.candidates[i];
-    bool const tested = one.decision != Decision::not_tested;
-    row({printable(one.name), printable(one.family), tested && std::isfinite(one.z) ? fmt::format("{:.1f}", one.z) : "",
-         tested ? p_cell(one.p, false, least_p) : "", tested ? q_cell(one.q) : "", share_cell(one.cv_gain),
-         word(one.decision)});
-  }
-  // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping
-  return table.text(4 * page_width);
-}
-
-bool fits_page(std::string const& text) {
-  for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t const end = std::min(text.find('\n', begin), text.size());
-    if (columns_of(text.substr(begin, end - begin)) > page_width) return false;
-    begin = end + 1;
-  }
-  return true;
-}
-
-std::string what_text(JointDiagnosis const& joint, bool all) {
-  if (joint.candidates.empty()) return "";
-  std::string text = candidate_table(joint, all, true);
-  if (!fits_page(text)) text = candidate_table(joint, all, false);
-  std::size_t hidden = 0;
-  for (std::size_t i = 0; i < joint.candidates.size(); ++i) hidden += is_shown(joint.candidates, i, all) ? 0 : 1;
-  if (hidden > 0)
-    text += std::string(lead_columns, ' ') + pad_right(fmt::format("{} more below these", hidden), 48) +
-            "(--all shows them)\n";
-  return lead("what") + text.substr(lead_columns);
-}
-
 std::string next_text(JointDiagnosis const& joint) {
   std::string text;
   for (auto const& advice : joint.excitation) {
@@ -232,7 +177,7 @@ std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const
   std::string text;
   for (auto const& joint : diagnosis.joints) {
     std::string const part =
-        where_text(joint, options.utf8) + what_text(joint, options.all_candidates) + next_text(joint);
+        where_text(joint, options.utf8) + candidates_text(joint, options.all_candidates) + next_text(joint);
     if (part.empty()) continue;
     text += "\n";
     if (diagnosis.joints.size() > 1) text += ink.bold(fmt::format("joint {}", joint.joint)) + "\n";

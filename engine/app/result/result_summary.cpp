@@ -16,17 +16,21 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double number_or_nan(ResultReader const& reader, std::string const& object, std::string const& name) {
-  return reader.find_attribute<double>(object, name).value_or(nan);
+// Source: ResultReader or WrittenResult
+
+template <class Source>
+double number_or_nan(Source const& reader, std::string const& object, std::string const& name) {
+  return reader.template find_attribute<double>(object, name).value_or(nan);
 }
 
-std::string text_or_empty(ResultReader const& reader, std::string const& object, std::string const& name) {
-  return reader.find_attribute<std::string>(object, name).value_or("");
+template <class Source>
+std::string text_or_empty(Source const& reader, std::string const& object, std::string const& name) {
+  return reader.template find_attribute<std::string>(object, name).value_or("");
 }
 
 // row `run` of a [run][R] dataset; empty when there is no such dataset
-std::vector<double> row_of(ResultReader const& reader, std::string const& dataset, std::size_t run,
-                           std::size_t columns) {
+template <class Source>
+std::vector<double> row_of(Source const& reader, std::string const& dataset, std::size_t run, std::size_t columns) {
   if (!reader.exists(dataset)) return {};
   auto const numbers = reader.numbers(dataset);
   if ((run + 1) * columns > numbers.values.size()) return std::vector<double>(columns, nan);
@@ -34,22 +38,23 @@ std::vector<double> row_of(ResultReader const& reader, std::string const& datase
   return {begin, begin + static_cast<std::ptrdiff_t>(columns)};
 }
 
-EstimatorSummary read_estimator(ResultReader const& reader, std::string const& name, std::size_t parameter_count) {
+template <class Source>
+EstimatorSummary read_estimator(Source const& reader, std::string const& name, std::size_t parameter_count) {
   std::string const group = "/runs/" + name;
   EstimatorSummary summary;
   summary.name = name;
-  summary.kind = reader.attribute<std::string>(group, "kind");
+  summary.kind = reader.template attribute<std::string>(group, "kind");
   summary.title = text_or_empty(reader, group, "title");
-  summary.runs = reader.attribute<std::int64_t>(group, "runs");
-  summary.missing_runs = reader.find_attribute<std::int64_t>(group, "missing_runs").value_or(0);
-  summary.evaluations = reader.find_attribute<std::int64_t>(group, "evaluations_total").value_or(0);
+  summary.runs = reader.template attribute<std::int64_t>(group, "runs");
+  summary.missing_runs = reader.template find_attribute<std::int64_t>(group, "missing_runs").value_or(0);
+  summary.evaluations = reader.template find_attribute<std::int64_t>(group, "evaluations_total").value_or(0);
 
   auto const median_run = static_cast<std::size_t>(
-      std::max<std::int64_t>(0, reader.find_attribute<std::int64_t>(group, "median_run").value_or(0)));
+      std::max<std::int64_t>(0, reader.template find_attribute<std::int64_t>(group, "median_run").value_or(0)));
   summary.parameters = row_of(reader, group + "/parameters", median_run, parameter_count);
   summary.standard_error = row_of(reader, group + "/standard_error", median_run, parameter_count);
   summary.parameters_mean =
-      reader.find_attribute<std::vector<double>>(group, "parameters_mean").value_or(summary.parameters);
+      reader.template find_attribute<std::vector<double>>(group, "parameters_mean").value_or(summary.parameters);
 
   std::vector<double> const mse = reader.numbers(group + "/mse").values;
   summary.mse_median = number_or_nan(reader, group, "mse_median");
@@ -74,14 +79,15 @@ EstimatorSummary read_estimator(ResultReader const& reader, std::string const& n
 
 std::size_t samples_of(h5::Shape const& shape) { return shape.empty() ? 1 : shape.front(); }
 
-DataSummary read_data(ResultReader const& reader, std::string const& group) {
+template <class Source>
+DataSummary read_data(Source const& reader, std::string const& group) {
   DataSummary summary;
-  summary.recordings =
-      reader.find_attribute<std::vector<std::string>>(group, "recordings").value_or(std::vector<std::string>{});
+  summary.recordings = reader.template find_attribute<std::vector<std::string>>(group, "recordings")
+                           .value_or(std::vector<std::string>{});
   // without its samples a result says how many there were
   summary.samples = reader.exists(group + "/time")
                         ? static_cast<std::int64_t>(samples_of(reader.shape(group + "/time")))
-                        : reader.attribute<std::int64_t>(group, "samples");
+                        : reader.template attribute<std::int64_t>(group, "samples");
   summary.rate_hz = number_or_nan(reader, group, "rate_hz");
   summary.kept_rate_hz = number_or_nan(reader, group, "kept_rate_hz");
   summary.duration_s = number_or_nan(reader, group, "duration_s");
@@ -99,9 +105,10 @@ nlohmann::json read_circumstances(std::filesystem::path const& result, std::stri
   return fits ? made : nlohmann::json();
 }
 
-ProvenanceSummary read_provenance(ResultReader const& reader, std::string const& content_sha256) {
+template <class Source>
+ProvenanceSummary read_provenance(Source const& reader, std::string const& content_sha256) {
   std::string const group = "/provenance";
-  auto const made = read_circumstances(reader.name(), content_sha256);
+  nlohmann::json const made = read_circumstances(reader.name(), content_sha256);
   auto const text = [&](char const* key) {
     bool const told = made.is_object() && made.contains(key) && made[key].is_string();
     return told ? made[key].get<std::string>() : text_or_empty(reader, group, key);
@@ -163,18 +170,19 @@ void refuse_columns(ResultReader const& reader) {
   });
 }
 
-ResultSummary read_summary(std::filesystem::path const& file) {
-  ResultReader const reader(file);
-  refuse_columns(reader);
+namespace {
+
+template <class Source>
+ResultSummary summarise(Source const& reader) {
   ResultSummary summary;
-  summary.file = file;
-  summary.bytes = std::filesystem::file_size(file);
+  summary.file = reader.name();
+  summary.bytes = std::filesystem::file_size(summary.file);
   summary.content_sha256 = reader.content_sha256();
-  summary.name = reader.attribute<std::string>("/job", "name");
+  summary.name = reader.template attribute<std::string>("/job", "name");
   summary.study = text_or_empty(reader, "/job", "study");
-  summary.job_sha256 = reader.attribute<std::string>("/job", "sha256");
-  summary.inputs_sha256 = reader.attribute<std::string>("/job", "inputs_sha256");
-  summary.seed = reader.attribute<std::int64_t>("/job", "seed");
+  summary.job_sha256 = reader.template attribute<std::string>("/job", "sha256");
+  summary.inputs_sha256 = reader.template attribute<std::string>("/job", "inputs_sha256");
+  summary.seed = reader.template attribute<std::int64_t>("/job", "seed");
   summary.joint = text_or_empty(reader, "/model", "joint");
   summary.equation = text_or_empty(reader, "/model", "equation");
   summary.names = reader.texts("/model/names");
@@ -187,10 +195,20 @@ ResultSummary read_summary(std::filesystem::path const& file) {
   summary.has_diagnosis = reader.exists("/diagnosis");
   // a diagnosis has no runs; any other result without them is damaged
   if (!summary.has_diagnosis || reader.exists("/runs"))
-    for (auto const& name : reader.attribute<std::vector<std::string>>("/runs", "order"))
+    for (auto const& name : reader.template attribute<std::vector<std::string>>("/runs", "order"))
       summary.estimators.push_back(read_estimator(reader, name, summary.names.size()));
   summary.provenance = read_provenance(reader, summary.content_sha256);
   return summary;
 }
+
+}  // namespace
+
+ResultSummary read_summary(std::filesystem::path const& file) {
+  ResultReader const reader(file);
+  refuse_columns(reader);
+  return summarise(reader);
+}
+
+ResultSummary summary_of(WrittenResult const& result) { return summarise(result); }
 
 }  // namespace torquescope

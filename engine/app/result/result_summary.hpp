@@ -1,5 +1,5 @@
 #pragma once
-// What the tables and the JSON say about a result file, read from it once.
+// What the tables and the JSON say about a result: read from its file once, or kept by whoever wrote it.
 //
 // Shapes     R parameters; vectors named after runs have one entry per run
 // Units      as in the file (RESULT_FORMAT.md); absent numbers are NaN
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/store/result_reader.hpp"
+#include "engine/store/written_result.hpp"
 
 namespace torquescope {
 
@@ -66,6 +67,8 @@ struct ResultSummary {
 };
 
 ResultSummary read_summary(std::filesystem::path const& file);
+// the same of a result that was written just now
+ResultSummary summary_of(WrittenResult const& result);
 
 // Error 65 for a file of `diagnose --columns`: there is nothing to show in it
 void refuse_columns(ResultReader const& reader);

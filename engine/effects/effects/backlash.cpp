@@ -128,14 +128,16 @@ class LoadBehindGap {
 
   // as if the same push had lasted for long
   void start(JointState const& state) {
-    drive_ = drive_of(state);
+    weight_ = weight(state.q);
+    drive_ = state.ddq + weight_;
     at_ = {flank_.rest(drive_) - std::copysign(half_gap_, drive_), 0.0};
     side_ = side_at(at_);
   }
 
   void advance(JointState const& state, double step_s) {
     if (step_s != step_s_) remember_step(step_s);
-    double const end = drive_of(state);
+    weight_ = weight(state.q);
+    double const end = state.ddq + weight_;
     Drive drive{drive_, (end - drive_) / step_s};
     for (int i = 0; i < n_sub_steps_; ++i) {
       sub_step(drive);
@@ -146,7 +148,7 @@ class LoadBehindGap {
 
   std::array<double, 1> row(JointState const& state) const {
     double const push = side_ == 0.0 ? -grease_.push(at_) : -flank_.push(on_flank(at_, side_));
-    return {push - drive_of(state)};
+    return {push - (state.ddq + weight_)};
   }
 
  private:
@@ -154,8 +156,8 @@ class LoadBehindGap {
   static constexpr int most_events = 4;          // in one sub-step; more of them are a load that rests
   static constexpr int halvings = 20;            // of a sub-step, to find one
 
-  double drive_of(JointState const& state) const { return state.ddq + gravity(state.q); }
-  double gravity(double q) const {
+  // over the inertia
+  double weight(double q) const {
     bool const has_weight = scales_.gravity_sin != 0.0 || scales_.gravity_cos != 0.0;
     if (!has_weight || !(scales_.inertia > 0.0)) return 0.0;
     return (scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q)) / scales_.inertia;
@@ -221,7 +223,7 @@ class LoadBehindGap {
   JointScales scales_;
   double side_ = 0.0;  // of the gap on which the load is pushed, 0 while it is not
   Place at_{};
-  double drive_ = 0.0;
+  double weight_ = 0.0, drive_ = 0.0;  // where the joint is
   double step_s_ = 0.0, sub_step_s_ = 0.0;
   int n_sub_steps_ = 1;
 };

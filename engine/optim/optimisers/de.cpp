@@ -37,8 +37,8 @@ class DifferentialEvolution final : public GenerationalSearch {
       : GenerationalSearch("de", bounds, key, n_members), settings_(settings) {}
 
  private:
-  void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const override {
-    make_rand_1_bin_trial(population(), member, settings_, bounds(), random, trial);
+  void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const override {
+    make_rand_1_bin_trials(population(), settings_, bounds(), streams, trials);
   }
 
   // nothing is adapted; the movement is recorded to be compared with FADE's

@@ -63,8 +63,8 @@ class FuzzyAdaptiveDe final : public GenerationalSearch {
         controller_(std::move(controller)) {}
 
  private:
-  void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const override {
-    make_rand_1_bin_trial(population(), member, next_, bounds(), random, trial);
+  void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const override {
+    make_rand_1_bin_trials(population(), next_, bounds(), streams, trials);
   }
 
   void learn(Selected const& step, Progress& progress) override {

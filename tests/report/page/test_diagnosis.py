@@ -1,8 +1,10 @@
 """Python reads the diagnosis the C++ store wrote, and the page says of it what the file says: no more, no less."""
 
+import dataclasses
 import json
 import math
 import re
+import types
 import unittest
 
 import support
@@ -123,6 +125,44 @@ class Verdict(unittest.TestCase):
         shown = [(number, unit) for number, unit, _ in words_of_diagnosis.big_numbers(joint("named"))]
         self.assertEqual(shown, [("12 → 6.2 %", ""), ("6.0 %", ""), ("96 %", ""), ("0", "of 200")])
         self.assertAlmostEqual(diagnosed.share_closed(joint("named")), (0.1213 - 0.0623) / (0.1213 - 0.0601))
+
+    def test_below_the_floor_there_is_no_gap(self):
+        at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.041, floor_relerr=0.049)
+        self.assertIn(("about 4.9 %", "", "floor: it is reached"), words_of_diagnosis.big_numbers(at_floor))
+        self.assertIn("4.1 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor))
+        self.assertEqual(diagnosed.share_closed(at_floor), 1.0)
+        self.assertTrue(math.isnan(diagnosed.share_closed(dataclasses.replace(at_floor, validation_relerr=0.048))))
+
+    def test_a_fault_of_a_channel_beside_physics_is_called_one(self):
+        self.assertNotIn("fault", words_of_diagnosis.verdict(support.study("named"))["word"])
+        named = diagnosis("named")
+        both = dataclasses.replace(named, joints=[dataclasses.replace(
+            named.joints[0], effects=named.joints[0].effects[:1] + joint("data_fault").effects)])
+        verdict = words_of_diagnosis.verdict(types.SimpleNamespace(diagnosis=both))
+        self.assertEqual(verdict["word"], "Missing physics named, and a fault of the recording")
+        self.assertIn("A fault of the recording", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[1]))
+        self.assertNotIn("fault", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[0]))
+
+    def test_every_candidate_that_is_not_named_has_a_reason(self):
+        for kind in ("named", "class", "none", "unexplained"):
+            for row in tables_of_diagnosis.candidates(joint(kind)):
+                self.assertTrue(row["decision"] == "named" or row["reason"] != row["decision"], row)
+
+    def test_what_was_not_tested_is_none_of_the_strongest(self):
+        tested, term = joint("none").candidates, dataclasses.replace(joint("none").candidates[0], name="coulomb_positive", decision="not tested")
+        rows = tables_of_diagnosis.candidates(dataclasses.replace(joint("none"), candidates=[term] + tested))
+        self.assertEqual([row["name"] for row in rows[:3]], [one.name for one in tested[:3]])
+        self.assertEqual(rows[-1]["name"], "coulomb_positive")
+
+    def test_shares_beyond_the_whole_are_readable(self):
+        said = [row["cv_gain"] for gain in (0.284, 106.7, -5.8, math.nan) for row in tables_of_diagnosis.candidates(dataclasses.replace(
+            joint("named"), candidates=[dataclasses.replace(joint("named").candidates[0], cv_gain=gain)]))]
+        self.assertEqual(said, ["28.4 %", "> 100 %", "none", "–"])
+
+    def test_the_ends_of_a_range_are_told_apart(self):
+        self.assertEqual(diagnosed.range_words(18.93, 19.31, "s"), "18.9 … 19.3 s")
+        self.assertEqual(diagnosed.range_words(-0.12, 0.12, "rad/s"), "−0.12 … 0.12 rad/s")
+        self.assertEqual(diagnosed.range_words(0.0, 0.3, "m"), "0 … 0.3 m")
 
     def test_a_recording_like_its_twins_says_how_many_are_like_it(self):
         self.assertEqual(diagnosed.twins_as_far(joint("none")), round(0.4129 * 201) - 1)

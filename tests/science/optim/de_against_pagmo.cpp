@@ -59,11 +59,15 @@ class DeWithPagmosPicks final : public GenerationalSearch {
   explicit DeWithPagmosPicks(RandomKey key) : GenerationalSearch("pagmo", cube(4, -1.0, 1.0), key, 30) {}
 
  private:
-  void make_trial(std::size_t member, RandomStream& random, std::span<double> trial) const override {
-    // three different members of all: as if the target were a member beyond the last
-    mutate_rand_1(population(), pick_three_others(random, batch_size() + 1, batch_size()), 0.5, trial);
-    cross_binomial(random, 0.9, population().row(member), trial);
-    repair_bounds(BoundRepair::random, bounds(), population().row(member), random, trial);
+  void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const override {
+    for (std::size_t member = 0; member < batch_size(); ++member) {
+      RandomStream random(streams.key, streams.generation, static_cast<std::uint32_t>(member));
+      auto const trial = trials.row(member);
+      // three different members of all: as if the target were a member beyond the last
+      mutate_rand_1(population(), pick_three_others(random, batch_size() + 1, batch_size()), 0.5, trial);
+      cross_binomial(random, 0.9, population().row(member), trial);
+      repair_bounds(BoundRepair::random, bounds(), population().row(member), random, trial);
+    }
   }
   void learn(Selected const&, Progress&) override {}
 };

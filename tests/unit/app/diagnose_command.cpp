@@ -92,8 +92,8 @@ TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
   EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
   EXPECT_THAT(outcome.err, HasSubstr("baseline 4 parameters; error 11.8 % train, 12.1 % unseen\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("twins    400 twins, 21.4 s\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("search   34 effects, 8.8 s\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("\ntwins    400 twins, "));
+  EXPECT_THAT(outcome.err, HasSubstr("\nsearch   34 effects, "));
   EXPECT_THAT(outcome.err, HasSubstr("\nwrote  "));
 }
 

@@ -7,6 +7,7 @@
 
 #include <sstream>
 
+#include "engine/app/result/candidate_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "support/example_diagnosis.hpp"
 
@@ -43,8 +44,10 @@ where  velocity  -1.1  ▄▃▃▃▂▂▁▃█▁▂▂▂▂▃▃  1.0 rad
 what   effect      family           z       p      q  CV gain
        stribeck    reversal      11.8  <0.005  0.004   28.4 %  named
        presliding  reversal      10.9  <0.005  0.004   27.6 %  class
-       cogging     order_locked   7.4  <0.005  0.004    6.1 %  no
+       cogging     order_locked   7.4  <0.005  0.004    6.1 %  no (1)
        31 more below these                             (--all shows them)
+why    (1) explains less than stribeck
+       CV gain: share of the mismatch predicted on blocks it was not fitted to
 next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
        presliding apart
 )");
@@ -100,6 +103,43 @@ TEST(DiagnosisText, AllShowsEveryCandidate) {
   EXPECT_THAT(all, Not(HasSubstr("more below these")));
   for (auto const& candidate : diagnosis.joints[0].candidates)
     EXPECT_THAT(all, HasSubstr("\n       " + candidate.name + " ")) << candidate.name;
+}
+
+TEST(DiagnosisText, EveryCandidateThatIsNotNamedHasItsReason) {
+  Diagnosis diagnosis = example::invented_class();
+  auto& candidates = diagnosis.joints[0].candidates;
+  std::string const all = diagnosis_text(diagnosis, {.all_candidates = true}, Ink());
+  for (char const* words :
+       {"\nwhy    (1) explains less than stribeck\n", "\n       (2) nothing is left of it beside stribeck\n",
+        "\n       (3) no stronger than chance\n"})
+    EXPECT_THAT(all, HasSubstr(words));
+  EXPECT_THAT(all, Not(HasSubstr("(4)")));  // a reason is said once
+  EXPECT_THAT(all, ::testing::ContainsRegex("power_law_viscous .* no \\(2\\)\n"));
+  for (auto& one : candidates) one.reason = "evil\x1b[2J";
+  EXPECT_THAT(diagnosis_text(diagnosis, {.all_candidates = true}, Ink()), Not(HasSubstr("\x1b")));
+}
+
+TEST(DiagnosisText, WhatWasNotTestedIsNoneOfTheStrongest) {
+  Diagnosis diagnosis = example::invented_none();
+  auto& candidates = diagnosis.joints[0].candidates;
+  Candidate const term{
+      "coulomb_positive",           "baseline", 0.0, 1.0, 1.0, 0.0, unknown, unknown, Decision::not_tested,
+      "a term of the model already"};
+  candidates.insert(candidates.begin(), 2, term);
+  std::string const some = diagnosis_text(diagnosis, {}, Ink());
+  EXPECT_THAT(some, Not(HasSubstr("coulomb_positive")));
+  for (std::size_t i = 2; i < 5; ++i) EXPECT_THAT(some, HasSubstr("\n       " + candidates[i].name + " "));
+  std::string const all = diagnosis_text(diagnosis, {.all_candidates = true}, Ink());
+  EXPECT_THAT(all, HasSubstr("\n       coulomb_positive "));
+  EXPECT_THAT(all, HasSubstr("\n       not tested: a term of the model already\n"));
+}
+
+TEST(DiagnosisText, AShareOfTheMismatchIsReadable) {
+  EXPECT_EQ(cv_gain_cell(0.284), "28.4 %");
+  EXPECT_EQ(cv_gain_cell(106.72), "> 100 %");
+  EXPECT_EQ(cv_gain_cell(-5.81), "none");
+  EXPECT_EQ(cv_gain_cell(0.0), "none");
+  EXPECT_EQ(cv_gain_cell(unknown), "");
 }
 
 TEST(DiagnosisText, WhatIsNamedIsShownHoweverWeakItLooked) {

@@ -29,6 +29,17 @@ TEST(QuantityText, SmallLengthsAnglesAndTimesTakeAMilli) {
   EXPECT_EQ(quantity_text(0.5, "1"), "0.50");
 }
 
+TEST(QuantityText, TwoEndsOfAnIntervalAreToldApart) {
+  EXPECT_EQ(between_text(0.4, 0.9, "rad"), "between 0.40 and 0.90 rad");
+  EXPECT_EQ(between_text(-0.1791, -0.1702, "rad/s"), "between -0.179 and -0.170 rad/s");
+  EXPECT_EQ(between_text(18.93, 19.31, "s"), "between 18.9 and 19.3 s");
+  EXPECT_EQ(between_text(0.3004, 0.3041, "m"), "between 0.300 and 0.304 m");
+  EXPECT_EQ(between_text(0.002, 0.0041, "m"), "between 2.0 and 4.1 mm");
+  EXPECT_EQ(between_text(0.008, 0.012, "m"), "between 8.0 mm and 0.012 m");
+  EXPECT_EQ(between_text(5.0, 12.0, ""), "between 5.0 and 12");
+  EXPECT_EQ(between_text(0.0, 152.0, "Hz"), "between 0 and 150 Hz");
+}
+
 TEST(QuantityText, SharesAreSaidInPercent) {
   EXPECT_EQ(percent_text(0.1213), "12.1 %");
   EXPECT_EQ(percent_text(0.00562), "0.56 %");

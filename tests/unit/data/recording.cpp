@@ -163,7 +163,7 @@ TEST(MakeRecording, JitteredRowsAreResampledOntoAnEvenGridAndReported) {
   EXPECT_GT(recording.rows.resampled, 2000);
   ASSERT_EQ(recording.warnings.size(), 1u);
   EXPECT_EQ(recording.warnings[0].topic, "jitter");
-  EXPECT_THAT(recording.warnings[0].text, HasSubstr("samples resampled at 200 Hz"));
+  EXPECT_THAT(recording.warnings[0].text, HasSubstr(", put on an even grid of 200 Hz"));
   EXPECT_THAT(recording.warnings[0].text, HasSubstr("1 repeated time stamp, 3 missing"));
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/model_stage.hpp"
 #include "engine/diagnose/shape_refinement.hpp"
 #include "unit/diagnose/clean_records.hpp"
@@ -86,6 +87,20 @@ TEST_F(CandidateSearch, RefinesAShapeWithEveryOptimiserOfTheRegistry) {
     // the gain that is reported has had chance taken off
     EXPECT_LT(refined.gain, refined.improvements.back().gain);
   }
+}
+
+// a law of the speed along the motion, small beside what was named: another form of a named law of the speed, none of the position
+TEST_F(CandidateSearch, TellsWhatAnotherFormOfANamedLawWouldExplain) {
+  auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
+  auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search("de", 1), 2);
+  auto const is_form_of_named = [&](char const* named, double times) {
+    return is_form_of(*find_effect(named), times * refined.gain, refined, stage, columns);
+  };
+  EXPECT_TRUE(is_form_of_named("power_law_viscous", 20.0));
+  EXPECT_FALSE(is_form_of_named("power_law_viscous", 5.0)) << "too much for a form";
+  EXPECT_FALSE(is_form_of_named("asymmetric_viscous", 20.0)) << "the same axis, but not along the motion";
+  EXPECT_FALSE(is_form_of_named("gravity", 20.0)) << "another axis";
+  EXPECT_FALSE(is_form_of_named("cogging", 20.0)) << "a wave has no form";
 }
 
 }  // namespace

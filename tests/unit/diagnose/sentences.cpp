@@ -13,6 +13,7 @@
 namespace torquescope {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -87,6 +88,12 @@ TEST(ReasonSentence, OfNothingMissingStatesThePowerOnlyWhereItIsKnown) {
   EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.41).");
 }
 
+TEST(ReasonSentence, LeavesTheNameOfAFileAsItIs) {
+  Diagnosis diagnosis = example::invented_insufficient();
+  diagnosis.finding = "train.csv: only one direction of motion was recorded";
+  EXPECT_THAT(reason_sentence(diagnosis), StartsWith("train.csv: only one"));
+}
+
 TEST(ReasonSentence, OfSomethingElseSaysWhereItIsAndThatNothingFits) {
   EXPECT_EQ(
       reason_sentence(example::invented_unexplained()),
@@ -125,8 +132,8 @@ TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
             "Only one direction of motion was recorded. Viscous and coulomb cannot be told apart. Record both "
             "directions.");
   EXPECT_EQ(reason_sentence(example::invented_data_fault()),
-            "The torque of joint 1 comes 3.8 ms after the motion: torque channel that lags behind the position (delay, "
-            "p < 0.005). Shift it (recording.delay_s = -0.0038) or fix the logger.");
+            "The torque of joint 1 comes 3.8 ms after the motion, a fault of the recording: torque channel that lags "
+            "behind the position (delay, p < 0.005). Shift it (recording.delay_s = -0.0038) or fix the logger.");
 }
 
 TEST(EffectSentence, FollowsTheSignOfFriction) {
@@ -145,11 +152,11 @@ TEST(EffectSentence, DoesNotSayASizeThatNoRowHasShown) {
 TEST(EffectSentence, TellsFaultsOfAChannelFromPhysics) {
   JointDiagnosis const joint = joint_of_two_hundred_twins();
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("sensor_drift"), 0.1)),
-              StartsWith("The torque channel of joint 1 is off by up to 0.21 N m:"));
+              StartsWith("The torque channel of joint 1 is off by up to 0.21 N m, a fault of the recording:"));
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("delay"), -0.002)),
-              StartsWith("The torque of joint 1 comes 2.0 ms before the motion:"));
+              StartsWith("The torque of joint 1 comes 2.0 ms before the motion, a fault of the recording:"));
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("encoder_eccentricity"), 0.001)),
-              StartsWith("The position of joint 1 is misread"));
+              AllOf(StartsWith("The position of joint 1 is misread"), HasSubstr(", a fault of the recording: ")));
 }
 
 TEST(EffectSentence, NamesAnEffectThatTheCatalogueDoesNotKnow) {
@@ -194,6 +201,9 @@ TEST(PlacePhrase, SaysTwoIntervalsInOneWhereOneMirrorsTheOther) {
             "at speeds between 0.20 and 0.41 rad/s in both directions");
   EXPECT_EQ(phrase("velocity", -1.1, -0.8, 0.2, 1.0, "rad/s"), "at velocities below -0.80 rad/s and above 0.20 rad/s");
   EXPECT_EQ(phrase("time", 0.0, 5.0, 50.0, 60.0, "s"), "before 5.0 s and after 50 s");
+  // both reach the end of the axis: no "above 1.0 and above 1.38"
+  EXPECT_EQ(phrase("load", 1.0, 1.35, 1.38, 1.4, "N m"), "at loads between 1.0 and 1.4 N m");
+  EXPECT_EQ(phrase("time", 0.0, 1.0, 1.5, 9.0, "s"), "before 9.0 s");
   EXPECT_EQ(place_phrase(joint, std::vector<AxisInterval>{}), "");
   EXPECT_EQ(place_phrase(joint, std::vector<AxisInterval>{{"time", 12.0, 60.0, "s"}}), "after 12 s");
 }
@@ -216,7 +226,16 @@ TEST(PlacePhrase, SaysWhatTheIntervalTouches) {
   EXPECT_EQ(phrase("order", 11.5, 12.5, "1/rad"), "around 12 waves per turn");
   EXPECT_EQ(phrase("order", 600.0, 660.0, "1/m"), "with a wavelength around 0.010 m");
   EXPECT_EQ(phrase("load", 0.95, 1.29, "N m"), "at loads between 0.95 and 1.3 N m");
+  EXPECT_EQ(phrase("load", 0.951, 0.956, "N m"), "at loads between 0.951 and 0.956 N m");
+  EXPECT_EQ(phrase("time", 18.93, 19.31, "s"), "between 18.9 and 19.3 s");
   EXPECT_EQ(phrase("", unknown, unknown, ""), "");
+}
+
+TEST(PlacePhrase, OfASpectrumThatIsFullSaysSo) {
+  JointDiagnosis const joint = example::invented_diagnosis().joints[0];  // frequency 0.5 .. 25, order 1 .. 28
+  EXPECT_EQ(place_phrase(joint, {"frequency", 0.6, 25.0, "Hz"}), "at all frequencies");
+  EXPECT_EQ(place_phrase(joint, {"order", 1.0, 28.0, "1/rad"}), "at all orders of the angle");
+  EXPECT_EQ(place_phrase(joint, {"order", 1.0, 28.0, "1/m"}), "at all wavelengths");
 }
 
 }  // namespace

@@ -131,7 +131,9 @@ class Broken final : public GenerationalSearch {
   Broken() : GenerationalSearch("broken", Bowl().bounds(), {5, 9}, 30) {}
 
  private:
-  void make_trial(std::size_t, RandomStream&, std::span<double>) const override { throw std::runtime_error("broken"); }
+  void make_trials(TrialStreams const&, MatrixView<double> const&) const override {
+    throw std::runtime_error("broken");
+  }
   void learn(Selected const&, Progress&) override {}
 };
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <functional>
+#include <memory>
 
 #include "engine/store/result_reader.hpp"
 #include "support/temporary_folder.hpp"
@@ -46,6 +47,37 @@ TEST(ContentDigest, OfBlocksThatRepeatIsThatOfTheFile) {
       std::string const written = writer.finish();
       EXPECT_EQ(verify_result(folder / "R.h5"), written) << column.size();
     }
+  }
+}
+
+// runs whose memory nobody else holds any more, more of them than are digested side by side, beside others of other sizes
+TEST(ContentDigest, OfRunsThatWaitIsThatOfTheFile) {
+  test::TemporaryFolder const folder;
+  constexpr std::size_t entries = 9000, n_runs = 37;  // above half a block of the digest: each run is one of its own
+  std::string content;
+  for (bool owned : {false, true}) {
+    ResultWriter writer(folder / "R.h5");
+    for (char const* name : {"/a", "/b"}) writer.declare_runs(name, n_runs, {entries}, {"1", "runs"});
+    writer.declare_runs("/c", n_runs, {entries / 4}, {"1", "several in a block"});
+    writer.declare_runs("/d", n_runs, {2 * entries}, {"1", "longer"});
+    for (std::size_t run = 0; run < n_runs; ++run) {
+      auto const values = [run](std::size_t count, double step) {
+        std::vector<double> made(count);
+        for (std::size_t i = 0; i < count; ++i) made[i] = static_cast<double>(run) + step * static_cast<double>(i);
+        return std::make_shared<std::vector<double> const>(std::move(made));
+      };
+      auto const write = [&](char const* name, std::shared_ptr<std::vector<double> const> const& numbers) {
+        writer.write_run(name, run, *numbers, owned ? numbers : nullptr);
+      };
+      write("/a", values(entries, 0.5));
+      write("/b", values(entries, 0.25));
+      write("/c", values(entries / 4, 2.0));
+      write("/d", values(2 * entries, 1.0));
+    }
+    std::string const written = writer.finish();
+    EXPECT_EQ(verify_result(folder / "R.h5"), written);
+    if (content.empty()) content = written;
+    EXPECT_EQ(written, content);
   }
 }
 

@@ -1,0 +1,124 @@
+#include "engine/app/result/candidate_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/app/terminal/table.hpp"
+#include "engine/base/quantity_text.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr int lead_columns = 7;  // "what   ", "why    "
+constexpr std::size_t candidates_shown = 3;
+
+std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
+
+std::string q_cell(double q) {
+  if (!std::isfinite(q)) return "";
+  return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
+}
+
+// in the joint's order
+std::vector<Candidate const*> shown_of(JointDiagnosis const& joint, bool all) {
+  std::vector<Candidate const*> shown;
+  std::size_t strongest = 0;
+  for (auto const& one : joint.candidates) {
+    bool const is_tested = one.decision != Decision::not_tested;
+    bool const is_taken = is_tested && one.decision != Decision::rejected;
+    if (all || is_taken || (is_tested && strongest < candidates_shown)) shown.push_back(&one);
+    strongest += is_tested ? 1 : 0;
+  }
+  return shown;
+}
+
+// distinct reasons against a name, in the order in which the table comes to them
+std::vector<std::string> reasons_of(std::vector<Candidate const*> const& shown, Decision decision) {
+  std::vector<std::string> reasons;
+  for (auto const* one : shown)
+    if (one->decision == decision && !one->reason.empty() &&
+        std::find(reasons.begin(), reasons.end(), one->reason) == reasons.end())
+      reasons.push_back(one->reason);
+  return reasons;
+}
+
+std::string decision_cell(Candidate const& one, std::vector<std::string> const& reasons) {
+  if (one.decision != Decision::rejected || one.reason.empty()) return word(one.decision);
+  auto const at = std::find(reasons.begin(), reasons.end(), one.reason) - reasons.begin();
+  return fmt::format("{} ({})", word(one.decision), at + 1);
+}
+
+std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> const& shown, bool with_family) {
+  using Align = TextTable::Align;
+  double const least_p = joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
+  std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
+                             Align::right, Align::right, Align::left};
+  if (!with_family) columns.erase(columns.begin() + 1);
+  TextTable table(columns, std::string(lead_columns, ' '));
+  auto const row = [&](std::vector<std::string> cells) {
+    if (!with_family) cells.erase(cells.begin() + 1);
+    table.row(std::move(cells));
+  };
+  auto const reasons = reasons_of(shown, Decision::rejected);
+  row({"effect", "family", "z", "p", "q", "CV gain", ""});
+  for (auto const* one : shown) {
+    bool const tested = one->decision != Decision::not_tested;
+    row({printable(one->name), printable(one->family),
+         tested && std::isfinite(one->z) ? fmt::format("{:.1f}", one->z) : "",
+         tested ? p_cell(one->p, false, least_p) : "", tested ? q_cell(one->q) : "", cv_gain_cell(one->cv_gain),
+         decision_cell(*one, reasons)});
+  }
+  // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping
+  return table.text(4 * page_width);
+}
+
+bool fits_page(std::string const& text) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t const end = std::min(text.find('\n', begin), text.size());
+    if (columns_of(text.substr(begin, end - begin)) > page_width) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
+std::string why_text(std::vector<Candidate const*> const& shown) {
+  std::vector<std::string> lines;
+  auto const rejected = reasons_of(shown, Decision::rejected);
+  for (std::size_t i = 0; i < rejected.size(); ++i)
+    lines.push_back(fmt::format("({}) {}", i + 1, printable(rejected[i])));
+  for (auto const& reason : reasons_of(shown, Decision::not_tested))
+    lines.push_back("not tested: " + printable(reason));
+  if (std::any_of(shown.begin(), shown.end(), [](Candidate const* one) { return std::isfinite(one->cv_gain); }))
+    lines.push_back("CV gain: share of the mismatch predicted on blocks it was not fitted to");
+  std::string text;
+  for (auto const& line : lines) text += hanging(lead(text.empty() ? "why" : ""), line);
+  return text;
+}
+
+}  // namespace
+
+std::string cv_gain_cell(double share) {
+  if (!std::isfinite(share)) return "";
+  if (share > 1.0) return "> 100 %";
+  return share > 0.0 ? fmt::format("{:.1f} %", 100.0 * share) : "none";
+}
+
+std::string candidates_text(JointDiagnosis const& joint, bool all) {
+  if (joint.candidates.empty()) return "";
+  auto const shown = shown_of(joint, all);
+  std::string text = table_of(joint, shown, true);
+  if (!fits_page(text)) text = table_of(joint, shown, false);
+  std::size_t const hidden = joint.candidates.size() - shown.size();
+  if (hidden > 0)
+    text += std::string(lead_columns, ' ') + pad_right(fmt::format("{} more below these", hidden), 48) +
+            "(--all shows them)\n";
+  return lead("what") + text.substr(lead_columns) + why_text(shown);
+}
+
+}  // namespace torquescope

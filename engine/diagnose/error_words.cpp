@@ -1,0 +1,84 @@
+#include "engine/diagnose/error_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/diagnose/forward_selection.hpp"
+
+namespace torquescope {
+namespace {
+
+// of an error in training and unseen, by the same model
+bool is_other_kind(double unseen, double train, double floor) {
+  constexpr double times = 3.0, points = 0.03;
+  double const expected = std::isfinite(floor) ? std::max(train, floor) : train;
+  return unseen > times * expected && unseen > expected + points;
+}
+
+std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
+  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
+                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
+}
+
+}  // namespace
+
+bool is_at_floor(double relerr, double floor) {
+  constexpr double nearly = 1.02;
+  return relerr <= nearly * floor;
+}
+
+std::string gain_sentence(JointDiagnosis const& joint) {
+  bool const unseen = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
+  double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
+  double const after = unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr;
+  if (!std::isfinite(before) || !std::isfinite(after)) return "";
+  std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
+                                       percent_text(before), percent_text(after));
+  if (!std::isfinite(joint.floor_relerr)) return text + ".";
+  std::string const floor = percent_text(joint.floor_relerr);
+  return text +
+         (is_at_floor(after, joint.floor_relerr) ? ", at the floor (about " + floor + ")." : ", floor " + floor + ".");
+}
+
+std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
+  double const floor = joint.floor_relerr;
+  if (!std::isfinite(joint.validation_relerr) || !is_other_kind(joint.validation_relerr, joint.train_relerr, floor))
+    return "";
+  double unseen = joint.validation_relerr, train = joint.train_relerr;
+  if (std::isfinite(joint.augmented_validation_relerr)) {
+    unseen = joint.augmented_validation_relerr;
+    train = joint.augmented_train_relerr;
+    if (!is_other_kind(unseen, train, floor)) return "";
+  }
+  return fmt::format(
+      "The unseen recording holds something that the training recording does not show: relerr {} there, {} here.",
+      percent_text(unseen), percent_text(train));
+}
+
+std::string way_out_of_a_fault(JointDiagnosis const& joint) {
+  std::string const mend = "correct the channel, or record again";
+  return unseen_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
+}
+
+std::string likeness_sentence(JointDiagnosis const& joint) {
+  if (joint.twins == 0) return fmt::format("Nothing is missing in the model of joint {}.", joint.joint);
+  constexpr double usual = 0.05;
+  double const least = 1.0 / static_cast<double>(joint.twins + 1);
+  std::string const p = p_text(joint.omnibus_p, false, least);
+  if (!(joint.omnibus_p < usual) || !std::isfinite(joint.mismatch_share))
+    return fmt::format("The residual of joint {} looks like that of {} clean twins ({}).", joint.joint, joint.twins, p);
+  std::string const differs =
+      fmt::format("The residual of joint {} differs from that of {} clean twins ({})", joint.joint, joint.twins, p);
+  std::string const share = percent_text(joint.mismatch_share), asked_for = percent_text(smallest_mismatch_share);
+  if (joint.mismatch_share <= smallest_mismatch_share)
+    return fmt::format("{}, but by {} of the torque: too little to look for.", differs, share);
+  return fmt::format(
+      "{} by {} of the torque, but by less than {:.0f} times their spread, and none of {} known effects is both beyond "
+      "chance and worth more than {} of the torque.",
+      differs, share, smallest_omnibus_z, n_tested(joint), asked_for);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,34 @@
+#pragma once
+// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether an unseen recording is of
+// another kind, and whether the residual is like that of clean twins.
+//
+// Unknown    a sentence whose numbers were not measured is ""
+// Wording    as sentences.hpp
+// Threads    pure functions
+
+#include <string>
+
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace torquescope {
+
+// a fiftieth above the floor is at it: the floor is a mean over twins
+bool is_at_floor(double relerr, double floor);
+
+// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %.", or ", at the floor (about 6.3 %)."; from cross-validation where nothing unseen
+// was recorded
+std::string gain_sentence(JointDiagnosis const& joint);
+
+// An unseen error beyond three times and three points above both the error in training and the floor of the unseen recording,
+// before and after alike: "The unseen recording holds something that the training recording does not show: relerr 18.4 % there,
+// 0.82 % here."; "" otherwise
+std::string unseen_is_other_sentence(JointDiagnosis const& joint);
+
+// where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen recording agrees
+std::string way_out_of_a_fault(JointDiagnosis const& joint);
+
+// Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one that is
+// within the twins' spread while no effect stands out
+std::string likeness_sentence(JointDiagnosis const& joint);
+
+}  // namespace torquescope

@@ -1,0 +1,80 @@
+// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where the unseen
+// recording is of another kind.
+
+#include "engine/diagnose/error_words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/diagnose/sentences.hpp"
+#include "support/example_diagnosis.hpp"
+
+namespace torquescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// the omnibus test sees what is too small to matter, and a gate may stay closed for want of a candidate
+TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
+  Diagnosis diagnosis = example::invented_none();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.power_sentence.clear();
+  joint.omnibus_p = 1.0 / 201.0;
+  joint.mismatch_share = 0.0012;
+  EXPECT_EQ(
+      reason_sentence(diagnosis),
+      "The residual of joint 1 differs from that of 200 clean twins (p < 0.005), but by 0.12 % of the torque: too "
+      "little to look for.");
+  joint.mismatch_share = 0.0043;
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 differs from that of 200 clean twins (p < 0.005) by 0.43 % of the torque, but by "
+            "less than 4 times their spread, and none of 34 known effects is both beyond chance and worth more than "
+            "0.25 % of the torque.");
+  joint.omnibus_p = 0.2;
+  EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.20).");
+}
+
+TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.augmented_validation_relerr = 0.041;
+  joint.floor_relerr = 0.049;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 4.1 %, at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.0495;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.052;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 5.2 %, floor 4.9 %."));
+}
+
+TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind) {
+  char const* said =
+      "The unseen recording holds something that the training recording does not show: relerr 18.4 % "
+      "there, 0.82 % here.";
+  for (auto diagnosis : {example::invented_diagnosis(), example::invented_none(), example::invented_unexplained(),
+                         example::invented_data_fault()}) {
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    EXPECT_THAT(way_out_of_a_fault(diagnosis.joints[0]), HasSubstr("; the model itself needs nothing more"));
+    JointDiagnosis& joint = diagnosis.joints[0];
+    joint.train_relerr = 0.0091;
+    joint.validation_relerr = 0.185;
+    joint.augmented_train_relerr = 0.0082;
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.01;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
+    EXPECT_THAT(way_out_of_a_fault(joint), Not(HasSubstr("needs nothing more")));
+    // what naming mends was missing in training as well; and twins that leave as much expect no less
+    joint.augmented_validation_relerr = 0.02;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.17;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    // names that were withdrawn have no errors
+    joint.floor_relerr = 0.01;
+    joint.augmented_train_relerr = joint.augmented_validation_relerr = unknown;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("relerr 18.5 % there, 0.91 % here."));
+  }
+}
+
+}  // namespace
+}  // namespace torquescope
