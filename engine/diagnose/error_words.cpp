@@ -18,7 +18,7 @@ bool is_other_kind(double unseen, double train, double floor) {
   return unseen > times * expected && unseen > expected + points;
 }
 
-std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
+std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
   return std::count_if(joint.candidates.begin(), joint.candidates.end(),
                        [](Candidate const& one) { return one.decision != Decision::not_tested; });
 }
@@ -78,7 +78,7 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
   return fmt::format(
       "{} by {} of the torque, but by less than {:.0f} times their spread, and none of {} known effects is both beyond "
       "chance and worth more than {} of the torque.",
-      differs, share, smallest_omnibus_z, n_tested(joint), asked_for);
+      differs, share, smallest_omnibus_z, n_asked(joint), asked_for);
 }
 
 }  // namespace torquescope

@@ -57,7 +57,7 @@ double energy(WaveForm const& form, Complex sum) {
   return form.cos_cos * c * c + 2.0 * form.cos_sin * c * s + form.sin_sin * s * s;
 }
 
-struct Workspace {
+struct WaveWork {
   Eigen::FFT<double> fft{};
   std::vector<Complex> points{}, sums{};
 };
@@ -107,11 +107,11 @@ Eigen::MatrixXd band_energies(MismatchRows const& rows, WaveGrid const& grid, st
   if (grid.last < grid.first) return result;
   TORQUESCOPE_EXPECT(static_cast<Eigen::Index>(grid.point.size()) == rows.size());
   auto const forms = wave_forms(grid);
-  std::vector<Workspace> workspaces(static_cast<std::size_t>(std::max(1, threads)));
+  std::vector<WaveWork> workspaces(static_cast<std::size_t>(std::max(1, threads)));
   // two real columns in one complex transform
   parallel_for(static_cast<std::size_t>((columns + 1) / 2), threads, [&](std::size_t pair, int thread) {
     auto const a = static_cast<Eigen::Index>(2 * pair), b = a + 1;
-    Workspace& work = workspaces[static_cast<std::size_t>(thread)];
+    WaveWork& work = workspaces[static_cast<std::size_t>(thread)];
     work.points.assign(static_cast<std::size_t>(grid.length), 0.0);
     Eigen::VectorXd const first = deviation(rows, a);
     Eigen::VectorXd const second = b < columns ? deviation(rows, b) : Eigen::VectorXd::Zero(rows.size());
