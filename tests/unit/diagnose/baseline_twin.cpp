@@ -1,6 +1,7 @@
 // From a recording to its clean twin: loop, corrected baseline, disturbance.
 
 #include "engine/diagnose/baseline_twin.hpp"
+#include "engine/diagnose/recording_checks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,11 +110,15 @@ TEST(BaselineTwin, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(alone, together);
 }
 
-TEST(BaselineTwin, RefusesATorqueOfTheWrongSign) {
+TEST(BaselineTwin, IsNotAskedOfATorqueOfTheWrongSignWhoseWorkTellsIt) {
   auto recording = recorded(simulate_joint(clean_joint().plan, 12));
-  recording.torque = -recording.torque;
   auto const pipeline = clean_pipeline(recording);
-  EXPECT_THROW(made_from(recording, pipeline), Error);
+  EXPECT_FALSE(check_sign(pipeline.process(recording)));
+  recording.torque = -recording.torque;
+  auto const refused = check_sign(pipeline.process(recording));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->verdict, Verdict::data_fault);
+  EXPECT_NE(refused->way_out.find("wrong sign"), std::string::npos);
 }
 
 TEST(BaselineTwin, BlamesTheMissingReferenceBeforeTheTorque) {
