@@ -98,7 +98,6 @@ TEST_F(CandidateSearch, TellsWhatAnotherFormOfANamedLawWouldExplain) {
   };
   EXPECT_TRUE(is_form_of_named("power_law_viscous", 20.0));
   EXPECT_FALSE(is_form_of_named("power_law_viscous", 5.0)) << "too much for a form";
-  EXPECT_FALSE(is_form_of_named("asymmetric_viscous", 20.0)) << "the same axis, but not along the motion";
   EXPECT_FALSE(is_form_of_named("gravity", 20.0)) << "another axis";
   EXPECT_FALSE(is_form_of_named("cogging", 20.0)) << "a wave has no form";
 }
