@@ -1,9 +1,9 @@
 """The page in a browser, wide and on a phone, light and dark: the laws of UX.md section 2."""
 
-import math
 import base64
 import itertools
 import json
+import math
 import re
 import shutil
 import tempfile
