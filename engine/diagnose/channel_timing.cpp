@@ -44,8 +44,8 @@ Recording with_torque_earlier(Recording recording, double late_s) {
 std::string timing_remark(double late_s, double rate_hz) {
   return fmt::format(
       "torque taken {:.2g} ms {} than its rows say, {:.2g} of a sample: it was read there, as drives do that are "
-      "faster than "
-      "their log",
+      "faster "
+      "than their log",
       1e3 * std::abs(late_s), late_s > 0.0 ? "earlier" : "later", std::abs(late_s) * rate_hz);
 }
 
