@@ -5,7 +5,8 @@
 //            recording. A drive whose loop is faster than its log, or one that logs the current of the instant, writes a torque
 //            that comes half a sample later to its motion. Nobody can tell that from a channel that is late by as much
 // Rule       a delay that the search names, and that is no more than half a sample (and a tenth of one, for what a current loop
-//            needs itself; one sample where there is no reference, so that no law tells which torque a row holds), is taken out of the recordings, and the search begins again. A longer one is a finding
+//            needs itself; one sample where there is no reference, so that no law tells which torque a row holds), is taken out of
+//            the recordings, and the search begins again. A longer one is a finding
 // Threads    free functions
 // Units      s
 
