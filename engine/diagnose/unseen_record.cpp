@@ -100,6 +100,38 @@ void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::V
   }
 }
 
+// it runs down from the beginning of a recording, and nobody says how far it had when another one began
+bool is_of_the_clock(Effect const& effect) { return effect.family() == EffectFamily::time && !effect.is_event(); }
+
+// How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is beyond chance
+bool scale_to_head(Eigen::MatrixXd const& columns, Eigen::VectorXd const& left,
+                   Eigen::Ref<Eigen::VectorXd> parameters) {
+  constexpr double beyond = 9.0;  // three standard deviations, squared
+  Eigen::Index const n = head_rows(left.size());
+  Eigen::VectorXd const own = columns.topRows(n) * parameters, wanted = left.head(n) + own;
+  if (!(own.squaredNorm() > 0.0)) return false;
+  double const share = std::clamp(own.dot(wanted) / own.squaredNorm(), 0.0, 1.0);
+  double const least = (wanted - share * own).squaredNorm();
+  double const r = std::clamp(autocorrelation(left.head(n), 1), 0.0, 0.99);
+  double const variance = least / static_cast<double>(n) * (1.0 + r) / (1.0 - r);
+  if (left.head(n).squaredNorm() - least <= beyond * variance) return false;
+  parameters *= share;
+  return true;
+}
+
+void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
+                  std::vector<std::string>& nuisances) {
+  auto const& effects = stage.model().effects();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (!is_of_the_clock(*effects[i].effect)) continue;
+    auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+    auto const width = static_cast<Eigen::Index>(effects[i].effect->n_linear());
+    Eigen::VectorXd const left = record.torque - record.columns * parameters;
+    if (scale_to_head(record.columns.middleCols(first, width), left, parameters.segment(first, width)))
+      nuisances.push_back("how far " + effects[i].effect->name() + " had gone refitted on the first 5 %");
+  }
+}
+
 void check_rows(ProcessedRecord const& record, std::string const& name) {
   validate(static_cast<Eigen::Index>(record.kept_rows.size()) >= fewest_rows, [&] {
     Problem problem{ExitCode::bad_data, fmt::format("{}: only {} rows are left between reversals, {} are needed", name,
@@ -202,6 +234,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
   turn_waves(augmented, after, parameters, result.nuisances);
+  scale_clocks(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
   Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);

@@ -9,6 +9,8 @@
 //            named both are one and take none
 // Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond three standard
 //            deviations, size and order kept, and said so
+// Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its share is
+//            refitted in the same way, between none and all
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
 // Floor      relerr of 16 twins of this recording under the final model, with the same parameters
 // Units      SI
