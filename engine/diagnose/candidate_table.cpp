@@ -80,8 +80,10 @@ void note_not_tried(Selection& selection, std::vector<EffectScan> const& scans, 
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
   for (auto& candidate : candidates)
     for (auto const& effect : effects)
-      if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) != effect.equivalent.end())
-        candidate.decision = Decision::equivalent, candidate.reason = "this motion cannot tell it from " + effect.name;
+      if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) != effect.equivalent.end()) {
+        candidate.decision = Decision::equivalent;
+        candidate.reason = "this motion cannot tell it from " + effect.name;
+      }
 }
 
 void withdraw_names(std::vector<Candidate>& candidates, std::string const& reason) {

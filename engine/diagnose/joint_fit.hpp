@@ -6,7 +6,8 @@
 //            (a thousandth, as a rule) is one that takes three hundredths, or that share
 // Why        what a model lacks bends the parameters that it has: a pendulum whose weight was left out has a negative inertia as
 //            soon as it swings slowly. No twin can be made of that, and what is missing could never be asked for
-// Held       a joint whose inertia or friction is still at its bound in the end is none: wrong sign, wrong signal
+// Held       said in the record: of a plain model it tells a torque of the wrong sign (recording_checks.hpp). Whether a final model is
+//            still at a bound nobody asks
 // Threads    free function
 
 #include <string>

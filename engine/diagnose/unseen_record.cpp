@@ -59,17 +59,24 @@ double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& veloc
   return std::abs(mean) > beyond * error ? mean : 0.0;
 }
 
+// whether a refit that leaves `least` of the head is beyond chance: three standard deviations; neighbours repeat each other
+bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double least) {
+  constexpr double beyond = 9.0;
+  double const r = std::clamp(autocorrelation(head, 1), 0.0, 0.99);
+  double const variance = least / static_cast<double>(head.size()) * (1.0 + r) / (1.0 - r);
+  return head.squaredNorm() - least > beyond * variance;
+}
+
 // Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its size
 // and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
 bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
   constexpr int directions = 360;
-  constexpr double beyond = 9.0;  // three standard deviations, squared
   Eigen::Index const n = head_rows(left.size());
   Eigen::MatrixXd const head = wave.topRows(n);
   Eigen::VectorXd const wanted = left.head(n) + head * amplitudes;
-  double const size = amplitudes.norm(), start = left.head(n).squaredNorm();
+  double const size = amplitudes.norm();
   Eigen::Vector2d best = amplitudes;
-  double least = start;
+  double least = left.head(n).squaredNorm();
   for (int k = 0; k < directions; ++k) {
     double const angle = 2.0 * std::numbers::pi * k / directions;
     Eigen::Vector2d const turned(size * std::cos(angle), size * std::sin(angle));
@@ -78,9 +85,7 @@ bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen:
     least = energy;
     best = turned;
   }
-  double const r = std::clamp(autocorrelation(left.head(n), 1), 0.0, 0.99);
-  double const variance = least / static_cast<double>(n) * (1.0 + r) / (1.0 - r);
-  if (start - least <= beyond * variance) return false;
+  if (!gains_beyond_chance(left.head(n), least)) return false;
   amplitudes = best;
   return true;
 }
@@ -106,15 +111,12 @@ bool is_of_the_clock(Effect const& effect) { return effect.family() == EffectFam
 // How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is beyond chance
 bool scale_to_head(Eigen::MatrixXd const& columns, Eigen::VectorXd const& left,
                    Eigen::Ref<Eigen::VectorXd> parameters) {
-  constexpr double beyond = 9.0;  // three standard deviations, squared
   Eigen::Index const n = head_rows(left.size());
   Eigen::VectorXd const own = columns.topRows(n) * parameters, wanted = left.head(n) + own;
   if (!(own.squaredNorm() > 0.0)) return false;
   double const share = std::clamp(own.dot(wanted) / own.squaredNorm(), 0.0, 1.0);
   double const least = (wanted - share * own).squaredNorm();
-  double const r = std::clamp(autocorrelation(left.head(n), 1), 0.0, 0.99);
-  double const variance = least / static_cast<double>(n) * (1.0 + r) / (1.0 - r);
-  if (left.head(n).squaredNorm() - least <= beyond * variance) return false;
+  if (!gains_beyond_chance(left.head(n), least)) return false;
   parameters *= share;
   return true;
 }
