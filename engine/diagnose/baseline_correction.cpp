@@ -5,27 +5,23 @@
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/joint_bounds.hpp"
 #include "engine/diagnose/twin_batch.hpp"
 
 namespace torquescope {
 namespace {
 
 // a correction does not lead out of what a joint can have: the fit is within (joint_fit.hpp)
-void keep_possible(Eigen::VectorXd& parameters, Eigen::VectorXd const& fit, JointModel const& model) {
+void keep_possible(Eigen::VectorXd& parameters, Eigen::VectorXd const& fit, JointBounds const& bounds) {
   constexpr double most_taken = 0.5;  // of the inertia
-  std::vector<bool> const signs = model.non_negative();
-  auto const owners = model.column_owners();
-  auto const place_of = [&](char const* name) {
-    auto const found = std::find_if(owners.begin(), owners.end(), [&](auto const& one) { return one.name == name; });
-    return found == owners.end() ? nullptr : &parameters[found - owners.begin()];
-  };
   for (Eigen::Index k = 0; k < parameters.size(); ++k)
-    if (signs[static_cast<std::size_t>(k)]) parameters[k] = std::max(0.0, parameters[k]);
-  if (double* inertia = place_of("inertia"))
-    *inertia = std::max(*inertia, most_taken * fit[inertia - parameters.data()]);
-  if (double* both = place_of("coulomb")) *both = std::max(0.0, *both);
-  double *forward = place_of("coulomb_positive"), *backward = place_of("coulomb_negative");
-  if (forward && backward && *forward < *backward) *forward = *backward = 0.5 * (*forward + *backward);
+    if (bounds.non_negative[static_cast<std::size_t>(k)] || k == bounds.friction)
+      parameters[k] = std::max(0.0, parameters[k]);
+  if (bounds.inertia != JointBounds::none)
+    parameters[bounds.inertia] = std::max(parameters[bounds.inertia], most_taken * fit[bounds.inertia]);
+  if (!bounds.has_directions()) return;
+  double &forward = parameters[bounds.forward], &backward = parameters[bounds.backward];
+  if (forward < backward) forward = backward = 0.5 * (forward + backward);
 }
 
 }  // namespace
@@ -42,6 +38,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
   result.parameters = start;
   auto const n = static_cast<Eigen::Index>(twins);
   Eigen::MatrixXd fits(n, recording_fit.size());
+  JointBounds const bounds = joint_bounds(pipeline.model());
   while (result.rounds < most_rounds && !result.converged) {
     CleanTwin const twin(pipeline.model().twin_joint(result.parameters), loop, track, step_s);
     result.ran_away =
@@ -56,7 +53,7 @@ BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen:
     double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
     Eigen::VectorXd const mismatch = recording_fit - mean.transpose();
     result.parameters += gain * mismatch;
-    keep_possible(result.parameters, recording_fit, pipeline.model());
+    keep_possible(result.parameters, recording_fit, bounds);
     ++result.rounds;
     // without noise all twins are one: then rounding is the yardstick
     constexpr double nothing = std::numeric_limits<double>::min();  // a parameter that this joint has not

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/diagnose/joint_bounds.hpp"
 #include "engine/problem/least_squares.hpp"
 
 namespace torquescope {
 namespace {
 
-constexpr Eigen::Index none = -1;
 constexpr double light_share = 0.03;  // of a joint that a loop can hold, in place of one that is none
 
 // parameters that share one value; one of them as a rule
@@ -20,7 +20,7 @@ class JointFit {
            std::string const& name, double least_share)
       : record_(record),
         owners_(model.column_owners()),
-        signs_(model.non_negative()),
+        bounds_(joint_bounds(model)),
         name_(name),
         least_share_(least_share),
         is_whole_(present.size() == owners_.size()) {
@@ -40,7 +40,7 @@ class JointFit {
     for (Group const& group : groups_) data.columns.push_back(owners_[static_cast<std::size_t>(group.front())]);
     data.recording_names = {name_};
     // as long as all columns are there, they are lent and not copied
-    bool const lends = is_whole_ && inertia_ == none && groups_.size() == owners_.size();
+    bool const lends = is_whole_ && inertia_ == JointBounds::none && groups_.size() == owners_.size();
     data.phi = lends ? std::move(record_.columns) : grouped_columns();
     data.tau = lends ? std::move(record_.torque) : torque_beside_inertia();
     Eigen::VectorXd const solved = solve_weighted(data, {});
@@ -51,7 +51,7 @@ class JointFit {
     record_.parameters = Eigen::VectorXd::Zero(record_.columns.cols());
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (Eigen::Index column : groups_[g]) record_.parameters[column] = solved[static_cast<Eigen::Index>(g)];
-    if (inertia_ != none) record_.parameters[inertia_] = held_inertia_;
+    if (inertia_ != JointBounds::none) record_.parameters[inertia_] = held_inertia_;
   }
 
   Eigen::MatrixXd grouped_columns() const {
@@ -65,7 +65,7 @@ class JointFit {
   }
 
   Eigen::VectorXd torque_beside_inertia() const {
-    if (inertia_ == none) return record_.torque;
+    if (inertia_ == JointBounds::none) return record_.torque;
     return record_.torque - held_inertia_ * record_.columns.col(inertia_);
   }
 
@@ -76,7 +76,7 @@ class JointFit {
     for (auto group = groups_.begin(); group != groups_.end(); ++group) {
       Eigen::Index const column = group->front();
       double const value = record_.parameters[column];
-      if (!signs_[static_cast<std::size_t>(column)] || !(value < 0.0)) continue;
+      if (!bounds_.non_negative[static_cast<std::size_t>(column)] || !(value < 0.0)) continue;
       double const size = value * record_.columns.col(column).norm();
       if (worst != groups_.end() && size >= least) continue;
       worst = group;
@@ -87,34 +87,33 @@ class JointFit {
     return true;
   }
 
-  std::vector<Group>::iterator group_of(std::string const& parameter) {
-    return std::find_if(groups_.begin(), groups_.end(), [&](Group const& group) {
-      return group.size() == 1 && owners_[static_cast<std::size_t>(group.front())].name == parameter;
-    });
+  // the parameter by itself, while it counts
+  std::vector<Group>::iterator group_of(Eigen::Index column) {
+    return std::find(groups_.begin(), groups_.end(), Group{column});
   }
 
   bool hold_friction() {
-    auto const both = group_of("coulomb");
-    if (both != groups_.end() && record_.parameters[both->front()] < 0.0) {
+    auto const both = group_of(bounds_.friction);
+    if (both != groups_.end() && record_.parameters[bounds_.friction] < 0.0) {
       groups_.erase(both);
       record_.held = "dry friction";
       return true;
     }
-    auto const forward = group_of("coulomb_positive"), backward = group_of("coulomb_negative");
+    auto const forward = group_of(bounds_.forward), backward = group_of(bounds_.backward);
     if (forward == groups_.end() || backward == groups_.end() ||
-        record_.parameters[forward->front()] >= record_.parameters[backward->front()])
+        record_.parameters[bounds_.forward] >= record_.parameters[bounds_.backward])
       return false;
     // one value in both directions: an offset
-    forward->push_back(backward->front());
+    forward->push_back(bounds_.backward);
     groups_.erase(backward);
     record_.held = "dry friction";
     return true;
   }
 
   bool hold_inertia() {
-    auto const group = group_of("inertia");
+    Eigen::Index const column = bounds_.inertia;
+    auto const group = group_of(column);
     if (group == groups_.end()) return false;
-    Eigen::Index const column = group->front();
     double const acceleration = record_.columns.col(column).norm();
     if (!(acceleration > 0.0)) return false;
     double const all_of_torque = record_.torque.norm() / acceleration;
@@ -128,12 +127,12 @@ class JointFit {
 
   ProcessedRecord& record_;
   std::vector<RegressorColumn> owners_;
-  std::vector<bool> signs_;
+  JointBounds bounds_;
   std::string const& name_;
   double least_share_;
   bool is_whole_;
   std::vector<Group> groups_;
-  Eigen::Index inertia_ = none;  // held at its bound
+  Eigen::Index inertia_ = JointBounds::none;  // held at its bound
   double held_inertia_ = 0.0;
 };
 
