@@ -5,24 +5,48 @@
 
 #include "engine/diagnose/acting_region.hpp"
 #include "engine/diagnose/map_axes.hpp"
+#include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {
 
+// What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted from its
+// mean and not from where the encoder reads 0. model_columns: those of the model, as `torque` is sampled
+Eigen::VectorXd beside_the_level(ModelStage const& stage, Effect const& effect, Eigen::MatrixXd const& model_columns,
+                                 Eigen::VectorXd torque) {
+  if (!effect.is_level_free()) return torque;
+  auto const& regressor = stage.model().regressor();
+  Eigen::MatrixXd levels(torque.size(), 0);
+  for (std::size_t k = 0; k < regressor.size(); ++k) {
+    auto const& owner = regressor.column_owners()[k];
+    bool const is_constant = !owner.needs_position && !owner.needs_velocity && !owner.needs_acceleration;
+    if (!is_constant && !regressor.terms()[owner.term]->is_dry_friction()) continue;
+    levels.conservativeResize(Eigen::NoChange, levels.cols() + 1);
+    levels.rightCols(1) = model_columns.col(static_cast<Eigen::Index>(k));
+  }
+  if (levels.cols() == 0) return torque;
+  return torque - levels * solve_scaled(levels, torque);
+}
+
+Eigen::VectorXd parameters_of(ModelStage const& stage, std::size_t i) {
+  auto const* effect = stage.model().effects()[i].effect;
+  return stage.parameters().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
+                                    static_cast<Eigen::Index>(effect->n_linear()));
+}
+
 Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
-  auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
-  return columns.plain_columns(*effect, shape) *
-         stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
+  return beside_the_level(stage, *effect, stage.comparison.common.columns_themselves(),
+                          columns.plain_columns(*effect, shape) * parameters_of(stage, i));
 }
 
 // what is cut off at the ends of the record has no place: the filters swing there
 ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
-  auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
-  Eigen::VectorXd const torque = columns.signals(*effect, shape) *
-                                 stage.parameters().segment(first, static_cast<Eigen::Index>(effect->n_linear()));
-  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.rows.motion, stage.parameters());
+  Motion const& motion = stage.comparison.rows.motion;
+  Eigen::VectorXd const torque = beside_the_level(stage, *effect, stage.model().regressor().columns(motion),
+                                                  columns.signals(*effect, shape) * parameters_of(stage, i));
+  MotionAxes const axes = motion_axes(stage.model(), motion, stage.parameters());
   Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
   Eigen::Index const n = torque.size();
   Eigen::VectorXd const kept = stage.pipeline->picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));

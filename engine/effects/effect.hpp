@@ -108,6 +108,8 @@ struct EffectDescription {
   ActsOn acts_on = ActsOn::joint;
   bool needs_baseline = false;   // input beyond the motion: load or motor torque, or baseline parameters in the scales
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
+  bool is_level_free =
+      false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
 };
 
 class Effect {
@@ -128,6 +130,7 @@ class Effect {
   ActsOn acts_on() const { return description_.acts_on; }
   bool needs_baseline() const { return description_.needs_baseline; }
   bool is_dry_friction() const { return description_.is_dry_friction; }
+  bool is_level_free() const { return description_.is_level_free; }
   virtual bool has_memory() const = 0;
   // false: the law can be computed there, but would be something else than its name says; n_shape()
   virtual bool is_plausible(std::span<double const> shape, JointScales const& scales) const;

@@ -100,6 +100,8 @@ double bound_value(Bound const& bound, JointScales const& scales) {
       return f * scales.torque_rms / cube(scales.peak_speed);
     case RelativeTo::torque_per_range:
       return f * scales.torque_rms / scales.position_range;
+    case RelativeTo::torque_per_range2:
+      return f * scales.torque_rms / (scales.position_range * scales.position_range);
     case RelativeTo::torque_per_range3:
       return f * scales.torque_rms / cube(scales.position_range);
   }
@@ -190,6 +192,9 @@ std::string bound_text(Bound const& bound) {
       break;
     case RelativeTo::torque_per_range:
       scale = " x torque rms / position range";
+      break;
+    case RelativeTo::torque_per_range2:
+      scale = " x torque rms / position range^2";
       break;
     case RelativeTo::torque_per_range3:
       scale = " x torque rms / position range^3";

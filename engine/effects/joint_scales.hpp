@@ -74,6 +74,7 @@ enum class RelativeTo {
   torque_per_speed2,    // N m s2/rad2
   torque_per_speed3,    // N m s3/rad3
   torque_per_range,     // N m/rad
+  torque_per_range2,    // N m/rad2
   torque_per_range3,    // N m/rad3
 };
 

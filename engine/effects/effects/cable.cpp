@@ -1,9 +1,11 @@
 // Cables and hoses that bend with the joint: a hardening spring with a loop.
 //
-// Equation   tau = k1 q + k3 q^3 + C z, dz/dx = (1 - z / sign(dx)) / D
+// Equation   tau = k1 x + k2 x^2 + k3 x^3 + C z, dz/dx = (1 - z / sign(dx)) / D; x = q - q_c, q_c: the middle of the travel
 // Memory     z, carried over the distance by the exact exponential
-// Parameters cable_stiffness k1 [N m/rad; N/m], cable_cubic k3 [N m/rad3; N/m3], cable_loop C >= 0 [N m; N];
-//            cable_distance D [rad; m]
+// Zero       an encoder reads 0 where somebody put it, and a hose is straight where it is: a cubic law about another place has a
+//            square about this one
+// Parameters cable_stiffness k1 [N m/rad; N/m], cable_quadratic k2 [N m/rad2; N/m2], cable_cubic k3 [N m/rad3; N/m3],
+//            cable_loop C >= 0 [N m; N]; cable_distance D [rad; m]
 // Signature  position, with a loop much wider than pre-sliding
 // Confused   spring, gravity, presliding
 // Source     PHYSICS.md G3; Dahl 1968 (loop)
@@ -18,7 +20,7 @@ namespace {
 
 class CableLoop {
  public:
-  explicit CableLoop(double distance) : distance_(distance) {}
+  CableLoop(double distance, double centre) : distance_(distance), centre_(centre) {}
 
   void start(JointState const& state) {
     q_ = state.q;
@@ -32,42 +34,53 @@ class CableLoop {
     z_ = full + (z_ - full) * std::exp(-std::abs(step) / distance_);
   }
 
-  std::array<double, 3> row(JointState const& state) const { return {state.q, state.q * state.q * state.q, z_}; }
+  std::array<double, 4> row(JointState const& state) const {
+    double const x = state.q - centre_;
+    return {x, x * x, x * x * x, z_};
+  }
 
  private:
-  double distance_;
+  double distance_, centre_;
   double q_ = 0.0, z_ = 0.0;
 };
 
 class Cable final : public MemoryEffect {
  public:
   Cable()
-      : MemoryEffect({.name = "cable",
-                      .title = "cables and hoses: hardening spring with a loop",
-                      .equation = "k1 q + k3 q^3 + C z, dz/dx = (1 - z / sign(dx)) / D",
-                      .source = "Dahl 1968 (loop); FloBaRoID (cable torque)",
-                      .separated_by = "slow loops over the full range",
-                      .parameters = {{"cable_stiffness",
-                                      "N m/rad",
-                                      "N/m",
-                                      {-5.0, RelativeTo::torque_per_range},
-                                      {5.0, RelativeTo::torque_per_range}},
-                                     {"cable_cubic",
-                                      "N m/rad3",
-                                      "N/m3",
-                                      {-20.0, RelativeTo::torque_per_range3},
-                                      {20.0, RelativeTo::torque_per_range3}},
-                                     {"cable_loop", "N m", "N", {0.0}, {1.0, RelativeTo::torque}},
-                                     shape_parameter("cable_distance", "rad", "m", {0.02, RelativeTo::position_range},
-                                                     {0.5, RelativeTo::position_range}, Spacing::logarithmic)},
-                      .families = {EffectFamily::static_position, EffectFamily::reversal},
-                      .signature = {SignatureAxis::position, SignatureAxis::since_velocity_reversal},
-                      .parity = Parity::neither}) {}
+      : MemoryEffect(
+            {.name = "cable",
+             .title = "cables and hoses: hardening spring with a loop",
+             .equation =
+                 "k1 x + k2 x^2 + k3 x^3 + C z, dz/dx = (1 - z / sign(dx)) / D, x = q - q_c (middle of the travel)",
+             .source = "Dahl 1968 (loop); FloBaRoID (cable torque)",
+             .separated_by = "slow loops over the full range",
+             .parameters = {{"cable_stiffness",
+                             "N m/rad",
+                             "N/m",
+                             {-5.0, RelativeTo::torque_per_range},
+                             {5.0, RelativeTo::torque_per_range}},
+                            {"cable_quadratic",
+                             "N m/rad2",
+                             "N/m2",
+                             {-10.0, RelativeTo::torque_per_range2},
+                             {10.0, RelativeTo::torque_per_range2}},
+                            {"cable_cubic",
+                             "N m/rad3",
+                             "N/m3",
+                             {-20.0, RelativeTo::torque_per_range3},
+                             {20.0, RelativeTo::torque_per_range3}},
+                            {"cable_loop", "N m", "N", {0.0}, {1.0, RelativeTo::torque}},
+                            shape_parameter("cable_distance", "rad", "m", {0.02, RelativeTo::position_range},
+                                            {0.5, RelativeTo::position_range}, Spacing::logarithmic)},
+             .families = {EffectFamily::static_position, EffectFamily::reversal},
+             .signature = {SignatureAxis::position, SignatureAxis::since_velocity_reversal},
+             .parity = Parity::neither,
+             .is_level_free = true}) {}
 
  private:
-  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&,
+  std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
-    return memory_of(CableLoop(shape[0]), lanes);
+    return memory_of(CableLoop(shape[0], scales.position_centre), lanes);
   }
 };
 

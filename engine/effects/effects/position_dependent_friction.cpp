@@ -34,7 +34,8 @@ class PositionDependentFriction final : public InstantEffect {
              .families = {EffectFamily::static_position, EffectFamily::load},
              .signature = {SignatureAxis::position, SignatureAxis::velocity},
              .parity = Parity::odd,
-             .is_dry_friction = true}) {}
+             .is_dry_friction = true,
+             .is_level_free = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

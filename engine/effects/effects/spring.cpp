@@ -26,7 +26,8 @@ class Spring final : public InstantEffect {
                                        {5.0, RelativeTo::torque_per_range}}},
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},
-                       .parity = Parity::even}) {}
+                       .parity = Parity::even,
+                       .is_level_free = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

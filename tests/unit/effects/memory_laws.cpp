@@ -182,9 +182,9 @@ TEST(Cable, LosesEnergyInItsLoopAndNoneInItsSpring) {
       }
     return work;
   };
-  EXPECT_NEAR(cycle_work({2.0, 3.0, 0.0, 0.1}), 0.0, 1e-12);
-  EXPECT_GT(cycle_work({0.0, 0.0, 1.0, 0.1}), 1.0);
-  EXPECT_LT(cycle_work({0.0, 0.0, 1.0, 0.1}), 2.0);  // a rectangle of height 2 and length 1
+  EXPECT_NEAR(cycle_work({2.0, -1.0, 3.0, 0.0, 0.1}), 0.0, 1e-12);
+  EXPECT_GT(cycle_work({0.0, 0.0, 0.0, 1.0, 0.1}), 1.0);
+  EXPECT_LT(cycle_work({0.0, 0.0, 0.0, 1.0, 0.1}), 2.0);  // a rectangle of height 2 and length 1
 }
 
 // amplitude and phase of the column under a sine of the acceleration, against the transfer function
