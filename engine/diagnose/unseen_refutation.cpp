@@ -1,6 +1,7 @@
 #include "engine/diagnose/unseen_refutation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace torquescope {
 namespace {
@@ -15,6 +16,8 @@ bool belongs_to_a_recording(Effect const& effect) {
 
 bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
+  if (!std::isfinite(energies.floor))
+    return energies.after > energies.before && energies.moved >= quarter * energies.before;
   double const enough = quarter * energies.before, promised = energies.before - energies.floor;
   bool const is_kept = energies.before - energies.after >= quarter * promised;
   return !is_kept && promised >= enough && energies.moved >= enough;

@@ -5,11 +5,12 @@
 // Refuted    when the model with its names keeps less than a quarter of what its own twins of these recordings promise, though they
 //            promise that a quarter of the residual's energy goes, and though the names change the prediction by as
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
-//            spares a right law on a recording that has something else wrong with it
+//            spares a right law on a recording that has something else wrong with it. Where nobody knows what twins promise (a
+//            loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
 // Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
 //            that are printed with names are those of a model nothing was fitted to
-// Energies   of residuals, summed over rows and recordings; NaN for an unknown floor refutes nothing
+// Energies   of residuals, summed over rows and recordings
 // Threads    free functions
 // Source     PHYSICS.md section 2 step 9: what helps only where it was fitted is no physics
 
@@ -19,7 +20,7 @@ namespace torquescope {
 
 struct UnseenEnergies {
   double before = 0.0, after = 0.0;
-  double floor = 0.0;  // that twins with the names leave; 0 where they run away, which a right law's do not
+  double floor = 0.0;  // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
   double moved = 0.0;  // of the difference between both predictions
 };
 

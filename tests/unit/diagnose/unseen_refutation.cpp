@@ -13,16 +13,21 @@ using torquescope::speak_against;
 
 TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
   EXPECT_TRUE(speak_against({.before = 4.0, .after = 5.0, .floor = 2.0, .moved = 3.0}));
-  EXPECT_TRUE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0})) << "a crumb of what its twins promise";
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.4, .floor = 2.0, .moved = 3.0})) << "it keeps more than a quarter";
+  EXPECT_TRUE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0}))
+      << "a crumb of what its twins promise";
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.4, .floor = 2.0, .moved = 3.0}))
+      << "it keeps more than a quarter";
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 5.0, .floor = 3.5, .moved = 3.0})) << "twins promise little";
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = 2.0, .moved = 0.5}))
       << "the rest is another matter";
 }
 
-TEST(UnseenRefutation, NeedsAFloor) {
+TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {
   double const unknown = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 9.0, .floor = unknown, .moved = 9.0}));
+  EXPECT_TRUE(speak_against({.before = 4.0, .after = 9.0, .floor = unknown, .moved = 9.0}));
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.9, .floor = unknown, .moved = 3.0}))
+      << "no promise, none broken";
+  EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = unknown, .moved = 0.5})) << "hardly another one";
 }
 
 TEST(UnseenRefutation, AsksNothingOfWhatBelongsToOneRecording) {
