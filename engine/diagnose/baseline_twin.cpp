@@ -26,9 +26,10 @@ struct Attempt {
 
 TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
 
-// reads_colour: of the torque noise, from what the model leaves
-Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& record, RecordPipeline const& pipeline,
+Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
                 TwinOptions const& options, TwinWorkers const& workers) {
+  // where no law tells what of the torque is noise, it is read from what the model leaves
+  bool const reads_colour = options.reads_colour || loop.source == LoopSource::tracking;
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
   Attempt result{std::move(loop)};
@@ -147,16 +148,15 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   double const inertia = fitted_inertia(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
-  // a controller that is known tells what is noise, even where its law is too poor to be simulated
-  bool const has_no_reference = recording.reference.size() != recording.position.size();
-  Attempt made = attempt(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()), has_no_reference,
-                         record, pipeline, options, workers);
+  auto const attempt_in = [&](RecordedLoop loop) {
+    return attempt(std::move(loop), record, pipeline, options, workers);
+  };
+  Attempt made = attempt_in(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()));
   if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt(tracking_loop(in_loop, inertia, filter), has_no_reference, record, pipeline, options, workers);
+    made = attempt_in(tracking_loop(in_loop, inertia, filter));
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
-    Attempt tracking =
-        attempt(tracking_loop(in_loop, inertia, filter), has_no_reference, record, pipeline, options, workers);
+    Attempt tracking = attempt_in(tracking_loop(in_loop, inertia, filter));
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }

@@ -43,6 +43,7 @@ struct TwinOptions {
   std::uint32_t recording = 0;
   WanderReading wander = WanderReading::beside_motion;
   std::shared_ptr<RecordedLoop const> loop{};  // as decided before; none: decide
+  bool reads_colour = false;                   // of the torque noise, from what the model leaves, whatever the law says
   std::optional<TwinLevels> levels{};          // known: only the parameters are corrected; none: measure
 };
 

@@ -3,49 +3,91 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
-#include "engine/base/contract.hpp"
+#include "engine/diagnose/candidate_columns.hpp"
 
 namespace torquescope {
+
 namespace {
 
-// of a sample period
-constexpr double longest = 0.6;
-// Without a reference nobody knows the controller's rate either: a torque may be the one told at its row, the one that
-// acts then, or the one that acted until then
-constexpr double longest_without_reference = 0.99;
+constexpr double certain_q = 0.05;
+constexpr double clear_z = 4.0;  // one direction, not searched for: far beyond chance
+
+struct LateTorque {
+  double late_s = 0.0, z = 0.0;
+  double gain = 0.0;  // energy, less what chance gives
+};
+
+// no later than a row may be for all that is known of it: one-sided 95 %
+bool is_timing(LateTorque const& found, double already_s, double rate_hz) {
+  constexpr double one_sided = 1.64;
+  double const doubt = one_sided * std::abs(found.late_s) / std::max(one_sided, found.z);
+  return (std::abs(already_s + found.late_s) - doubt) * rate_hz <= longest_timing;
+}
+
+// Of the recording as it came, beside the plain model. The span is that of a row: a longer one is another law, which a torque
+// that wanders can make use of
+std::optional<LateTorque> short_delay(ModelStage const& stage, Effect const& delay, double rate_hz) {
+  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
+  OrthonormalGroup const group = columns.group(delay, std::array{longest_timing / rate_hz});
+  if (group.rank() == 0) return std::nullopt;
+  auto const& rows = stage.comparison.rows;
+  Eigen::VectorXd const own = group.q.transpose() * stage.mismatch();
+  Eigen::MatrixXd const twins = group.q.transpose() * (rows.twins.colwise() - rows.twin_mean);
+  double const variance = twins.squaredNorm() / static_cast<double>(rows.n_twins() - 1);
+  if (!(variance > 0.0)) return std::nullopt;
+  return LateTorque{bounded_gain(group, own).parameters[0], own.norm() / std::sqrt(variance),
+                    own.squaredNorm() - variance};
+}
+
+// of the recording as it came: by what was named first, or by what would have been if it explained more of it
+double first_gain(Selection const& selection) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < selection.first_scan.size(); ++i) {
+    EffectScan const& one = selection.first_scan[i];
+    if (!selection.accepted.empty() && one.effect == selection.accepted.front().effect) return one.gain;
+    if (one.is_testable && selection.first_q[i] <= certain_q) most = std::max(most, one.gain);
+  }
+  return most;
+}
 
 }  // namespace
 
-std::optional<double> delay_within_a_sample(Selection const& selection, double rate_hz) {
+std::optional<double> delay_within_a_sample(Selection const& selection, double already_s, double rate_hz) {
+  constexpr double nearly_as_good = 0.9;  // as equivalent_effects.hpp
   static Effect const* const delay = find_effect("delay");
-  double const most = selection.final->twin->colour ? longest_without_reference : longest;
+  if (!selection.is_gate_open) return std::nullopt;
   auto const& effects = selection.final->model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (effects[i].effect != delay) continue;
-    double const late_s = selection.final->model().effect_parameters(i, selection.final->parameters()).front();
-    if (std::abs(late_s) * rate_hz <= most) return late_s;
+    LateTorque const found{selection.final->model().effect_parameters(i, selection.final->parameters()).front(),
+                           selection.accepted[i].scan.z};
+    if (is_timing(found, already_s, rate_hz)) return found.late_s;
   }
-  return std::nullopt;
+  auto const instead = short_delay(*selection.baseline, *delay, rate_hz);
+  if (!instead || instead->z < clear_z || instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;
+  return is_timing(*instead, already_s, rate_hz) ? std::optional(instead->late_s) : std::nullopt;
 }
 
 Recording with_torque_earlier(Recording recording, double late_s) {
   double const samples = late_s * recording.rate_hz;
-  TORQUESCOPE_EXPECT(std::abs(samples) < 1.0);
   Eigen::VectorXd const read = recording.torque;
-  Eigen::Index const step = samples < 0.0 ? -1 : 1, last = read.size() - 1;
-  double const share = std::abs(samples);
+  Eigen::Index const last = read.size() - 1;
+  auto const whole = static_cast<Eigen::Index>(std::floor(samples));
+  double const share = samples - std::floor(samples);
+  auto const at = [&](Eigen::Index k) { return read[std::clamp<Eigen::Index>(k, 0, last)]; };
   for (Eigen::Index k = 0; k <= last; ++k)
-    recording.torque[k] = (1.0 - share) * read[k] + share * read[std::clamp<Eigen::Index>(k + step, 0, last)];
+    recording.torque[k] = (1.0 - share) * at(k + whole) + share * at(k + whole + 1);
   return recording;
 }
 
 std::string timing_remark(double late_s, double rate_hz) {
   return fmt::format(
       "torque taken {:.2g} ms {} than its rows say, {:.2g} of a sample: it was read there, as drives do that are "
-      "faster "
-      "than their log",
+      "faster than their log",
       1e3 * std::abs(late_s), late_s > 0.0 ? "earlier" : "later", std::abs(late_s) * rate_hz);
 }
 

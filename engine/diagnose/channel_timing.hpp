@@ -2,11 +2,13 @@
 // Where within a sample the torque channel was read: not known, not asked, and no fault.
 //
 // Why        twins hold the torque of a row from its sample to the next, as a controller does that runs at the rate of the
-//            recording. A drive whose loop is faster than its log, or one that logs the current of the instant, writes a torque
-//            that comes half a sample later to its motion. Nobody can tell that from a channel that is late by as much
-// Rule       a delay that the search names, and that is no more than half a sample (and a tenth of one, for what a current loop
-//            needs itself; one sample where there is no reference, so that no law tells which torque a row holds), is taken out of
-//            the recordings, and the search begins again. A longer one is a finding
+//            recording. A drive whose loop is faster than its log writes the torque of the instant, which comes half a sample
+//            later to its motion, or the mean since the row before, a whole sample later; one that computes for a sample is a
+//            whole one earlier. Nobody can tell that from a channel that is late by as much
+// Rule       a delay that the search names, and that is for all that is known no more than one sample (and a tenth of one, for
+//            what a current loop needs itself), is taken out of the recordings, and the search begins again; also one that explains by itself nine
+//            tenths of what was named first, or of what comes closest: when a row was
+//            read is asked before any physics. A longer one is a finding
 // Threads    free functions
 // Units      s
 
@@ -17,10 +19,14 @@
 
 namespace torquescope {
 
-// how late the named delay is when it is within that; nothing when none is named, or a longer one
-std::optional<double> delay_within_a_sample(Selection const& selection, double rate_hz);
+// how late the torque is when it is within that; nothing when no delay is found, or a longer one
+// already_s: what was taken out before
+std::optional<double> delay_within_a_sample(Selection const& selection, double already_s, double rate_hz);
 
-// the torque as if it had been read late_s earlier, by straight lines between samples; |late_s| below a sample period
+// no row says more of a torque than when it was read, to this many samples
+inline constexpr double longest_timing = 1.1;
+
+// the torque as if it had been read late_s earlier, by straight lines between samples; the ends hold their value
 Recording with_torque_earlier(Recording recording, double late_s);
 
 // for people: what was done to the recordings

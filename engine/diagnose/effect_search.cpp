@@ -79,6 +79,7 @@ Round EffectSearch::next_round() {
   std::vector<double> const q = q_of(scans);
   bool const is_open = opens(columns, scans, q);
   note_not_tried(selection_, scans, q, options_->q, is_open);
+  if (options_->only_gate) return {};
   std::vector<Trial> trials = is_open ? refined_trials(columns, scans, q) : std::vector<Trial>{};
   tell("search", n_candidates, n_candidates);
   Round round;

@@ -42,6 +42,7 @@ struct SelectionOptions {
   double q = 0.05;
   std::size_t max_effects = 5;
   std::string shape_optimiser = "de";
+  bool only_gate = false;  // whether something is missing; nothing is named
 };
 
 struct AcceptedEffect {

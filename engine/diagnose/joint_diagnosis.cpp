@@ -71,7 +71,7 @@ class JointWork {
 
   Diagnosis run() {
     diagnose();
-    bool const was_led = selection_.baseline && selection_.baseline->twin->colour.has_value();
+    bool const was_led = selection_.baseline && input_.train.reference.size() == 0;
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
     if (was_led) diagnosis_.reason += std::string(" ") + without_reference_sentence;
@@ -104,6 +104,7 @@ class JointWork {
       });
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
+    selection_ = doubt_noise(setting, input_.selection, std::move(selection_), progress_);
     Remainder const remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     describe_baseline();
@@ -150,10 +151,8 @@ class JointWork {
     if (selection_.keeps_reversals) joint_.rows = "with reversals";
     joint_.loop_source = source_word(stage.twin->loop.source);
     joint_.loop_remark = stage.twin->loop.remark;
-    if (torque_late_s_ != 0.0) {
-      if (!joint_.loop_remark.empty()) joint_.loop_remark += "; ";
-      joint_.loop_remark += timing_remark(torque_late_s_, input_.train.rate_hz);
-    }
+    if (torque_late_s_ != 0.0) remark(timing_remark(torque_late_s_, input_.train.rate_hz));
+    if (stage.twin->colour) remark(colour_remark(*stage.twin->colour, joint_.unit_torque));
     joint_.torque_noise = stage.twin->loop.loop.torque_noise.std;
     joint_.disturbance = stage.twin->disturbance.std;
     joint_.friction_wander = stage.twin->friction_wander.std;
@@ -177,6 +176,11 @@ class JointWork {
     joint_.cv_relerr = cv_relerr(stage);
     joint_.augmented_cv_relerr = cv_relerr(final_stage());
     joint_.power_sentence = power_sentence(stage);
+  }
+
+  void remark(std::string const& what) {
+    if (!joint_.loop_remark.empty()) joint_.loop_remark += "; ";
+    joint_.loop_remark += what;
   }
 
   double cv_relerr(ModelStage const& stage) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/error.hpp"
 #include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/friction_buildup.hpp"
 
@@ -13,13 +14,31 @@ Selection search_in_time(StageSetting const& setting, Recording& recording, Sele
   constexpr int most_times = 2;  // the second for what other effects hid of it
   Selection selection = select_effects(setting, options, progress);
   for (int i = 0; i < most_times; ++i) {
-    auto const more_s = delay_within_a_sample(selection, recording.rate_hz);
-    if (!more_s || std::abs(late_s + *more_s) * recording.rate_hz >= 1.0) break;
+    auto const more_s = delay_within_a_sample(selection, late_s, recording.rate_hz);
+    if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);
     selection = select_effects(setting, options, progress);
   }
   return selection;
+}
+
+Selection doubt_noise(StageSetting& setting, SelectionOptions const& options, Selection selection,
+                      StageSink const& progress) {
+  bool const has_colour = selection.baseline->twin->colour.has_value();
+  if (has_colour || !judge_remainder(selection, *selection.final).is_unexplained) return selection;
+  StageSetting coloured = setting;
+  coloured.reads_colour = true;
+  SelectionOptions gate = options;
+  gate.only_gate = true;
+  try {
+    Selection among_coloured = select_effects(coloured, gate, progress);
+    if (among_coloured.is_gate_open) return selection;
+    setting.reads_colour = true;
+    return among_coloured;
+  } catch (Error const&) {
+    return selection;  // the recording itself was good enough for twins without
+  }
 }
 
 Remainder judge_with_reversals(StageSetting& setting, SelectionOptions const& options, Selection& selection,

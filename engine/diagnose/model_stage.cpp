@@ -18,6 +18,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   TwinOptions options;
   options.seed = setting.seed;
   options.wander = setting.wander;
+  options.reads_colour = setting.reads_colour;
   options.loop = setting.loop;
   options.twins = twins_per_round;
   auto const make_twin = [&] {

@@ -32,9 +32,10 @@ struct StageSetting {
   std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
-  bool keeps_reversals = false;                   // rows at reversals count (friction_buildup.hpp)
-  double least_inertia_share = 0.0;               // of the model without effects (joint_fit.hpp); 0: as a rule
-  TwinExchange* exchange = nullptr;               // who shares the twins; nobody
+  bool reads_colour = false;         // noise as the model leaves it, whatever the law says (torque_colour.hpp)
+  bool keeps_reversals = false;      // rows at reversals count (friction_buildup.hpp)
+  double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
+  TwinExchange* exchange = nullptr;  // who shares the twins; nobody
 
   TwinWorkers workers() const { return {threads, exchange}; }
 };

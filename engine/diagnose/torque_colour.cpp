@@ -1,5 +1,7 @@
 #include "engine/diagnose/torque_colour.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -138,6 +140,11 @@ UnitNoise unit_noise(Autoregression const& model, BandEnergies const& energies, 
   return result;
 }
 
+double deviance(Eigen::VectorXd const& wanted, Eigen::VectorXd const& model, Eigen::VectorXd const& relative) {
+  Eigen::ArrayXd const ratio = wanted.array() / model.array();
+  return (2.0 * (ratio - 1.0 - ratio.log()) / relative.array().square()).sum();
+}
+
 struct BandFit {
   double white = 0.0, slow = 0.0;  // variances
   double deviance = std::numeric_limits<double>::infinity();
@@ -173,10 +180,46 @@ BandFit fit_bands(Eigen::VectorXd const& wanted, Eigen::VectorXd const& none, Un
     // no band is quieter than a thousandth of what it has: a likelihood needs something to compare with
     model = model.cwiseMax(1e-3 * wanted);
   }
-  Eigen::ArrayXd const ratio = wanted.array() / model.array();
-  fit.deviance = (2.0 * (ratio - 1.0 - ratio.log()) / relative.array().square()).sum();
+  fit.deviance = deviance(wanted, model, relative);
   return fit;
 }
+
+// energies of the recording, and of twins as they are
+struct Bands {
+  BandEnergies of;
+  Eigen::VectorXd wanted{}, twins{};
+  bool ran_away = false;
+
+  bool can_tell() const {
+    constexpr Eigen::Index fewest = 2;
+    return !ran_away && of.count() >= fewest && wanted.minCoeff() > 0.0;
+  }
+};
+
+Bands bands_of(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
+               TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
+  Bands bands{BandEnergies(recording, pipeline)};
+  if (bands.of.count() == 0) return bands;
+  Eigen::MatrixXd all(bands.of.count(), static_cast<Eigen::Index>(twins));
+  bands.ran_away =
+      gather_twins(twin, pipeline, address, {0, twins}, workers, {column_each(all)}, [&](VisitedTwin const& visited) {
+        all.col(static_cast<Eigen::Index>(visited.index)) = bands.of(visited.record);
+      });
+  bands.twins = all.rowwise().mean();
+  bands.wanted = bands.of(recording);
+  return bands;
+}
+
+// from the cut-off to an octave below the lowest band
+std::vector<double> corners_to_try(Bands const& bands, RecordPipeline const& pipeline) {
+  double const lowest = 0.5 * pipeline.kept_rate_hz() / bands.of.longest_period();
+  double const top = pipeline.cutoff_hz() > 0.0 ? pipeline.cutoff_hz() : 0.25 * pipeline.kept_rate_hz();
+  std::vector<double> corners;
+  for (double corner = top; corner > 0.999 * lowest; corner /= std::numbers::sqrt2) corners.push_back(corner);
+  return corners;
+}
+
+constexpr double of_two_parameters = 4.0;  // Akaike
 
 }  // namespace
 
@@ -185,36 +228,23 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
   TORQUESCOPE_EXPECT(twins >= 8);
   TorqueColour result;
   result.white_std = twin.loop().torque_noise.std;
-  BandEnergies const energies(recording, pipeline);
-  constexpr Eigen::Index fewest_bands = 2;
-  if (energies.count() < fewest_bands) return result;
-
   // what a twin has without any torque noise: encoder, reversals, the loop
   TwinLoop loop = twin.loop();
   put_colour({}, pipeline.rate_hz(), loop);
   CleanTwin const quiet(twin.joint(), loop, twin.track(), twin.step_s());
-  Eigen::MatrixXd of_twins(energies.count(), static_cast<Eigen::Index>(twins));
-  result.ran_away = gather_twins(quiet, pipeline, address, {0, twins}, workers, {column_each(of_twins)},
-                                 [&](VisitedTwin const& visited) {
-                                   of_twins.col(static_cast<Eigen::Index>(visited.index)) = energies(visited.record);
-                                 });
-  if (result.ran_away) return result;
-  Eigen::VectorXd const none = of_twins.rowwise().mean();
-  Eigen::VectorXd const wanted = energies(recording);
-  if (wanted.minCoeff() <= 0.0) return result;
+  Bands const bands = bands_of(recording, quiet, pipeline, address, twins, workers);
+  result.ran_away = bands.ran_away;
+  if (!bands.can_tell()) return result;
 
-  UnitNoise const white_noise = unit_noise(white(1.0), energies, recording, pipeline, address);
-  BandFit best = fit_bands(wanted, none, white_noise, nullptr);
+  UnitNoise const white_noise = unit_noise(white(1.0), bands.of, recording, pipeline, address);
+  BandFit best = fit_bands(bands.wanted, bands.twins, white_noise, nullptr);
   result.variance_error = white_noise.relative.maxCoeff();
   double corner_hz = 0.0;
-  constexpr double of_two_parameters = 4.0;  // Akaike
   double least = best.deviance - of_two_parameters;
-  double const lowest = 0.5 * pipeline.kept_rate_hz() / energies.longest_period();
-  double const top = pipeline.cutoff_hz() > 0.0 ? pipeline.cutoff_hz() : 0.25 * pipeline.kept_rate_hz();
-  for (double corner = top; corner > 0.999 * lowest; corner /= std::numbers::sqrt2) {
+  for (double const corner : corners_to_try(bands, pipeline)) {
     UnitNoise const slow =
-        unit_noise(one_pole(1.0, corner, pipeline.rate_hz()), energies, recording, pipeline, address);
-    BandFit const tried = fit_bands(wanted, none, white_noise, &slow);
+        unit_noise(one_pole(1.0, corner, pipeline.rate_hz()), bands.of, recording, pipeline, address);
+    BandFit const tried = fit_bands(bands.wanted, bands.twins, white_noise, &slow);
     if (!(tried.deviance < least)) continue;
     least = tried.deviance;
     best = tried;
@@ -231,6 +261,13 @@ void put_colour(TorqueColour const& colour, double rate_hz, TwinLoop& loop) {
   loop.torque_noise = white(colour.white_std);
   loop.torque_noise_variance_error = colour.variance_error;
   loop.slow_torque_noise = colour.slow_std > 0.0 ? one_pole(colour.slow_std, colour.corner_hz, rate_hz) : white(0.0);
+}
+
+std::string colour_remark(TorqueColour const& colour, std::string const& unit) {
+  std::string const white = fmt::format("the noise of the torque is read from what the model leaves: {:.2g} {} white",
+                                        colour.white_std, unit);
+  if (!(colour.slow_std > 0.0)) return white;
+  return white + fmt::format(", {:.2g} {} below {:.2g} Hz", colour.slow_std, unit, colour.corner_hz);
 }
 
 }  // namespace torquescope

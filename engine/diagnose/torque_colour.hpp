@@ -1,8 +1,9 @@
 #pragma once
-// The noise of the torque measurement where no controller tells it: how much of it is white, how much slow, and how slow.
+// The noise of the torque where no controller tells it: how much of it is white, how much slow, and how slow.
 //
-// Without a reference nobody knows what the motor was told, so noise can only be read from what the model leaves. A torque
-// channel whose noise has a memory (amplifiers, filters, friction of bearings) is louder at a few hertz than its white part
+// Without a reference nobody knows what the motor was told, so noise can only be read from what the model leaves; nor does a law tell
+// it that is only a rougher copy of a controller (a drive that is faster than its log), nor what acts on the joint from outside and
+// has a memory. A torque channel whose noise has one (amplifiers, filters, friction of bearings) is louder at a few hertz than its white part
 // lets expect, and twins with white noise alone would take all of that for missing physics.
 //
 // Model      white noise plus white noise through one pole (corner_hz), both only logged
@@ -19,6 +20,7 @@
 // Source     McCullagh, Nelder 1989, 8.3 (gamma likelihood of spectral estimates: Whittle 1953)
 
 #include <cstddef>
+#include <string>
 
 #include "engine/diagnose/record_pipeline.hpp"
 #include "engine/diagnose/twin_batch.hpp"
@@ -38,5 +40,8 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
 
 // into a loop: the slow part goes beside the white one
 void put_colour(TorqueColour const& colour, double rate_hz, TwinLoop& loop);
+
+// for people
+std::string colour_remark(TorqueColour const& colour, std::string const& unit);
 
 }  // namespace torquescope
