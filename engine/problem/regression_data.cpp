@@ -31,51 +31,70 @@ bool same_bits(Eigen::VectorXd const& vector, double const* column) {
   return vector.size() > 0 && std::memcmp(vector.data(), column, bytes) == 0;
 }
 
-// the columns of every term, one term after the other. What is not wanted afterwards goes as soon as no later term needs it,
-// velocity and acceleration when phi holds them
+std::span<double const> numbers_of(Eigen::VectorXd const& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+std::span<double const> column_or(Eigen::VectorXd const& signal, std::optional<Eigen::Index> column,
+                                  Eigen::MatrixXd const& phi) {
+  if (column) return {phi.col(*column).data(), static_cast<std::size_t>(phi.rows())};
+  return numbers_of(signal);
+}
+
+struct Needs {
+  bool position = false, velocity = false, acceleration = false, time = false;
+
+  void add(RegressorColumn const& column) {
+    position = position || column.needs_position;
+    velocity = velocity || column.needs_velocity;
+    acceleration = acceleration || column.needs_acceleration;
+    time = time || column.needs_time;
+  }
+};
+
+// The columns of every term, one term after the other. A used up motion goes as soon as no later term needs it, velocity and
+// acceleration anyway when phi holds them
 void make_columns(Motion& motion, Regressor const& regressor, RowMotion row_motion, RegressionData& rows) {
   constexpr Eigen::Index block_rows = 4096;
   Eigen::Index const n = motion.q.size();
-  auto const& columns = regressor.column_owners();
   // pages of phi are taken from the system when they are written, column by column
-  rows.phi.resize(n, static_cast<Eigen::Index>(columns.size()));
+  rows.phi.resize(n, static_cast<Eigen::Index>(regressor.size()));
   in_huge_pages(rows.phi);
-  auto const stretch = [&](Eigen::VectorXd const& signal, std::optional<Eigen::Index> same_column, Eigen::Index first,
-                           Eigen::Index count) -> Eigen::VectorXd {
-    if (same_column) return rows.phi.col(*same_column).segment(first, count);
-    if (signal.size() == 0) return Eigen::VectorXd::Zero(count);  // freed: nobody looks
-    return signal.segment(first, count);
-  };
   RegressionData::SameColumns& same = rows.same_columns;
   Eigen::Index column = 0;
   for (std::size_t term = 0; term < regressor.terms().size(); ++term) {
-    bool position = false, velocity = false, acceleration = false, time = false;
-    Eigen::Index width = 0;
-    for (auto const& one : columns) {
-      width += one.term == term;
-      if (one.term < term) continue;
-      position = position || one.needs_position;
-      velocity = velocity || one.needs_velocity;
-      acceleration = acceleration || one.needs_acceleration;
-      time = time || one.needs_time;
+    Needs now, from_now_on;
+    Eigen::Index end = column;
+    for (auto const& one : regressor.column_owners()) {
+      end += one.term == term;
+      if (one.term == term) now.add(one);
+      if (one.term >= term) from_now_on.add(one);
     }
     if (row_motion == RowMotion::used_up) {
-      if (!time) motion.time_s = Eigen::VectorXd();
-      if (!position) motion.q = Eigen::VectorXd();
-      if (!velocity) motion.dq = Eigen::VectorXd();
-      if (!acceleration) motion.ddq = Eigen::VectorXd();
+      if (!from_now_on.time) motion.time_s = Eigen::VectorXd();
+      if (!from_now_on.position) motion.q = Eigen::VectorXd();
+      if (!from_now_on.velocity) motion.dq = Eigen::VectorXd();
+      if (!from_now_on.acceleration) motion.ddq = Eigen::VectorXd();
     }
+    Motion block;
+    block.rate_hz = motion.rate_hz;
     for (Eigen::Index first = 0; first < n; first += block_rows) {
       Eigen::Index const count = std::min(block_rows, n - first);
-      Motion const block{motion.rate_hz,
-                         stretch(motion.time_s, {}, first, count),
-                         stretch(motion.q, {}, first, count),
-                         stretch(motion.dq, same.velocity, first, count),
-                         stretch(motion.ddq, same.acceleration, first, count),
-                         {}};
-      regressor.columns_of_term(block, term, rows.phi.block(first, column, count, width));
+      auto const velocity = column_or(motion.dq, same.velocity, rows.phi);
+      auto const acceleration = column_or(motion.ddq, same.acceleration, rows.phi);
+      auto const stretch = [&](bool needed, std::span<double const> signal, Eigen::VectorXd& out) {
+        if (needed)
+          out = Eigen::Map<Eigen::VectorXd const>(signal.data() + first, count);
+        else if (out.size() != count)
+          out.setZero(count);  // nobody looks
+      };
+      stretch(now.time, numbers_of(motion.time_s), block.time_s);
+      stretch(now.position, numbers_of(motion.q), block.q);
+      stretch(now.velocity, velocity, block.dq);
+      stretch(now.acceleration, acceleration, block.ddq);
+      regressor.columns_of_term(block, term, rows.phi.block(first, column, count, end - column));
     }
-    for (Eigen::Index const end = column + width; column < end; ++column) {
+    for (; column < end; ++column) {
       for (auto [signal, place] : {std::pair(&motion.dq, &same.velocity), std::pair(&motion.ddq, &same.acceleration)}) {
         if (!same_bits(*signal, rows.phi.col(column).data())) continue;
         *signal = Eigen::VectorXd();
@@ -143,12 +162,6 @@ void append(Eigen::VectorXd& whole, Eigen::VectorXd&& part) {
   whole.tail(part.size()) = part;
 }
 
-std::span<double const> column_or(Eigen::VectorXd const& signal, std::optional<Eigen::Index> column,
-                                  Eigen::MatrixXd const& phi) {
-  if (column) return {phi.col(*column).data(), static_cast<std::size_t>(phi.rows())};
-  return {signal.data(), static_cast<std::size_t>(signal.size())};
-}
-
 void drop_motion(RegressionData& data) {
   for (auto* signal : {&data.time_s, &data.q, &data.dq, &data.ddq}) *signal = Eigen::VectorXd();
   data.same_columns = {};
@@ -191,8 +204,7 @@ void append_rows(RegressionData& data, std::string const& recording_name, Motion
   bool const is_first = data.recording_names.empty();
   double const rate_hz = motion.rate_hz;
   TORQUESCOPE_EXPECT(row_motion != RowMotion::once || is_first);
-  if (row_motion == RowMotion::used_up)
-    data.note_directions({motion.dq.data(), static_cast<std::size_t>(motion.dq.size())});
+  if (row_motion == RowMotion::used_up) data.note_directions(numbers_of(motion.dq));
   auto part = rows_of(std::move(motion), options, regressor, filter, row_motion);
   if (row_motion == RowMotion::used_up) drop_motion(part);
   if (is_first) {
