@@ -12,12 +12,12 @@
 
 namespace torquescope {
 
-void ask_for_huge_pages(std::span<double> unwritten);
+void ask_for_huge_pages(std::span<std::byte> unwritten);
 
 // of a matrix or vector of Eigen's that was made or resized just now
 template <class Matrix>
 Matrix& in_huge_pages(Matrix& unwritten) {
-  ask_for_huge_pages({unwritten.data(), static_cast<std::size_t>(unwritten.size())});
+  ask_for_huge_pages(std::as_writable_bytes(std::span(unwritten.data(), static_cast<std::size_t>(unwritten.size()))));
   return unwritten;
 }
 
