@@ -22,17 +22,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 
-using D = hn::CappedTag<double, n_lanes>;
-using Vector = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-// 4 x 6 accumulators fill 32 registers; AVX2 has 16 and gets 2 x 6; narrower vectors cover the 8 lanes once
-inline constexpr std::size_t n_vectors = vector_lanes == n_lanes ? 4 : n_lanes / vector_lanes;
-inline constexpr std::size_t pass_samples = n_vectors * vector_lanes;
-static_assert(pass_samples % n_lanes == 0 && tile_samples % pass_samples == 0);
+template <class Number>
+using TagOf = hn::CappedTag<Number, lanes_of<Number>>;
+template <class Number>
+using VectorOf = hn::Vec<TagOf<Number>>;
+template <class Number>
+inline constexpr std::size_t vector_lanes = hn::MaxLanes(TagOf<Number>{});
+// 4 x 6 accumulators fill 32 registers; AVX2 has 16 and gets 2 x 6; narrower vectors cover the lanes once
+template <class Number>
+inline constexpr std::size_t n_vectors =
+    vector_lanes<Number> == lanes_of<Number> ? 4 : lanes_of<Number> / vector_lanes<Number>;
+template <class Number>
+inline constexpr std::size_t pass_samples = n_vectors<Number>* vector_lanes<Number>;
+static_assert(lanes_of<double> == n_lanes && pass_samples<double> % n_lanes == 0 &&
+              tile_samples_of<double> % pass_samples<double> == 0);
+static_assert(pass_samples<float> % lanes_of<float> == 0 && tile_samples_of<float> % pass_samples<float> == 0);
+
+using Vector = VectorOf<double>;
+inline constexpr TagOf<double> d;
 
 struct Square {
-  HWY_INLINE Vector add(Vector residual, Vector sum) const { return fused_mul_add(residual, residual, sum); }
+  template <class V>
+  HWY_INLINE V add(V residual, V sum) const {
+    return fused_mul_add(residual, residual, sum);
+  }
 };
 
 struct Huber {
@@ -68,7 +81,10 @@ struct TileStream {
 // what a residual begins with: the torque, or the torque less what is constant over the block for this member
 struct FromTorque {
   HWY_INLINE FromTorque of_group(std::size_t) const { return {}; }
-  HWY_INLINE Vector first_residual(Vector tau, std::size_t) const { return tau; }
+  template <class V>
+  HWY_INLINE V first_residual(V tau, std::size_t) const {
+    return tau;
+  }
 };
 struct FromTorqueLess {
   double const* constant;  // [group][group_members]
@@ -78,45 +94,46 @@ struct FromTorqueLess {
   }
 };
 
-// adds the losses of one tile to the lanes of one group; parameters[r][group_members], lanes[group_members][n_lanes]
-template <class Start, class Loss>
-HWY_INLINE void add_tile(double const* HWY_RESTRICT tile, std::size_t n_regressors,
-                         double const* HWY_RESTRICT parameters, Start const& start, Loss const& loss, TileStream& ahead,
-                         double* HWY_RESTRICT lanes) {
-  for (std::size_t pass = 0; pass < tile_samples; pass += pass_samples) {
-    Vector residual[n_vectors][group_members];
-    double const* row = tile + n_regressors * tile_samples + pass;
-#pragma GCC unroll 8
-    for (std::size_t v = 0; v < n_vectors; ++v) {
-      Vector const tau = hn::LoadU(d, row + v * vector_lanes);
+// adds the losses of one tile to the lanes of one group; parameters[r][group_members], lanes[group_members][lanes_of]
+template <class Number, class Start, class Loss>
+HWY_INLINE void add_tile(Number const* HWY_RESTRICT tile, std::size_t n_regressors,
+                         Number const* HWY_RESTRICT parameters, Start const& start, Loss const& loss, TileStream& ahead,
+                         Number* HWY_RESTRICT lanes) {
+  constexpr TagOf<Number> tag;
+  constexpr std::size_t width = vector_lanes<Number>, vectors = n_vectors<Number>, in_tile = tile_samples_of<Number>;
+  for (std::size_t pass = 0; pass < in_tile; pass += pass_samples<Number>) {
+    VectorOf<Number> residual[vectors][group_members];
+    Number const* row = tile + n_regressors * in_tile + pass;
+#pragma GCC unroll 16
+    for (std::size_t v = 0; v < vectors; ++v) {
+      VectorOf<Number> const tau = hn::LoadU(tag, row + v * width);
 #pragma GCC unroll 6
       for (std::size_t m = 0; m < group_members; ++m) residual[v][m] = start.first_residual(tau, m);
     }
 
     row = tile + pass;
-    for (std::size_t r = 0; r < n_regressors; ++r, row += tile_samples) {
+    for (std::size_t r = 0; r < n_regressors; ++r, row += in_tile) {
       ahead.next();
-      Vector phi[n_vectors];
-#pragma GCC unroll 8
-      for (std::size_t v = 0; v < n_vectors; ++v) phi[v] = hn::LoadU(d, row + v * vector_lanes);
+      VectorOf<Number> phi[vectors];
+#pragma GCC unroll 16
+      for (std::size_t v = 0; v < vectors; ++v) phi[v] = hn::LoadU(tag, row + v * width);
 #pragma GCC unroll 6
       for (std::size_t m = 0; m < group_members; ++m) {
-        Vector const parameter = hn::Set(d, parameters[r * group_members + m]);
-#pragma GCC unroll 8
-        for (std::size_t v = 0; v < n_vectors; ++v)
-          residual[v][m] = fused_neg_mul_add(phi[v], parameter, residual[v][m]);
+        VectorOf<Number> const parameter = hn::Set(tag, parameters[r * group_members + m]);
+#pragma GCC unroll 16
+        for (std::size_t v = 0; v < vectors; ++v) residual[v][m] = fused_neg_mul_add(phi[v], parameter, residual[v][m]);
       }
     }
 
 #pragma GCC unroll 6
     for (std::size_t m = 0; m < group_members; ++m) {
-#pragma GCC unroll 8
-      for (std::size_t lane = 0; lane < n_lanes; lane += vector_lanes) {
-        Vector sum = hn::LoadU(d, lanes + m * n_lanes + lane);
-#pragma GCC unroll 8
-        for (std::size_t v = lane / vector_lanes; v < n_vectors; v += n_lanes / vector_lanes)
+#pragma GCC unroll 16
+      for (std::size_t lane = 0; lane < lanes_of<Number>; lane += width) {
+        VectorOf<Number> sum = hn::LoadU(tag, lanes + m * lanes_of<Number> + lane);
+#pragma GCC unroll 16
+        for (std::size_t v = lane / width; v < vectors; v += lanes_of<Number> / width)
           sum = loss.add(residual[v][m], sum);
-        hn::StoreU(sum, d, lanes + m * n_lanes + lane);
+        hn::StoreU(sum, tag, lanes + m * lanes_of<Number> + lane);
       }
     }
   }
@@ -126,27 +143,30 @@ HWY_INLINE void add_tile(double const* HWY_RESTRICT tile, std::size_t n_regresso
 inline constexpr std::size_t prefetch_bytes = 16384;
 
 // `tile` in as many steps as add_tile takes for all groups
-HWY_INLINE TileStream stream_of(double const* tile, std::size_t n_regressors, std::size_t n_groups) {
-  std::size_t const tile_bytes = (n_regressors + 1) * tile_samples * sizeof(double);
-  std::size_t const n_steps = std::max<std::size_t>(n_groups * (tile_samples / pass_samples) * n_regressors, 1);
+template <class Number>
+HWY_INLINE TileStream stream_of(Number const* tile, std::size_t n_regressors, std::size_t n_groups) {
+  std::size_t const tile_bytes = (n_regressors + 1) * tile_samples_of<Number> * sizeof(Number);
+  constexpr std::size_t passes = tile_samples_of<Number> / pass_samples<Number>;
+  std::size_t const n_steps = std::max<std::size_t>(n_groups * passes * n_regressors, 1);
   return {reinterpret_cast<std::uintptr_t>(tile), (tile_bytes + n_steps - 1) / n_steps};
 }
 
-// lanes of one block of samples, [member][n_lanes]
-template <class Start, class Loss>
-HWY_INLINE void sum_block(SampleTiles const& tiles, std::size_t first_tile, std::size_t last_tile, std::size_t n_groups,
-                          double const* parameters, Start const& start, Loss const& loss, double* lanes) {
-  std::size_t const n_tiles = (tiles.n_samples + tile_samples - 1) / tile_samples;
-  std::size_t const tile_size = (tiles.n_regressors + 1) * tile_samples;
-  std::size_t const distance = (prefetch_bytes + tile_size * sizeof(double) - 1) / (tile_size * sizeof(double));
-  std::fill_n(lanes, n_groups * group_members * n_lanes, 0.0);
+// lanes of one block of samples, [member][lanes_of]
+template <class Number, class Start, class Loss>
+HWY_INLINE void sum_block(Tiles<Number> const& tiles, std::size_t first_tile, std::size_t last_tile,
+                          std::size_t n_groups, Number const* parameters, Start const& start, Loss const& loss,
+                          Number* lanes) {
+  std::size_t const n_tiles = tile_count<Number>(tiles.n_samples);
+  std::size_t const tile_size = (tiles.n_regressors + 1) * tile_samples_of<Number>;
+  std::size_t const distance = (prefetch_bytes + tile_size * sizeof(Number) - 1) / (tile_size * sizeof(Number));
+  std::fill_n(lanes, n_groups * group_members * lanes_of<Number>, Number{0});
   for (std::size_t t = first_tile; t < last_tile; ++t) {
-    double const* const tile = tiles.data + t * tile_size;
-    double const* const later = t + distance < n_tiles ? tile + distance * tile_size : tile;
+    Number const* const tile = tiles.data + t * tile_size;
+    Number const* const later = t + distance < n_tiles ? tile + distance * tile_size : tile;
     TileStream ahead = stream_of(later, tiles.n_regressors, n_groups);
     for (std::size_t group = 0; group < n_groups; ++group)
       add_tile(tile, tiles.n_regressors, parameters + group * group_members * tiles.n_regressors, start.of_group(group),
-               loss, ahead, lanes + group * group_members * n_lanes);
+               loss, ahead, lanes + group * group_members * lanes_of<Number>);
   }
 }
 

@@ -2,8 +2,7 @@
 // Sum of squared residuals of a block of candidates in float32: half the memory and twice the lanes of residual_energy.
 //
 // Equation   e_i = tau_i - sum_r phi_ir v_mr in float32; energy_m = sum_i e_i^2, float32 within a block, double beyond
-// Shapes     tiles[tile][row][64]: row r < n_regressors is column r of phi, row n_regressors is tau, zero behind the last
-//            sample; candidates: n_members rows of n_regressors numbers; energy: n_members
+// Shapes     tiles of 64 samples (sample_tiles.hpp); candidates: n_members rows of n_regressors numbers; energy: n_members
 // Bits       the same on every instruction set, for any grouping of members, on any number of threads: inputs rounded to
 //            nearest; e by r = 0, 1, ... with one rounding each; lane l sums samples l, l+16, ... of a block of 2048 with
 //            fused multiply-add; lanes l and l+8 added in double, then as residual_energy; blocks by PairwiseTree
@@ -18,22 +17,6 @@
 #include "kernels/residual_energy.hpp"
 
 namespace torquescope::kernels {
-
-inline constexpr std::size_t float_tile_samples = 64;
-inline constexpr std::size_t float_lanes = 16;
-
-struct FloatTiles {
-  float const* data = nullptr;  // float_packed_size(n_samples, n_regressors) floats, owned by somebody else
-  std::size_t n_samples = 0;
-  std::size_t n_regressors = 0;
-};
-
-// floats of the packed recording
-std::size_t float_packed_size(std::size_t n_samples, std::size_t n_regressors);
-
-// as pack_tiles (sample_tiles.hpp), every number rounded to the nearest float
-FloatTiles pack_float_tiles(double const* phi, std::size_t leading_dimension, double const* tau, std::size_t n_samples,
-                            std::size_t n_regressors, float* tiles);
 
 // floats and doubles of workspace
 std::size_t float_workspace_size(std::size_t n_regressors, std::size_t n_members);

@@ -53,7 +53,7 @@ void sum_blocks(SampleTiles const& tiles, Candidates const& candidates, double* 
 
   pack_parameters(candidates, nullptr, tiles.n_regressors, packed);
   constexpr std::size_t block_tiles = block_samples / tile_samples;
-  std::size_t const n_tiles = (tiles.n_samples + tile_samples - 1) / tile_samples;
+  std::size_t const n_tiles = tile_count<double>(tiles.n_samples);
   for (std::size_t first = 0; first < n_tiles; first += block_tiles) {
     sum_block(first, std::min(first + block_tiles, n_tiles), n_groups, packed, lanes);
     for (std::size_t m = 0; m < n_members; ++m) energy[m] = sum_lanes(lanes + m * n_lanes);

@@ -20,6 +20,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "engine/base/heap.hpp"
 #include "engine/problem/residual_objective.hpp"
 #include "engine/problem/single_precision.hpp"
 #include "engine/problem/squared_error_floor.hpp"
@@ -183,6 +184,7 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS[:TOGETHER] [OUT.h5]\n");
     return 64;
   }
+  torquescope::prepare_heap();  // as `torquescope run` does
   auto const count = [&](int i) { return static_cast<std::size_t>(std::stoul(argv[i])); };
   char const* const colon = std::strchr(argv[6], ':');
   std::size_t const together = colon ? std::stoul(colon + 1) : 0;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -13,47 +16,101 @@
 namespace torquescope {
 namespace {
 
-// columns of every term; what no later term needs of the motion is freed on the way
-Eigen::MatrixXd columns_using_up(Motion& motion, Regressor const& regressor) {
+// of a recording's row; every reader of files and every simulation divides alike
+double even_time(Eigen::Index row, double rate_hz) { return static_cast<double>(row) / rate_hz; }
+
+// both zero of nothing
+std::pair<double, double> range_of(std::span<double const> values) {
+  if (values.empty()) return {0.0, 0.0};
+  Eigen::Map<Eigen::ArrayXd const> const array(values.data(), static_cast<Eigen::Index>(values.size()));
+  return {array.minCoeff(), array.maxCoeff()};
+}
+
+bool same_bits(Eigen::VectorXd const& vector, double const* column) {
+  auto const bytes = static_cast<std::size_t>(vector.size()) * sizeof(double);
+  return vector.size() > 0 && std::memcmp(vector.data(), column, bytes) == 0;
+}
+
+std::span<double const> numbers_of(Eigen::VectorXd const& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+std::span<double const> column_or(Eigen::VectorXd const& signal, std::optional<Eigen::Index> column,
+                                  Eigen::MatrixXd const& phi) {
+  if (column) return {phi.col(*column).data(), static_cast<std::size_t>(phi.rows())};
+  return numbers_of(signal);
+}
+
+struct Needs {
+  bool position = false, velocity = false, acceleration = false, time = false;
+
+  void add(RegressorColumn const& column) {
+    position = position || column.needs_position;
+    velocity = velocity || column.needs_velocity;
+    acceleration = acceleration || column.needs_acceleration;
+    time = time || column.needs_time;
+  }
+};
+
+// The columns of every term, one term after the other. A used up motion goes as soon as no later term needs it, velocity and
+// acceleration anyway when phi holds them
+void make_columns(Motion& motion, Regressor const& regressor, RowMotion row_motion, RegressionData& rows) {
   constexpr Eigen::Index block_rows = 4096;
   Eigen::Index const n = motion.q.size();
-  auto const& columns = regressor.column_owners();
-  auto const stretch = [](Eigen::VectorXd const& signal, Eigen::Index first, Eigen::Index count) -> Eigen::VectorXd {
-    if (signal.size() == 0) return Eigen::VectorXd::Zero(count);  // freed: nobody looks
-    return signal.segment(first, count);
-  };
   // pages of phi are taken from the system when they are written, column by column
-  Eigen::MatrixXd phi(n, static_cast<Eigen::Index>(columns.size()));
-  in_huge_pages(phi);
+  rows.phi.resize(n, static_cast<Eigen::Index>(regressor.size()));
+  in_huge_pages(rows.phi);
+  RegressionData::SameColumns& same = rows.same_columns;
   Eigen::Index column = 0;
   for (std::size_t term = 0; term < regressor.terms().size(); ++term) {
-    bool position = false, velocity = false, acceleration = false, time = false;
-    Eigen::Index width = 0;
-    for (auto const& one : columns) {
-      width += one.term == term;
-      if (one.term < term) continue;
-      position = position || one.needs_position;
-      velocity = velocity || one.needs_velocity;
-      acceleration = acceleration || one.needs_acceleration;
-      time = time || one.needs_time;
+    Needs now, from_now_on;
+    Eigen::Index end = column;
+    for (auto const& one : regressor.column_owners()) {
+      end += one.term == term;
+      if (one.term == term) now.add(one);
+      if (one.term >= term) from_now_on.add(one);
     }
-    if (!time) motion.time_s = Eigen::VectorXd();
-    if (!position) motion.q = Eigen::VectorXd();
-    if (!velocity) motion.dq = Eigen::VectorXd();
-    if (!acceleration) motion.ddq = Eigen::VectorXd();
+    if (row_motion == RowMotion::used_up) {
+      if (!from_now_on.time) motion.time_s = Eigen::VectorXd();
+      if (!from_now_on.position) motion.q = Eigen::VectorXd();
+      if (!from_now_on.velocity) motion.dq = Eigen::VectorXd();
+      if (!from_now_on.acceleration) motion.ddq = Eigen::VectorXd();
+    }
+    Motion block;
+    block.rate_hz = motion.rate_hz;
     for (Eigen::Index first = 0; first < n; first += block_rows) {
       Eigen::Index const count = std::min(block_rows, n - first);
-      Motion const block{motion.rate_hz,
-                         stretch(motion.time_s, first, count),
-                         stretch(motion.q, first, count),
-                         stretch(motion.dq, first, count),
-                         stretch(motion.ddq, first, count),
-                         {}};
-      regressor.columns_of_term(block, term, phi.block(first, column, count, width));
+      auto const velocity = column_or(motion.dq, same.velocity, rows.phi);
+      auto const acceleration = column_or(motion.ddq, same.acceleration, rows.phi);
+      auto const stretch = [&](bool needed, std::span<double const> signal, Eigen::VectorXd& out) {
+        if (needed)
+          out = Eigen::Map<Eigen::VectorXd const>(signal.data() + first, count);
+        else if (out.size() != count)
+          out.setZero(count);  // nobody looks
+      };
+      stretch(now.time, numbers_of(motion.time_s), block.time_s);
+      stretch(now.position, numbers_of(motion.q), block.q);
+      stretch(now.velocity, velocity, block.dq);
+      stretch(now.acceleration, acceleration, block.ddq);
+      regressor.columns_of_term(block, term, rows.phi.block(first, column, count, end - column));
     }
-    column += width;
+    for (; column < end; ++column) {
+      for (auto [signal, place] : {std::pair(&motion.dq, &same.velocity), std::pair(&motion.ddq, &same.acceleration)}) {
+        if (!same_bits(*signal, rows.phi.col(column).data())) continue;
+        *signal = Eigen::VectorXd();
+        *place = column;
+      }
+    }
   }
-  return phi;
+}
+
+// no term needs the time, and the rate tells it
+bool is_told_by_rate(Eigen::VectorXd const& time_s, double rate_hz, Regressor const& regressor) {
+  for (auto const& column : regressor.column_owners())
+    if (column.needs_time) return false;
+  for (Eigen::Index i = 0; i < time_s.size(); ++i)
+    if (std::bit_cast<std::uint64_t>(time_s[i]) != std::bit_cast<std::uint64_t>(even_time(i, rate_hz))) return false;
+  return true;
 }
 
 // phi and tau of one recording, and what is kept of its motion
@@ -62,12 +119,13 @@ RegressionData rows_of(Motion&& motion, FilterOptions const& options, Regressor 
   ParallelFilter const filter(options, motion.rate_hz, motion.q.size(), section);
   RegressionData rows;
   rows.kept_rate_hz = filter.kept_rate_hz();
-  if (row_motion == RowMotion::used_up && filter.keeps_everything()) {
-    rows.phi = columns_using_up(motion, regressor);
-    rows.tau = std::move(motion.torque);
-    return rows;
+  if (row_motion != RowMotion::kept && filter.keeps_everything()) {
+    if (row_motion == RowMotion::once && is_told_by_rate(motion.time_s, rows.kept_rate_hz, regressor))
+      motion.time_s = Eigen::VectorXd();
+    make_columns(motion, regressor, row_motion, rows);
+  } else {
+    rows.phi = regressor.columns(motion);
   }
-  rows.phi = regressor.columns(motion);
   if (!filter.keeps_everything()) {
     Eigen::MatrixXd kept(filter.kept_samples(), rows.phi.cols());
     for (Eigen::Index r = 0; r < kept.cols(); ++r) kept.col(r) = filter.apply(rows.phi.col(r));
@@ -104,36 +162,51 @@ void append(Eigen::VectorXd& whole, Eigen::VectorXd&& part) {
   whole.tail(part.size()) = part;
 }
 
+void drop_motion(RegressionData& data) {
+  for (auto* signal : {&data.time_s, &data.q, &data.dq, &data.ddq}) *signal = Eigen::VectorXd();
+  data.same_columns = {};
+}
+
 }  // namespace
 
 std::size_t RegressionData::recording_of(Eigen::Index row) const {
   return static_cast<std::size_t>(std::upper_bound(first_row.begin(), first_row.end(), row) - first_row.begin()) - 1;
 }
 
-bool RegressionData::moves_both_ways() const {
-  if (dq.size() == 0) return forgotten_forwards_ && forgotten_backwards_;
-  return dq.minCoeff() < 0.0 && dq.maxCoeff() > 0.0;
+void RegressionData::time(std::size_t first, std::span<double> seconds) const {
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    auto const row = static_cast<Eigen::Index>(first + i);
+    seconds[i] = time_s.size() > 0 ? time_s[row] : even_time(row, kept_rate_hz);
+  }
 }
 
-void RegressionData::note_directions(Eigen::VectorXd const& velocity) {
-  if (velocity.size() == 0) return;
-  forgotten_forwards_ = forgotten_forwards_ || velocity.maxCoeff() > 0.0;
-  forgotten_backwards_ = forgotten_backwards_ || velocity.minCoeff() < 0.0;
+std::span<double const> RegressionData::velocity() const { return column_or(dq, same_columns.velocity, phi); }
+std::span<double const> RegressionData::acceleration() const { return column_or(ddq, same_columns.acceleration, phi); }
+
+bool RegressionData::moves_both_ways() const {
+  auto const [least, most] = range_of(velocity());
+  return (forgotten_forwards_ || most > 0.0) && (forgotten_backwards_ || least < 0.0);
+}
+
+void RegressionData::note_directions(std::span<double const> velocity) {
+  auto const [least, most] = range_of(velocity);
+  forgotten_forwards_ = forgotten_forwards_ || most > 0.0;
+  forgotten_backwards_ = forgotten_backwards_ || least < 0.0;
 }
 
 void RegressionData::forget_motion() {
-  note_directions(dq);
-  for (auto* signal : {&time_s, &q, &dq, &ddq}) *signal = Eigen::VectorXd();
+  note_directions(velocity());
+  drop_motion(*this);
 }
 
 void append_rows(RegressionData& data, std::string const& recording_name, Motion&& motion, FilterOptions const& options,
                  Regressor const& regressor, Section const& filter, RowMotion row_motion) {
   bool const is_first = data.recording_names.empty();
   double const rate_hz = motion.rate_hz;
-  if (row_motion == RowMotion::used_up) data.note_directions(motion.dq);
+  TORQUESCOPE_EXPECT(row_motion != RowMotion::once || is_first);
+  if (row_motion == RowMotion::used_up) data.note_directions(numbers_of(motion.dq));
   auto part = rows_of(std::move(motion), options, regressor, filter, row_motion);
-  if (row_motion == RowMotion::used_up)
-    for (auto* signal : {&part.time_s, &part.q, &part.dq, &part.ddq}) *signal = Eigen::VectorXd();
+  if (row_motion == RowMotion::used_up) drop_motion(part);
   if (is_first) {
     data.columns = regressor.column_owners();
     data.kept_rate_hz = part.kept_rate_hz;
@@ -155,6 +228,7 @@ void append_rows(RegressionData& data, std::string const& recording_name, Motion
   append(data.q, std::move(part.q));
   append(data.dq, std::move(part.dq));
   append(data.ddq, std::move(part.ddq));
+  if (row_motion == RowMotion::once) data.same_columns = part.same_columns;
   data.first_row.push_back(data.tau.size());
   data.recording_names.push_back(recording_name);
   data.rate_hz.push_back(rate_hz);

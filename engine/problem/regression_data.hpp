@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,8 @@ struct RegressionData {
   Eigen::VectorXd tau;                   // [n]
   std::vector<RegressorColumn> columns;  // [R] names, units and needs
 
-  // the kept samples, for people and plots; time restarts with each recording
+  // the kept samples, for people and plots; time restarts with each recording. RowMotion::once leaves empty what phi or
+  // the rate tell as well: time(), velocity() and acceleration() know where
   Eigen::VectorXd time_s;
   Eigen::VectorXd q;
   Eigen::VectorXd dq;
@@ -40,18 +43,30 @@ struct RegressionData {
   std::size_t recordings() const { return first_row.size() - 1; }
   std::size_t recording_of(Eigen::Index row) const;
 
+  // of the rows from first_row on
+  void time(std::size_t first_row, std::span<double> seconds) const;
+  std::span<double const> velocity() const;
+  std::span<double const> acceleration() const;
+
   // velocities of both signs, also of a motion that is forgotten
   bool moves_both_ways() const;
-  void note_directions(Eigen::VectorXd const& velocity);
+  void note_directions(std::span<double const> velocity);
   // frees time_s, q, dq and ddq: a fit needs none of them
   void forget_motion();
+
+  // columns of phi that are the velocity and the acceleration, bit for bit
+  struct SameColumns {
+    std::optional<Eigen::Index> velocity{}, acceleration{};
+  };
+  SameColumns same_columns{};
 
  private:
   bool forgotten_forwards_ = false, forgotten_backwards_ = false;
 };
 
-// whether time_s, q, dq and ddq are wanted beside phi and tau; used up, they make room for phi while it is made
-enum class RowMotion { kept, used_up };
+// what is wanted beside phi and tau: time_s, q, dq and ddq (several recordings); of them what phi and rate do not tell (a
+// single recording); nothing. What is not kept makes room for phi while it is made
+enum class RowMotion { kept, once, used_up };
 
 // the next recording's rows, below those that are there; takes the motion
 void append_rows(RegressionData& data, std::string const& recording_name, Motion&& motion, FilterOptions const& options,

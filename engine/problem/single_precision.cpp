@@ -11,9 +11,9 @@ SinglePrecisionObjective::SinglePrecisionObjective(RegressionData const& data, B
     : bounds_(std::move(bounds)), scale_(scale), n_rows_(static_cast<double>(data.rows())) {
   TORQUESCOPE_EXPECT(bounds_.dimension() == static_cast<std::size_t>(data.parameters()));
   auto const rows = static_cast<std::size_t>(data.rows());
-  packed_.resize(kernels::float_packed_size(rows, dimension()));
-  tiles_ = kernels::pack_float_tiles(data.phi.data(), static_cast<std::size_t>(data.phi.outerStride()), data.tau.data(),
-                                     rows, dimension(), packed_.data());
+  packed_.resize(kernels::packed_size<float>(rows, dimension()));
+  tiles_ = kernels::pack_tiles(data.phi.data(), static_cast<std::size_t>(data.phi.outerStride()), data.tau.data(), rows,
+                               dimension(), packed_.data());
 }
 
 void SinglePrecisionObjective::evaluate(MatrixView<double const> candidates, std::span<double> fitness,

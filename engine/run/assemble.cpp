@@ -110,7 +110,10 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   Section const filter = section_or_empty(parts.job, "filter");
   char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
   // the motion of the rows is for the result file and its page
-  auto const row_motion = channels == Channels::kept || parts.output.samples ? RowMotion::kept : RowMotion::used_up;
+  auto const for_the_file = set.recordings.size() == 1 ? RowMotion::once : RowMotion::kept;
+  auto const row_motion = channels == Channels::kept ? RowMotion::kept
+                          : parts.output.samples     ? for_the_file
+                                                     : RowMotion::used_up;
   for (auto& recording : set.recordings) {
     set.n_samples.push_back(static_cast<std::size_t>(recording.time_s.size()));
     auto facts = measure_channels(recording);

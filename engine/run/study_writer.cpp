@@ -67,7 +67,9 @@ void write_samples(ResultWriter& writer, std::string const& group, RegressionDat
   bool const revolute = joint == JointKind::revolute;
   std::string const length = revolute ? "rad" : "m";
   std::string const torque_unit = revolute ? "N m" : "N";
-  writer.numbers(group + "/time", {n}, numbers_of(data.time_s), {"s", "time"});
+  writer.numbers_in_blocks(group + "/time", {n},
+                           [&](std::size_t first, std::span<double> seconds) { data.time(first, seconds); },
+                           {"s", "time"});
   writer.whole_numbers_in_blocks(
       group + "/recording", {n},
       [&](std::size_t first, std::span<std::int64_t> values) {
@@ -81,8 +83,8 @@ void write_samples(ResultWriter& writer, std::string const& group, RegressionDat
       },
       {"1", "index of the recording"});
   writer.numbers(group + "/position", {n}, numbers_of(data.q), {length, "position"});
-  writer.numbers(group + "/velocity", {n}, numbers_of(data.dq), {length + "/s", "velocity"});
-  writer.numbers(group + "/acceleration", {n}, numbers_of(data.ddq), {length + "/s2", "acceleration"});
+  writer.numbers(group + "/velocity", {n}, data.velocity(), {length + "/s", "velocity"});
+  writer.numbers(group + "/acceleration", {n}, data.acceleration(), {length + "/s2", "acceleration"});
   writer.numbers(group + "/torque", {n}, numbers_of(data.tau), {torque_unit, revolute ? "torque" : "force"});
   auto const columns = static_cast<std::size_t>(data.parameters());
   writer.numbers_in_blocks(group + "/regressor", {n, columns},

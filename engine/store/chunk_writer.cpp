@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <numeric>
@@ -12,6 +13,8 @@
 
 namespace torquescope {
 namespace {
+
+using Checksum = std::uint32_t;
 
 std::size_t product(h5::Shape const& shape, std::size_t begin, std::size_t end) {
   auto const at = [&](std::size_t i) { return shape.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -32,29 +35,30 @@ std::size_t value_bytes(h5::DatasetInfo const& info) {
 
 }  // namespace
 
+std::span<std::byte> ChunkWriter::room(std::size_t chunk_bytes) {
+  plain_.resize(std::max(plain_.size(), chunk_bytes + sizeof(Checksum)));
+  return std::span(plain_).first(chunk_bytes);
+}
+
 std::span<std::byte const> ChunkWriter::encoded(std::span<std::byte const> part, std::size_t chunk_bytes) {
-  if (part.size() < chunk_bytes) {
-    padded_.assign(chunk_bytes, std::byte{0});
-    std::copy(part.begin(), part.end(), padded_.begin());
-    part = padded_;
-  }
-  std::uint32_t checksum = 0;
-  std::size_t size = part.size();
+  bool const made_here = part.data() == plain_.data();
+  std::span<std::byte> const chunk = room(chunk_bytes);
+  if (!made_here) std::copy(part.begin(), part.end(), chunk.begin());
+  std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(part.size()), chunk.end(), std::byte{0});
+  std::vector<std::byte>& encoded = gzip_ ? packed_ : plain_;
+  std::size_t size = chunk_bytes;
   if (gzip_) {
-    uLongf packed = compressBound(part.size());
-    encoded_.resize(std::max(encoded_.size(), packed + sizeof(checksum)));
-    int const result = compress2(reinterpret_cast<Bytef*>(encoded_.data()), &packed,
-                                 reinterpret_cast<Bytef const*>(part.data()), part.size(), Z_BEST_SPEED);
+    uLongf packed = compressBound(chunk_bytes);
+    packed_.resize(std::max(packed_.size(), packed + sizeof(Checksum)));
+    int const result = compress2(reinterpret_cast<Bytef*>(packed_.data()), &packed,
+                                 reinterpret_cast<Bytef const*>(chunk.data()), chunk_bytes, Z_BEST_SPEED);
     if (result != Z_OK) throw h5::Failure("zlib has no memory left");
     size = packed;
-  } else {
-    encoded_.resize(std::max(encoded_.size(), size + sizeof(checksum)));
-    std::copy(part.begin(), part.end(), encoded_.begin());
   }
   // the checksum comes last: it covers the bytes as they lie on the disk
-  checksum = fletcher32({encoded_.data(), size});
-  std::memcpy(encoded_.data() + size, &checksum, sizeof(checksum));
-  return {encoded_.data(), size + sizeof(checksum)};
+  Checksum const checksum = fletcher32({encoded.data(), size});
+  std::memcpy(encoded.data() + size, &checksum, sizeof(checksum));
+  return {encoded.data(), size + sizeof(checksum)};
 }
 
 void ChunkWriter::write(h5::Handle const& dataset, h5::DatasetInfo const& info, std::size_t first, std::size_t count,

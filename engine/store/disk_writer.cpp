@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/base/huge_pages.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr std::size_t page = 4096;
 PageAlignedBytes::PageAlignedBytes(std::size_t size)
     : bytes_(static_cast<std::byte*>(std::aligned_alloc(page, (size + page - 1) / page * page))) {
   if (!bytes_) throw std::bad_alloc();
+  ask_for_huge_pages({bytes_.get(), size});
 }
 
 void PageAlignedBytes::Free::operator()(std::byte* bytes) const noexcept { std::free(bytes); }

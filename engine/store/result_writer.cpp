@@ -14,7 +14,7 @@
 namespace torquescope {
 namespace {
 
-[[maybe_unused]] std::size_t count_of(h5::Shape const& shape) {
+std::size_t count_of(h5::Shape const& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
@@ -154,15 +154,19 @@ void ResultWriter::write_blocks(std::string const& path, h5::DatasetPlan plan, M
     h5::Handle const dataset = create(path, plan, note);
     if (!has_values(plan.shape)) return;
     h5::DatasetInfo const info{plan.element, plan.shape, plan.chunk, plan.text_size};
-    // whole chunks, each touched once
-    std::size_t const most_rows = plan.chunk.front(), width = info.values_per_row();
-    std::vector<Value> block(most_rows * width);
+    // whole chunks, each touched once; a row that is wider than a chunk is cut, so it cannot be made in its place
+    std::size_t const most_rows = plan.chunk.front(), width = info.values_per_row(), values_at_once = most_rows * width;
+    bool const in_place = values_at_once == count_of(plan.chunk);
+    std::vector<Value> wide(in_place ? 0 : values_at_once);
+    auto* const values =
+        in_place ? reinterpret_cast<Value*>(chunks_.room(values_at_once * sizeof(Value)).data()) : wide.data();
     ArrayDigest digest(digest_, path, plan.element, plan.shape);
     for (std::size_t first = 0; first < info.rows(); first += most_rows) {
       std::size_t const count = std::min(most_rows, info.rows() - first);
-      rows(first, std::span(block).first(count * width));
-      digest.add(std::as_bytes(std::span(block).first(count * width)));
-      chunks_.write(dataset, info, first, count, block.data());
+      std::span<Value> const block(values, count * width);
+      rows(first, block);
+      digest.add(std::as_bytes(block));
+      chunks_.write(dataset, info, first, count, values);
     }
     digest.end();
   });

@@ -1,13 +1,8 @@
 #include <fmt/format.h>
-#include <malloc.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -19,6 +14,7 @@
 #include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
+#include "engine/base/heap.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
@@ -34,35 +30,6 @@ struct RunArguments {
   double segment_seconds = 20.0;
   bool allow_mixed = false, allow_full_disk = false;
 };
-
-// The heap in pages of 2 MB where the system has them, and what lies before the first of these at once: a page of 4 KB costs
-// its first write as much as two thousand numbers. A part of the heap that is never used is never there; but of what is freed
-// so much stays: 32 MB took 2.5 ms of 41 at 1e5 samples, and 25 MB of memory more at 1e6
-void grow_heap_in_huge_pages() {
-#if defined(MADV_HUGEPAGE) && defined(MADV_POPULATE_WRITE)
-  constexpr std::size_t page = 4096, huge_page = std::size_t{2} << 20, growth = std::size_t{6} << 20;
-  ::mallopt(M_TOP_PAD, growth);
-  // more than there may be left, so the heap grows
-  void* const grown = std::malloc(huge_page);
-  auto const begin = reinterpret_cast<std::uintptr_t>(grown) / page * page + page;
-  std::free(grown);
-  auto const end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) / page * page;
-  std::uintptr_t const aligned = (begin + huge_page - 1) / huge_page * huge_page;
-  if (end < aligned || end - begin > 2 * growth) return;  // of another allocator
-  // an older kernel refuses one or the other: nothing is lost but time
-  static_cast<void>(::madvise(reinterpret_cast<void*>(begin), aligned - begin, MADV_POPULATE_WRITE));
-  static_cast<void>(::madvise(reinterpret_cast<void*>(aligned), end - aligned, MADV_HUGEPAGE));
-#endif
-}
-
-// Small buffers stay in the heap, where the next one finds them; columns of long recordings go back to the system as soon
-// as nobody holds them: glibc would move its limit above them after the first. Not for a diagnosis, which asks for
-// matrices of megabytes thousands of times and would wait for the system each time
-void tune_allocation() {
-  ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
-  ::mallopt(M_TRIM_THRESHOLD, 8 << 20);
-  grow_heap_in_huge_pages();
-}
 
 // a share of the runs, into segments
 ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::string const& job,
@@ -83,7 +50,7 @@ ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::s
 }
 
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
-  tune_allocation();
+  prepare_heap();
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);

@@ -17,9 +17,9 @@ INSTANTIATE_TEST_SUITE_P(Float, EveryInstructionSet, testing::ValuesIn(supported
                          instruction_set_of);
 
 std::vector<double> float_energies(RandomProblem const& problem, Candidates const& candidates) {
-  AlignedFloats packed(float_packed_size(problem.n_samples, problem.n_regressors));
-  auto const tiles = pack_float_tiles(problem.phi.data(), problem.phi_stride, problem.tau.data(), problem.n_samples,
-                                      problem.n_regressors, packed.data());
+  AlignedFloats packed(packed_size<float>(problem.n_samples, problem.n_regressors));
+  auto const tiles = pack_tiles(problem.phi.data(), problem.phi_stride, problem.tau.data(), problem.n_samples,
+                                problem.n_regressors, packed.data());
   std::vector<float> workspace(float_workspace_size(problem.n_regressors, candidates.n_members));
   std::vector<double> sums(float_sums_size(problem.n_samples, candidates.n_members)), energy(candidates.n_members);
   float_residual_energy(tiles, candidates, energy.data(), workspace.data(), sums.data());

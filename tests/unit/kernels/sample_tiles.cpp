@@ -33,7 +33,7 @@ TEST(SampleTiles, HoldEverySampleOnceAndZeroBehindTheLast) {
 
 TEST(SampleTiles, NeedNothingForNoSamples) {
   EXPECT_EQ(packed_size(0, 7), 0u);
-  auto const tiles = pack_tiles(nullptr, 0, nullptr, 0, 7, nullptr);
+  auto const tiles = pack_tiles<double>(nullptr, 0, nullptr, 0, 7, nullptr);
   EXPECT_EQ(tiles.n_samples, 0u);
   EXPECT_EQ(tiles.n_regressors, 7u);
 }

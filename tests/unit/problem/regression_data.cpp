@@ -103,6 +103,51 @@ TEST(RegressionData, UsesUpNothingThatALaterTermNeeds) {
   EXPECT_EQ(lean.phi, regressor.columns(motion));
 }
 
+std::vector<double> numbers(std::span<double const> values) { return {values.begin(), values.end()}; }
+std::vector<double> numbers(Eigen::VectorXd const& values) { return {values.begin(), values.end()}; }
+
+std::vector<double> times(RegressionData const& data) {
+  std::vector<double> seconds(static_cast<std::size_t>(data.rows()));
+  data.time(0, seconds);
+  return seconds;
+}
+
+TEST(RegressionData, HoldsNothingOfTheMotionTwiceAndTellsAllOfIt) {
+  auto recording = logged("a", 20.0, 1000.0, test::seed_ols);
+  auto shifted = recording;
+  shifted.time_s.array() += 1.0;
+  // inertia and viscous friction are acceleration and velocity; with the columns of neither, with a deadband, with uneven
+  // time and with a filter there is something that nothing else tells
+  Regressor const seed = seed_regressor(), none({"coulomb", "gravity"}, JointKind::revolute, 0.2),
+                  drag_last({"coulomb", "viscous"}, JointKind::revolute, 0.2);
+  struct Case {
+    Recording const& recording;
+    FilterOptions options;
+    Regressor const& regressor;
+    Eigen::Index held;  // of time, velocity and acceleration
+  };
+  for (auto const& [of, options, regressor, held] : {Case{recording, no_filter(), seed, 0},
+                                                     {recording, no_filter(), none, 2},
+                                                     {recording, no_filter(), drag_last, 1},
+                                                     {shifted, no_filter(), seed, 1},
+                                                     {recording, filter(), seed, 3}}) {
+    auto const kept = make_regression_data({of}, options, regressor, {});
+    RegressionData once;
+    append_rows(once, "a", differentiate(of, options, {}), options, regressor, {}, RowMotion::once);
+    EXPECT_EQ(once.phi, kept.phi);
+    EXPECT_EQ(once.tau, kept.tau);
+    EXPECT_EQ(once.q, kept.q);
+    EXPECT_EQ(times(once), numbers(kept.time_s));
+    EXPECT_EQ(numbers(once.velocity()), numbers(kept.dq));
+    EXPECT_EQ(numbers(once.acceleration()), numbers(kept.ddq));
+    EXPECT_EQ(once.time_s.size() + once.dq.size() + once.ddq.size(), held * once.rows());
+    EXPECT_TRUE(once.moves_both_ways());
+    once.forget_motion();
+    EXPECT_TRUE(once.velocity().empty());
+    EXPECT_TRUE(once.moves_both_ways());
+  }
+}
+
 TEST(RegressionData, KnowsDirectionsOfAMotionItHasForgotten) {
   auto both = test::seed_data(5.0);
   auto forwards = both;

@@ -258,6 +258,24 @@ TEST(ResultWriter, WritesInBlocksWhatItWritesWhole) {
   EXPECT_EQ(ResultReader(folder / "blocks.h5").numbers("/a/values").values, values);
 }
 
+TEST(ResultWriter, CutsRowsThatAreWiderThanAChunk) {
+  test::TemporaryFolder const folder;
+  constexpr std::size_t rows = 3, width = 200'000;
+  std::vector<double> values(rows * width);
+  std::iota(values.begin(), values.end(), 0.0);
+  for (bool const gzip : {false, true}) {
+    ResultWriter writer(folder / "wide.h5", {.gzip = gzip});
+    writer.numbers_in_blocks("/a/values", {rows, width},
+                             [&](std::size_t first, std::span<double> block) {
+                               std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first * width), block.size(),
+                                           block.begin());
+                             },
+                             {"1", "values"});
+    writer.finish();
+    EXPECT_EQ(ResultReader(folder / "wide.h5").numbers("/a/values").values, values) << gzip;
+  }
+}
+
 TEST(ResultWriter, LetsTheUmaskDecideWhoMayRead) {
   test::TemporaryFolder const folder;
   mode_t const before = ::umask(027);
