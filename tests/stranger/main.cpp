@@ -10,12 +10,14 @@
 namespace {
 
 char const* const usage =
-    "usage: stranger CASE FOLDER [--without] [--only K] [--scale X] [--steps N]\n"
+    "usage: stranger CASE FOLDER [--without] [--only K] [--scale X] [--steps N] [--no-noise] [--no-pushes]\n"
     "       stranger --list\n"
     "  --without   conceal nothing: the same motion and noise\n"
     "  --only K    of several effects only the K-th, from 0\n"
     "  --scale X   of what is concealed\n"
-    "  --steps N   of the integrator in a tick of the control loop [2]\n";
+    "  --steps N   of the integrator in a tick of the control loop [2]\n"
+    "  --no-noise  the torque channel and the tachometer are perfect\n"
+    "  --no-pushes no coloured torque from outside\n";
 
 int run(std::vector<std::string> const& words) {
   using namespace stranger;
@@ -32,6 +34,10 @@ int run(std::vector<std::string> const& words) {
     bool const has_value = k + 1 < words.size();
     if (words[k] == "--without") {
       options.without = true;
+    } else if (words[k] == "--no-noise") {
+      options.noise = false;
+    } else if (words[k] == "--no-pushes") {
+      options.pushes = false;
     } else if (words[k] == "--only" && has_value) {
       options.only = std::stoi(words[++k]);
     } else if (words[k] == "--scale" && has_value) {

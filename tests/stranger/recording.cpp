@@ -82,7 +82,7 @@ std::vector<Sample> record(Case const& which, bool unseen, Options const& option
       samples.push_back({plant.time(), path[tick], seen, plant.speed() + tacho, torque + noise, unexplained_sum / n});
       torque_sum = unexplained_sum = 0;
     }
-    push = keep * push + (options.noise ? refresh * outside.normal() : 0);
+    push = keep * push + (options.pushes ? refresh * outside.normal() : 0);
     double const asked = drive.tick(path[tick], seen);
     torque_shown = late.pass(asked);
     for (auto const& effect : effects) torque_shown = effect->seen_torque(torque_shown, plant.time());

@@ -16,7 +16,8 @@ struct Options {
   int only = -1;         // of several laws the one of this number; negative: all
   double scale = 1;      // of every law's first value
   int steps_per_tick = 2;
-  bool noise = true;
+  bool noise = true;   // of the torque channel and the tachometer
+  bool pushes = true;  // the coloured torque from outside
 };
 
 // motion "train" or "unseen"
