@@ -37,7 +37,7 @@ def main():
     words.add_argument("cases", nargs="*")
     words.add_argument("--twins", type=int)
     words.add_argument("--all-right", action="store_true")
-    asked = words.parse_args()
+    asked = words.parse_intermixed_args()
     listed = subprocess.run([asked.stranger, "--list"], check=True, capture_output=True, text=True).stdout
     cases = asked.cases or [line.split()[0] for line in listed.splitlines()]
     for case in cases:
