@@ -56,7 +56,8 @@ double first_gain(Selection const& selection) {
 
 }  // namespace
 
-std::optional<double> delay_within_a_sample(Selection const& selection, double already_s, double rate_hz) {
+std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
+                                            double rate_hz) {
   constexpr double nearly_as_good = 0.9;  // as equivalent_effects.hpp
   static Effect const* const delay = find_effect("delay");
   if (!selection.is_gate_open) return std::nullopt;
@@ -68,7 +69,8 @@ std::optional<double> delay_within_a_sample(Selection const& selection, double a
     if (is_timing(found, already_s, rate_hz)) return found.late_s;
   }
   auto const instead = short_delay(*selection.baseline, *delay, rate_hz);
-  if (!instead || instead->z < clear_z || instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;
+  if (!instead || instead->z < clear_z) return std::nullopt;
+  if (!is_unexplained && instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;
   return is_timing(*instead, already_s, rate_hz) ? std::optional(instead->late_s) : std::nullopt;
 }
 

@@ -8,7 +8,8 @@
 // Rule       a delay that the search names, and that is for all that is known no more than one sample (and a tenth of one, for
 //            what a current loop needs itself), is taken out of the recordings, and the search begins again; also one that explains by itself nine
 //            tenths of what was named first, or of what comes closest: when a row was
-//            read is asked before any physics. A longer one is a finding
+//            read is asked before any physics. Where nothing explains the recording, any delay within a sample is taken out: torque
+//            beside its rows hides what is missing. A longer one is a finding
 // Threads    free functions
 // Units      s
 
@@ -20,8 +21,9 @@
 namespace torquescope {
 
 // how late the torque is when it is within that; nothing when no delay is found, or a longer one
-// already_s: what was taken out before
-std::optional<double> delay_within_a_sample(Selection const& selection, double already_s, double rate_hz);
+// is_unexplained: what was found does not explain the recording; already_s: what was taken out before
+std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
+                                            double rate_hz);
 
 // no row says more of a torque than when it was read, to this many samples
 inline constexpr double longest_timing = 1.1;

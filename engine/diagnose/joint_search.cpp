@@ -6,15 +6,22 @@
 #include "engine/base/error.hpp"
 #include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/friction_buildup.hpp"
+#include "engine/diagnose/motion_echo.hpp"
 
 namespace torquescope {
+namespace {
+
+constexpr double follows_p = 0.005;  // as a candidate that is certain
+
+}  // namespace
 
 Selection search_in_time(StageSetting const& setting, Recording& recording, SelectionOptions const& options,
                          StageSink const& progress, double& late_s) {
   constexpr int most_times = 2;  // the second for what other effects hid of it
   Selection selection = select_effects(setting, options, progress);
   for (int i = 0; i < most_times; ++i) {
-    auto const more_s = delay_within_a_sample(selection, late_s, recording.rate_hz);
+    bool const is_unexplained = judge_remainder(selection, *selection.final).is_unexplained;
+    auto const more_s = delay_within_a_sample(selection, is_unexplained, late_s, recording.rate_hz);
     if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);
@@ -33,7 +40,7 @@ Selection doubt_noise(StageSetting& setting, SelectionOptions const& options, Se
   gate.only_gate = true;
   try {
     Selection among_coloured = select_effects(coloured, gate, progress);
-    if (among_coloured.is_gate_open) return selection;
+    if (among_coloured.is_gate_open || motion_echo_p(*among_coloured.baseline) < follows_p) return selection;
     setting.reads_colour = true;
     return among_coloured;
   } catch (Error const&) {

@@ -1,4 +1,4 @@
-// A torque channel that was read within half a sample of its row is put back in time; a longer delay is left as a finding.
+// A torque channel that was read beside its row is put back in time, whichever way and however far.
 
 #include "engine/diagnose/channel_timing.hpp"
 
@@ -19,14 +19,22 @@ Recording sine_read_late(double late_s) {
 
 TEST(ChannelTiming, PutsTheTorqueBackInTimeWhicheverWayItWasRead) {
   Recording const true_one = sine_read_late(0.0);
-  for (double late_s : {0.5e-3, -0.5e-3, 0.2e-3, -0.6e-3}) {
+  for (double late_s : {0.5e-3, -0.5e-3, 0.2e-3, -0.6e-3, 1.0e-3, 1.3e-3, -2.1e-3}) {
     Recording const earlier = with_torque_earlier(sine_read_late(late_s), late_s);
-    // the first and the last sample have no neighbour on one side
-    Eigen::Index const n = true_one.torque.size() - 2;
+    // the samples at the ends have no neighbour on one side
+    constexpr Eigen::Index ends = 3;
+    Eigen::Index const n = true_one.torque.size() - 2 * ends;
     double const curvature = 0.125 * std::pow(2.0 * M_PI * 3.0 * 1e-3, 2);
-    EXPECT_LE((earlier.torque - true_one.torque).segment(1, n).cwiseAbs().maxCoeff(), 1.01 * curvature) << late_s;
+    EXPECT_LE((earlier.torque - true_one.torque).segment(ends, n).cwiseAbs().maxCoeff(), 1.01 * curvature) << late_s;
     EXPECT_EQ(earlier.torque.size(), true_one.torque.size());
   }
+}
+
+TEST(ChannelTiming, HoldsTheValueAtTheEnds) {
+  Recording const read = sine_read_late(0.0);
+  Recording const earlier = with_torque_earlier(read, 1.5e-3);
+  EXPECT_EQ(earlier.torque.tail(1)[0], read.torque.tail(1)[0]);
+  EXPECT_EQ(with_torque_earlier(read, -1.5e-3).torque[0], read.torque[0]);
 }
 
 TEST(ChannelTiming, SaysWhatWasDone) {
