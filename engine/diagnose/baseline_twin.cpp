@@ -26,10 +26,9 @@ struct Attempt {
 
 TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
 
-Attempt attempt(RecordedLoop loop, ProcessedRecord const& record, RecordPipeline const& pipeline,
+// reads_colour: of the torque noise, from what the model leaves
+Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& record, RecordPipeline const& pipeline,
                 TwinOptions const& options, TwinWorkers const& workers) {
-  // where no law tells what of the torque is noise, it is read from what the model leaves
-  bool const reads_colour = options.reads_colour || loop.source == LoopSource::tracking;
   TwinAddress const correction_set{options.seed, options.recording, 0};
   TwinAddress const level_set{options.seed, options.recording, 1};
   Attempt result{std::move(loop)};
@@ -148,8 +147,10 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   double const inertia = fitted_inertia(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
+  // a controller that is known tells what is noise, even where its law is too poor to be simulated
+  bool const reads_colour = options.reads_colour || recording.reference.size() != recording.position.size();
   auto const attempt_in = [&](RecordedLoop loop) {
-    return attempt(std::move(loop), record, pipeline, options, workers);
+    return attempt(std::move(loop), reads_colour, record, pipeline, options, workers);
   };
   Attempt made = attempt_in(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()));
   if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 #include "engine/diagnose/candidate_columns.hpp"
 
@@ -74,15 +74,35 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
   return is_timing(*instead, already_s, rate_hz) ? std::optional(instead->late_s) : std::nullopt;
 }
 
+namespace {
+
+constexpr Eigen::Index half_width = 8;  // samples
+
+// weights of the samples floor - half_width + 1 ... floor + half_width for the place `share` behind floor
+Eigen::VectorXd sinc_weights(double share) {
+  auto const sinc = [](double x) { return x == 0.0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x); };
+  Eigen::VectorXd weights(2 * half_width);
+  for (Eigen::Index j = 0; j < weights.size(); ++j) {
+    double const x = static_cast<double>(j - half_width + 1) - share;
+    double const window = std::cos(0.5 * std::numbers::pi * x / static_cast<double>(half_width));
+    weights[j] = std::abs(x) < half_width ? sinc(x) * window * window : 0.0;
+  }
+  return weights / weights.sum();
+}
+
+}  // namespace
+
 Recording with_torque_earlier(Recording recording, double late_s) {
   double const samples = late_s * recording.rate_hz;
-  Eigen::VectorXd const read = recording.torque;
+  Eigen::VectorXd const read = recording.torque, weights = sinc_weights(samples - std::floor(samples));
   Eigen::Index const last = read.size() - 1;
-  auto const whole = static_cast<Eigen::Index>(std::floor(samples));
-  double const share = samples - std::floor(samples);
-  auto const at = [&](Eigen::Index k) { return read[std::clamp<Eigen::Index>(k, 0, last)]; };
-  for (Eigen::Index k = 0; k <= last; ++k)
-    recording.torque[k] = (1.0 - share) * at(k + whole) + share * at(k + whole + 1);
+  auto const first = static_cast<Eigen::Index>(std::floor(samples)) - half_width + 1;
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < weights.size(); ++j)
+      sum += weights[j] * read[std::clamp<Eigen::Index>(k + first + j, 0, last)];
+    recording.torque[k] = sum;
+  }
   return recording;
 }
 

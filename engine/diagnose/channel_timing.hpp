@@ -28,7 +28,8 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
 // no row says more of a torque than when it was read, to this many samples
 inline constexpr double longest_timing = 1.1;
 
-// the torque as if it had been read late_s earlier, by straight lines between samples; the ends hold their value
+// The torque as if it had been read late_s earlier, by a sinc of 16 samples under a Hann window: straight lines would take noise away
+// that twins are to have. Before the first and after the last sample it stays
 Recording with_torque_earlier(Recording recording, double late_s);
 
 // for people: what was done to the recordings
