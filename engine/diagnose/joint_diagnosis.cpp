@@ -298,7 +298,7 @@ class JointWork {
     std::string why = "it leaves too much that has a structure of its own";
     if (!remainder.is_unexplained) {
       joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
-      why = "it makes the prediction of unseen data worse";
+      why = "unseen data keep too little of what its own twins promise";
     } else if (remainder.is_most_left) {
       joint_.refutation = too_little_clause(joint_, 1.0 - std::min(1.0, remainder.share));
       why = "it explains less than half";

@@ -1,6 +1,5 @@
 #include "engine/diagnose/joint_search.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "engine/base/error.hpp"

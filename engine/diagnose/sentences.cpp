@@ -184,7 +184,7 @@ std::string unexplained_reason(JointDiagnosis const& joint) {
   } else {
     UnexplainedPart const& part = joint.unexplained.front();
     std::string const where = place_phrase(joint, part.where);
-    text = fmt::format("{} of the residual of joint {} lies{}, where clean twins have none, but {}.",
+    text = fmt::format("{} of the residual of joint {} lies{}, more than clean twins have there, but {}.",
                        percent_text(part.energy_share), joint.joint, where.empty() ? "" : " " + where, nothing_fits);
   }
   // what could be named all the same

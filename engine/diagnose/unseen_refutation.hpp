@@ -20,8 +20,8 @@ namespace torquescope {
 
 struct UnseenEnergies {
   double before = 0.0, after = 0.0;
-  double floor =
-      0.0;  // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
+  // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
+  double floor = 0.0;
   double moved = 0.0;  // of the difference between both predictions
 };
 

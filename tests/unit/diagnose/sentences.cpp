@@ -97,7 +97,7 @@ TEST(ReasonSentence, LeavesTheNameOfAFileAsItIs) {
 TEST(ReasonSentence, OfSomethingElseSaysWhereItIsAndThatNothingFits) {
   EXPECT_EQ(
       reason_sentence(example::invented_unexplained()),
-      "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, where clean twins have none, but none of "
+      "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than clean twins have there, but none of "
       "34 known effects fits it.");
 }
 
@@ -109,10 +109,10 @@ TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
   refuted.augmented_validation_relerr = 0.0247;
   refuted.floor_relerr = 0.0157;
   diagnosis.joints[0].refutation = refutation_clause(refuted, false);
-  EXPECT_EQ(
-      reason_sentence(diagnosis),
-      "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, where clean twins have none, but backlash, "
-      "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "31.0 % of the residual of joint 1 lies between 0.40 and 0.90 rad, more than clean twins have there, but "
+            "backlash, "
+            "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
   diagnosis.joints[0].refutation = refutation_clause(refuted, true);
   EXPECT_THAT(reason_sentence(diagnosis), EndsWith("from 2.2 % to 2.5 %, where twins with it run away."));
 }
