@@ -2,20 +2,6 @@
 #include "stranger/cases.hpp"
 
 namespace stranger {
-namespace {
-
-Case single(std::string effect, std::string rig, std::string train, std::string unseen, double train_s,
-            ConcealedLaw law, Place place = {}) {
-  Case c = usual(effect, "single", std::move(rig));
-  c.train_motion = std::move(train), c.unseen_motion = std::move(unseen);
-  c.train_s = train_s, c.unseen_s = train_s * 0.7;
-  law.name = std::move(effect);
-  c.laws = {std::move(law)}, c.places = {std::move(place)};
-  return c;
-}
-
-}  // namespace
-
 std::vector<Case> friction_cases() {
   std::vector<Case> cases;
   cases.push_back(
