@@ -10,7 +10,6 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
-#include "engine/diagnose/own_motion.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -75,10 +74,10 @@ Round EffectSearch::next_round() {
   std::size_t const n_candidates = options_->candidates.size();
   tell("search", 0, n_candidates);
   auto const before = selection_.final;  // the columns look at it while the line goes on
-  CandidateColumns const columns(*before->pipeline, before->comparison, before->reference(), before->parameters());
-  auto const scans = scan_candidates(columns, options_->candidates, setting_.threads);
+  BothMotions const columns(*before);
+  auto const scans = scan_candidates(columns.twin, options_->candidates, setting_.threads);
   std::vector<double> const q = q_of(scans);
-  bool const is_open = opens(columns, scans, q);
+  bool const is_open = opens(columns.twin, scans, q);
   note_not_tried(selection_, scans, q, options_->q, is_open);
   if (options_->only_gate) return {};
   std::vector<Trial> trials = is_open ? refined_trials(columns, scans, q) : std::vector<Trial>{};
@@ -91,13 +90,14 @@ Round EffectSearch::next_round() {
     if (round.is_taken) {
       bool const is_near = trial.refined.gain >= nearly_as_good * taken_gain && !effect->is_event();
       // asked of the line before the round: this one has another stage now
-      if (is_near && effect->family() != EffectFamily::time && !round.before->refusal(columns, trial))
+      if (is_near && effect->family() != EffectFamily::time &&
+          !round.before->refusal(columns.of(trial.driven_by), trial))
         round.nearly_taken.push_back(trial);
       note_refusal(effect, (trial.refined.gain < taken_gain ? "explains less than " : "is less simple than ") +
                                selection_.accepted.back().effect->name());
       continue;
     }
-    if (auto reason = refusal(columns, trial)) {
+    if (auto reason = refusal(columns.of(trial.driven_by), trial)) {
       note_refusal(effect, std::move(*reason));
       continue;
     }
@@ -153,7 +153,7 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
 }
 
 // the candidates worth a closer look, best first
-std::vector<Trial> EffectSearch::refined_trials(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                                 std::vector<double> const& q) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < scans.size(); ++i)
@@ -167,15 +167,28 @@ std::vector<Trial> EffectSearch::refined_trials(CandidateColumns const& columns,
   Eigen::Index const guard = guard_rows(*stage().pipeline);
   std::vector<Trial> trials;
   for (std::size_t i : order) {
-    Trial trial{scans[i], q[i], refine_shape(columns, scans[i], mismatch, search, setting_.threads)};
+    Trial trial{scans[i], q[i], refine_shape(columns.twin, scans[i], mismatch, search, setting_.threads)};
     trial.is_named = selection_.has_accepted(scans[i].effect);
     selection_.evaluations += trial.refined.evaluations;
-    trial.cv = blocked_gain(mismatch, columns.model_columns(),
-                            columns.columns(*trial.refined.effect, trial.refined.shape), guard);
+    prefer_own_motion(columns.recording, trial);
+    auto const& driven = columns.of(trial.driven_by);
+    trial.cv = blocked_gain(mismatch, driven.model_columns(),
+                            driven.columns(*trial.refined.effect, trial.refined.shape), guard);
     if (selection_.accepted.empty()) selection_.first_cv_gain[i] = trial.cv.gain;
     trials.push_back(std::move(trial));
   }
   return in_order_of_trial(std::move(trials));
+}
+
+// where the shape of the recording's own motion explains a good part more than that of the common motion
+void EffectSearch::prefer_own_motion(CandidateColumns const& own, Trial& trial) {
+  auto found = refine_on_own_motion(own, trial.scan, stage().mismatch(),
+                                    shape_search(options_->shape_optimiser, setting_.seed), setting_.threads);
+  if (!found) return;
+  selection_.evaluations += found->evaluations;
+  if (found->gain < trial.refined.gain + least_share_of_rest * remaining_) return;
+  trial.refined = std::move(*found);
+  trial.driven_by = DrivenBy::recording;
 }
 
 // waves may be named again: a second order is another wave
@@ -209,7 +222,9 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
 bool EffectSearch::take(Trial const& trial) {
   auto const* effect = trial.refined.effect;
   auto const before = selection_.final;
-  auto next = confirming_draft(trial);
+  std::vector<ShapedEffect> effects = before->model().effects();
+  effects.push_back({effect, trial.refined.shape});
+  auto next = refined_draft(setting_, before->reference(), std::move(effects));
   if (!next) {
     note_refusal(effect, "twins with it do not follow the reference");
     return false;
@@ -235,27 +250,6 @@ bool EffectSearch::take(Trial const& trial) {
   setting_.weights = whole->pipeline->weights();
   selection_.final = std::make_shared<ModelStage const>(std::move(*whole));
   return true;
-}
-
-// twins with the shape that the common motion tells, or with that of the recording's own motion: whichever is nearer to the recording.
-// The second is worth its twins when it promises to explain a good part of what the first leaves
-std::optional<ModelStage> EffectSearch::confirming_draft(Trial const& trial) {
-  ModelStage const& before = stage();
-  auto const draft = [&](std::vector<double> const& shape) {
-    std::vector<ShapedEffect> effects = before.model().effects();
-    effects.push_back({trial.refined.effect, shape});
-    return refined_draft(setting_, before.reference(), std::move(effects));
-  };
-  auto first = draft(trial.refined.shape);
-  auto const own = refine_on_own_motion(before, trial.scan, shape_search(options_->shape_optimiser, setting_.seed),
-                                        setting_.threads);
-  if (!own) return first;
-  selection_.evaluations += own->evaluations;
-  double const promised = energy_about_true_mean(before) - own->gain;
-  if (first && energy_about_true_mean(*first) - promised < least_share_of_rest * remaining_) return first;
-  auto other = draft(own->shape);
-  bool const is_nearer = other && (!first || energy_about_true_mean(*other) < energy_about_true_mean(*first));
-  return is_nearer ? std::move(other) : std::move(first);
 }
 
 RegionConsistency EffectSearch::region_of(CandidateColumns const& columns, RefinedEffect const& refined) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/own_motion.hpp"
 #include "engine/diagnose/region_consistency.hpp"
 #include "engine/diagnose/trial_order.hpp"
 
@@ -53,12 +54,12 @@ class EffectSearch {
   bool opens(CandidateColumns const& columns, std::vector<EffectScan> const& scans, std::vector<double> const& q);
   double largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                                std::vector<double> const& q) const;
-  std::vector<Trial> refined_trials(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+  std::vector<Trial> refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                     std::vector<double> const& q);
+  void prefer_own_motion(CandidateColumns const& own, Trial& trial);
   bool is_taken(Effect const* effect) const;
   // why the projection speaks against it; measures the trial's region
   std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;
-  std::optional<ModelStage> confirming_draft(Trial const& trial);
   RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const;
   bool begin_again_with_wander();
 

@@ -21,6 +21,7 @@ struct Trial {
   EffectScan scan;
   double q = 1.0;
   RefinedEffect refined;
+  DrivenBy driven_by = DrivenBy::twin;  // whose motion the refined shape was found on (own_motion.hpp)
   BlockedGain cv{};
   bool is_named = false;  // already: another wave of it is no new kind of physics
   double region_share =
