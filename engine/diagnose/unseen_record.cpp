@@ -224,10 +224,10 @@ ForwardSimulation simulate_forward(Recording const& recording, std::optional<Rec
   return result;
 }
 
-UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented) {
+UnseenPrediction predict_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
+                                ModelStage const& augmented) {
   Recording const recording = from_zero(given);
-  UnseenResult result;
+  UnseenPrediction result;
   RecordPipeline const plain = pipeline_for(setting, recording, baseline.model());
   RecordPipeline full = pipeline_for(setting, recording, augmented.model());
   ProcessedRecord const before = plain.prepare(recording);
@@ -264,9 +264,19 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
     Eigen::VectorXd const bias = augmented.parameters() - trained.parameters;
     Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
-    result.without.push_back((after.torque - after.columns(Eigen::all, others) * refitted).squaredNorm());
+    Eigen::VectorXd const left = after.torque - after.columns(Eigen::all, others) * refitted;
+    Eigen::VectorXd const left_with = after.torque - after.columns * parameters;
+    result.without.push_back(
+        {left.squaredNorm(), left.squaredNorm() - left_with.squaredNorm(), (left - left_with).squaredNorm()});
   }
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
+  return result;
+}
+
+UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
+                          ModelStage const& augmented) {
+  Recording const recording = from_zero(given);
+  UnseenResult result{predict_unseen(given, setting, baseline, augmented)};
   auto const loop = loop_of(recording, augmented);
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;

@@ -22,18 +22,32 @@
 
 namespace torquescope {
 
-struct UnseenResult {
-  double floor = unknown;                                        // relerr
-  bool twins_ran_away = false;                                   // of this recording, under the final model: no floor
+// of the model without one of its effects
+struct UnseenWithout {
+  double energy = 0.0;  // of the residual
+  double gain = 0.0;    // by the effect, no offset refitted in either; negative: the effect spoils the prediction
+  double moved = 0.0;   // energy of the difference between both predictions
+};
+
+struct UnseenPrediction {
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
   double moved_energy = 0.0;                                     // of the difference between both predictions
-  std::vector<double> without{};                                 // residual energy with all effects but one, per effect
+  std::vector<UnseenWithout> without{};                          // per effect
   TorqueTrace trace{};
-  ForwardSimulation forward{};
   std::vector<std::string> nuisances{};
 };
 
+struct UnseenResult : UnseenPrediction {
+  double floor = unknown;       // relerr
+  bool twins_ran_away = false;  // of this recording, under the final model: no floor
+  ForwardSimulation forward{};
+};
+
 // Errors     as the pipeline; Error 65 when fewer than 100 rows are left between reversals
+UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                                ModelStage const& augmented);
+
+// the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented);
 
