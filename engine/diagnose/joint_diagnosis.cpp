@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/diagnose/abstention.hpp"
+#include "engine/diagnose/blocked_mismatch.hpp"
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/channel_timing.hpp"
 #include "engine/diagnose/error_words.hpp"
@@ -91,7 +92,7 @@ class JointWork {
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, torque_late_s_ == 0.0 ? "" : timing_remark(torque_late_s_, input_.train.rate_hz),
                        joint_);
-    joint_.candidates = candidate_table(selection_, input_.selection.q);
+    joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
@@ -222,10 +223,9 @@ class JointWork {
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
     bool const is_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                       [](NamedEffect const& one) { return !one.equivalent.empty(); });
-    bool const is_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(),
-                                      [](NamedEffect const& one) { return one.acts_on != word(ActsOn::joint); });
-    diagnosis_.verdict = is_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
-    if (is_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
+    bool const is_all_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+    diagnosis_.verdict = is_all_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
+    if (is_all_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
     joint_.excitation = advice_for(joint_.effects);
   }
 
