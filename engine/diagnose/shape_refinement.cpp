@@ -187,13 +187,12 @@ ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
-  constexpr double nearly_all = 0.9;
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
   auto const point = best_plausible_point(columns, scan, mismatch);
   if (!point) return best;
   RefinedEffect plausible = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
-  if (plausible.gain < nearly_all * best.gain) return best;
+  if (plausible.gain < nearly_as_good * best.gain) return best;
   plausible.evaluations += best.evaluations;
   return plausible;
 }
