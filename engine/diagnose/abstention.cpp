@@ -20,6 +20,16 @@ bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
   });
 }
 
+// Of the first excess, in the torque itself. Weighed rows make little of what goes with friction that may wander: a level of friction
+// that falls once and for all is found and removed, and the weighed rest is still most of it
+double share_in_torque_itself(ModelStage const& baseline, ModelStage const& final) {
+  auto const excess_of = [](ModelStage const& stage) {
+    return mismatch_energy(in_torque_itself(stage.comparison.rows)).excess;
+  };
+  double const first = excess_of(baseline);
+  return first > 0.0 ? std::max(0.0, excess_of(final)) / first : 1.0;
+}
+
 }  // namespace
 
 Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
@@ -29,7 +39,9 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   result.share = std::max(0.0, final.energy.excess) / first;
   result.is_significant =
       final.energy.z > smallest_z && mismatch_share(final) > smallest_mismatch_share && result.share > worth_a_word;
-  result.is_most_left = !selection.accepted.empty() && result.share > most_of_the_whole && final.energy.z > surely_left_z;
+  result.is_most_left = !selection.accepted.empty() && result.share > most_of_the_whole &&
+                        final.energy.z > surely_left_z &&
+                        share_in_torque_itself(*selection.baseline, final) > most_of_the_whole;
   result.is_unexplained = selection.accepted.empty() || result.is_most_left;
   if (!result.is_significant) return result;
   CandidateColumns const columns(*final.pipeline, final.comparison, final.reference(), final.parameters());

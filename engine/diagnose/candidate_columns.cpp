@@ -30,12 +30,14 @@ double shape_step(ParameterRange const& range, double value) {
 }
 
 CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison,
-                                   BaselineReference reference, Eigen::VectorXd const& parameters, std::size_t without)
+                                   BaselineReference reference, Eigen::VectorXd const& parameters, std::size_t without,
+                                   DrivenBy driven_by)
     : pipeline_(&pipeline),
       comparison_(&comparison),
+      record_(driven_by == DrivenBy::twin ? &comparison.common : &comparison.recording),
       reference_(std::move(reference)),
-      baseline_(on_motion(pipeline.model().regressor(), reference_, comparison.rows.motion)),
-      model_columns_(comparison.common.columns) {
+      baseline_(on_motion(pipeline.model().regressor(), reference_, record_->motion)),
+      model_columns_(record_->columns) {
   auto const& rows = comparison.rows;
   row_motion_ = {rows.rate_hz, rows.time_s, rows.q, rows.dq, rows.ddq, rows.model_torque};
   tangents_ = fill_tangents(parameters, without);
@@ -51,8 +53,8 @@ CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinCompariso
 }
 
 void CandidateColumns::add_nuisance(Eigen::MatrixXd const& signals) {
-  Eigen::MatrixXd columns = pipeline_->filtered_columns(signals, comparison_->common);
-  pipeline_->whiten(columns, comparison_->common.kept_rows);
+  Eigen::MatrixXd columns = pipeline_->filtered_columns(signals, *record_);
+  pipeline_->whiten(columns, record_->kept_rows);
   Eigen::MatrixXd all(nuisance_.rows(), nuisance_.cols() + columns.cols());
   all << nuisance_, columns;
   nuisance_ = orthonormal_basis(all);
@@ -69,20 +71,18 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
                                                    std::vector<std::vector<double>> const& shapes) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
   auto const count = static_cast<Eigen::Index>(shapes.size());
-  auto const& common = comparison_->common;
   bool const on_rows = is_fixed_frequency(effect);
-  Eigen::MatrixXd all(on_rows ? common.torque.size() : common.motion.q.size(), linear * count);
-  EffectInput const input =
-      on_rows ? EffectInput{row_motion_, reference_.scales} : baseline_.input(comparison_->rows.motion);
+  Eigen::MatrixXd all(on_rows ? record_->torque.size() : record_->motion.q.size(), linear * count);
+  EffectInput const input = on_rows ? EffectInput{row_motion_, reference_.scales} : baseline_.input(record_->motion);
   for (Eigen::Index i = 0; i < count; ++i)
     effect.columns(input, shapes[static_cast<std::size_t>(i)], all.middleCols(i * linear, linear));
-  return on_rows ? all : pipeline_->filtered_columns(all, common);
+  return on_rows ? all : pipeline_->filtered_columns(all, *record_);
 }
 
 Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,
                                              std::vector<std::vector<double>> const& shapes) const {
   Eigen::MatrixXd columns = plain_columns_of(effect, shapes);
-  pipeline_->whiten(columns, comparison_->common.kept_rows);
+  pipeline_->whiten(columns, record_->kept_rows);
   return columns;
 }
 
@@ -95,7 +95,7 @@ Eigen::MatrixXd CandidateColumns::plain_columns(Effect const& effect, std::span<
 }
 
 Eigen::MatrixXd CandidateColumns::signals(Effect const& effect, std::span<double const> shape) const {
-  Motion const& motion = comparison_->rows.motion;
+  Motion const& motion = record_->motion;
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(effect.n_linear()));
   effect.columns(baseline_.input(motion), shape, all);
   return all;
@@ -127,7 +127,7 @@ Eigen::MatrixXd CandidateColumns::fill_tangents(Eigen::VectorXd const& parameter
       found.emplace_back((columns(*effect, moved) * linear - here) / step);
     }
   }
-  Eigen::MatrixXd tangents(comparison_->common.torque.size(), static_cast<Eigen::Index>(found.size()));
+  Eigen::MatrixXd tangents(record_->torque.size(), static_cast<Eigen::Index>(found.size()));
   for (std::size_t k = 0; k < found.size(); ++k) tangents.col(static_cast<Eigen::Index>(k)) = found[k];
   return tangents;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // The columns of effects on the common motion, as the fit would see them, and what is left of them beside the model.
 //
+// Motion     of the twin without noise, as a rule: no noise of the recording gets into a statistic. On the recording's own a law shows
+//            that shapes the motion itself (own_motion.hpp)
 // Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those are
 // Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
 //            wrong shape leaves must not take a second name (LESSONS item 11)
@@ -19,13 +21,15 @@
 
 namespace torquescope {
 
+enum class DrivenBy { twin, recording };
+
 class CandidateColumns {
  public:
   // parameters: of the pipeline's model, for the tangents; reference: what candidates are told of the baseline
   // without: this effect of the model is no nuisance, it is one of the candidates; none: all are
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison, BaselineReference reference,
-                   Eigen::VectorXd const& parameters, std::size_t without = none);
+                   Eigen::VectorXd const& parameters, std::size_t without = none, DrivenBy driven_by = DrivenBy::twin);
 
   // candidates must explain something beside these as well: n samples x k, at the full rate
   void add_nuisance(Eigen::MatrixXd const& signals);
@@ -54,6 +58,7 @@ class CandidateColumns {
 
   RecordPipeline const* pipeline_;
   TwinComparison const* comparison_;
+  ProcessedRecord const* record_;  // whose motion and rows the columns have
   BaselineReference reference_;
   FittedBaseline baseline_;
   Motion row_motion_;  // the rows' own samples, for effects that a zero-phase filter only scales

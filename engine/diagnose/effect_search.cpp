@@ -10,6 +10,7 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
+#include "engine/diagnose/own_motion.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -207,9 +208,7 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
 bool EffectSearch::take(Trial const& trial) {
   auto const* effect = trial.refined.effect;
   auto const before = selection_.final;
-  std::vector<ShapedEffect> effects = before->model().effects();
-  effects.push_back({effect, trial.refined.shape});
-  auto next = refined_draft(setting_, before->reference(), std::move(effects));
+  auto next = confirming_draft(trial);
   if (!next) {
     note_refusal(effect, "twins with it do not follow the reference");
     return false;
@@ -235,6 +234,27 @@ bool EffectSearch::take(Trial const& trial) {
   setting_.weights = whole->pipeline->weights();
   selection_.final = std::make_shared<ModelStage const>(std::move(*whole));
   return true;
+}
+
+// twins with the shape that the common motion tells, or with that of the recording's own motion: whichever is nearer to the recording.
+// The second is worth its twins when it promises to explain a good part of what the first leaves
+std::optional<ModelStage> EffectSearch::confirming_draft(Trial const& trial) {
+  ModelStage const& before = stage();
+  auto const draft = [&](std::vector<double> const& shape) {
+    std::vector<ShapedEffect> effects = before.model().effects();
+    effects.push_back({trial.refined.effect, shape});
+    return refined_draft(setting_, before.reference(), std::move(effects));
+  };
+  auto first = draft(trial.refined.shape);
+  auto const own = refine_on_own_motion(before, trial.scan, shape_search(options_->shape_optimiser, setting_.seed),
+                                        setting_.threads);
+  if (!own) return first;
+  selection_.evaluations += own->evaluations;
+  double const promised = energy_about_true_mean(before) - own->gain;
+  if (first && energy_about_true_mean(*first) - promised < least_share_of_rest * remaining_) return first;
+  auto other = draft(own->shape);
+  bool const is_nearer = other && (!first || energy_about_true_mean(*other) < energy_about_true_mean(*first));
+  return is_nearer ? std::move(other) : std::move(first);
 }
 
 RegionConsistency EffectSearch::region_of(CandidateColumns const& columns, RefinedEffect const& refined) const {

@@ -58,6 +58,7 @@ class EffectSearch {
   bool is_taken(Effect const* effect) const;
   // why the projection speaks against it; measures the trial's region
   std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;
+  std::optional<ModelStage> confirming_draft(Trial const& trial);
   RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const;
   bool begin_again_with_wander();
 

@@ -152,21 +152,19 @@ RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::s
   return std::move(refinement).take();
 }
 
-// the plausible point of the grid that explains most
+// the point of the grid that explains most, of the plausible ones
 std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
-                                                Eigen::VectorXd const& mismatch) {
-  std::optional<std::size_t> best;
-  double most = 0.0;
-  for (std::size_t k = 0; k < scan.grid.size(); ++k) {
+                                                Eigen::VectorXd const& mismatch, int threads) {
+  std::vector<double> gains(scan.grid.size(), 0.0);
+  parallel_for(gains.size(), threads, [&](std::size_t k, int) {
     auto const shape = scan.grid.point(k);
-    if (!scan.effect->is_plausible(shape, columns.scales())) continue;
+    if (!scan.effect->is_plausible(shape, columns.scales())) return;
     OrthonormalGroup const group = columns.group(*scan.effect, shape);
-    double const gain = bounded_gain(group, inner_products(group.q, mismatch)).gain;
-    if (gain <= most) continue;
-    most = gain;
-    best = k;
-  }
-  return best;
+    gains[k] = bounded_gain(group, inner_products(group.q, mismatch)).gain;
+  });
+  auto const most = std::max_element(gains.begin(), gains.end());
+  if (most == gains.end() || *most <= 0.0) return std::nullopt;
+  return static_cast<std::size_t>(most - gains.begin());
 }
 
 }  // namespace
@@ -185,16 +183,21 @@ ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
   return search;
 }
 
+std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
+                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
+  auto const point = best_plausible_point(columns, scan, mismatch, threads);
+  if (!point) return std::nullopt;
+  return refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
+}
+
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
-  auto const point = best_plausible_point(columns, scan, mismatch);
-  if (!point) return best;
-  RefinedEffect plausible = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
-  if (plausible.gain < nearly_as_good * best.gain) return best;
-  plausible.evaluations += best.evaluations;
-  return plausible;
+  auto plausible = refine_plausible(columns, scan, mismatch, search, threads);
+  if (!plausible || plausible->gain < nearly_as_good * best.gain) return best;
+  plausible->evaluations += best.evaluations;
+  return std::move(*plausible);
 }
 
 }  // namespace torquescope

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/diagnose/candidate_scan.hpp"
@@ -51,5 +52,10 @@ struct RefinedEffect {
 // if that explains nine tenths of it, which is what the form of a law may cost; else the best of all, for the caller to refuse
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads);
+
+// the best that it could have, begun at the grid's point that explains most of the mismatch on these columns' motion; nothing where none
+// explains any
+std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
+                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads);
 
 }  // namespace torquescope

@@ -15,8 +15,8 @@ class InstantEffect : public Effect {
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
   double torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const final;
   // torque of each of these instants; all parameters, linear ones first; out: states.size()
-  void torques(JointStates const& at, std::span<double const> parameters, JointScales const& scales,
-               std::span<double> out) const;
+  virtual void torques(JointStates const& at, std::span<double const> parameters, JointScales const& scales,
+                       std::span<double> out) const;
 
  protected:
   // out: states.size() x n_linear(), no part of the states

@@ -1,9 +1,10 @@
 // Backlash: the load hangs behind a gap of 2 b whose flanks give way, and lies on the one or the other only while it is
 // pushed.
 //
-// Equation   tau = J_l y'', y'' = a - ddq - g / J, a = -(w^2 dz(y, b) + 2 zeta w y'), w = 2 pi f: y is the load relative to
-//            the motor, dz its way beyond the gap; a = -c y' in the gap, which grease fills, and where a flank would pull. The
-//            rigid part J_l ddq and the gravity g are the baseline's, of which the load has the same share as of the inertia J
+// Equation   tau = J_l y'' + d J_l Fv y' / J, y'' = a - ddq - g / J - d Fv (dq + y') / J, a = -(w^2 dz(y, b) + 2 zeta w y'), w = 2 pi f:
+//            y is the load relative to the motor, dz its way beyond the gap; a = -c y' in the gap, which grease fills, and where a
+//            flank would pull. The rigid part J_l ddq, the gravity g and the viscous friction Fv are the baseline's; the load has the same
+//            share of gravity as of the inertia J, and d times that share of the viscous friction
 // Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
 //            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
 // Why        flanks are soft: a rigid load and a plastic impact miss the ringing after contact, which is most of what shows.
@@ -11,7 +12,8 @@
 // Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; backlash_half_gap b [rad; m];
 //            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1];
 //            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film passes
-//            for a wider gap
+//            for a wider gap; backlash_load_drag d [1]: a load that is braked by itself turns against the joint before
+//            that turns, and lies on the other flank when it does
 // Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
 // Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
@@ -40,9 +42,10 @@ struct Drive {
 // across the gap
 class Grease {
  public:
-  explicit Grease(double film_per_s) : film_per_s_(film_per_s) {}
+  // drag: of the load by itself, which the motor does not feel
+  Grease(double film_per_s, double drag_per_s) : push_per_s_(film_per_s), film_per_s_(film_per_s + drag_per_s) {}
 
-  double push(Place const& at) const { return film_per_s_ * at.dy; }
+  double push(Place const& at) const { return push_per_s_ * at.dy; }
 
   Place fly(Place const& from, Drive const& drive, double time_s) const {
     return film_per_s_ * time_s < thin ? fly_freely(from, drive, time_s)
@@ -71,20 +74,22 @@ class Grease {
             from.dy - free * faded - change * time_s};
   }
 
-  double film_per_s_;
+  double push_per_s_;
+  double film_per_s_;  // all that brakes
   double remembered_ = 0.0;
 };
 
 // a spring and damper whose rest is y = 0
 class Flank {
  public:
-  Flank(double frequency_hz, double damping)
+  Flank(double frequency_hz, double damping, double drag_per_s)
       : omega_(2.0 * std::numbers::pi * frequency_hz),
-        decay_(damping * omega_),
-        ringing_(omega_ * std::sqrt(1.0 - damping * damping)) {}
+        push_per_s_(2.0 * damping * omega_),
+        decay_(std::min(damping * omega_ + 0.5 * drag_per_s, most_decay * omega_)),
+        ringing_(std::sqrt(omega_ * omega_ - decay_ * decay_)) {}
 
   double omega() const { return omega_; }
-  double push(Place const& at) const { return omega_ * omega_ * at.y + 2.0 * decay_ * at.dy; }
+  double push(Place const& at) const { return omega_ * omega_ * at.y + push_per_s_ * at.dy; }
   double rest(double drive) const { return -drive / (omega_ * omega_); }
 
   Place ring(Place const& from, Drive const& drive, double time_s) const {
@@ -117,19 +122,27 @@ class Flank {
             dfree * fading.cosine - (free * ringing_ + decay_ * quadrature) * fading.sine + dfollow};
   }
 
-  double omega_, decay_, ringing_;
+  static constexpr double most_decay = 0.99;  // of a swing that is one
+
+  double omega_, push_per_s_, decay_, ringing_;
   Fading remembered_{};
 };
 
 class LoadBehindGap {
  public:
-  LoadBehindGap(double half_gap, double frequency_hz, double damping, double film_per_s, JointScales const& scales)
-      : half_gap_(half_gap), flank_(frequency_hz, damping), grease_(film_per_s), scales_(scales) {}
+  // drag: over the joint's viscous friction per inertia
+  LoadBehindGap(double half_gap, double frequency_hz, double damping, double film_per_s, double drag,
+                JointScales const& scales)
+      : half_gap_(half_gap),
+        drag_per_s_(scales.inertia > 0.0 ? drag * std::max(0.0, scales.viscous) / scales.inertia : 0.0),
+        flank_(frequency_hz, damping, drag_per_s_),
+        grease_(film_per_s, drag_per_s_),
+        scales_(scales) {}
 
   // as if the same push had lasted for long
   void start(JointState const& state) {
     weight_ = weight(state.q);
-    drive_ = state.ddq + weight_;
+    drive_ = drive(state);
     at_ = {flank_.rest(drive_) - std::copysign(half_gap_, drive_), 0.0};
     side_ = side_at(at_);
   }
@@ -137,18 +150,18 @@ class LoadBehindGap {
   void advance(JointState const& state, double step_s) {
     if (step_s != step_s_) remember_step(step_s);
     weight_ = weight(state.q);
-    double const end = state.ddq + weight_;
-    Drive drive{drive_, (end - drive_) / step_s};
+    double const end = drive(state);
+    Drive pulled{drive_, (end - drive_) / step_s};
     for (int i = 0; i < n_sub_steps_; ++i) {
-      sub_step(drive);
-      drive = drive.after(sub_step_s_);
+      sub_step(pulled);
+      pulled = pulled.after(sub_step_s_);
     }
     drive_ = end;
   }
 
   std::array<double, 1> row(JointState const& state) const {
     double const push = side_ == 0.0 ? -grease_.push(at_) : -flank_.push(on_flank(at_, side_));
-    return {push - (state.ddq + weight_)};
+    return {push - drive(state)};
   }
 
  private:
@@ -162,6 +175,9 @@ class LoadBehindGap {
     if (!has_weight || !(scales_.inertia > 0.0)) return 0.0;
     return (scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q)) / scales_.inertia;
   }
+
+  // what a load that is fixed to the motor would need
+  double drive(JointState const& state) const { return state.ddq + weight_ + drag_per_s_ * state.dq; }
 
   Place on_flank(Place const& at, double side) const { return {at.y - side * half_gap_, at.dy}; }
   // of the flank that pushes, 0 where none does
@@ -218,6 +234,7 @@ class LoadBehindGap {
   }
 
   double half_gap_;
+  double drag_per_s_;
   Flank flank_;
   Grease grease_;
   JointScales scales_;
@@ -234,8 +251,8 @@ class Backlash final : public MemoryEffect {
       : MemoryEffect(
             {.name = "backlash",
              .title = "lost motion: the load hangs behind a gap",
-             .equation = "J_l y'', y'' + [w^2 dz(y, b) + 2 zeta w y' in contact, never pulling, else c y'] = -ddq - g "
-                         "/ J, w = 2 pi f",
+             .equation = "J_l y'', y'' + [w^2 dz(y, b) + 2 zeta w y' in contact, never pulling, else c y'] = -ddq - (g "
+                         "+ d Fv (dq + y')) / J, w = 2 pi f",
              .source = "Nordin, Gutman 2002",
              .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
              .parameters = {{"backlash_load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
@@ -245,7 +262,8 @@ class Backlash final : public MemoryEffect {
                                             {3.0, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
                             shape_parameter("backlash_damping", "1", "1", {0.02}, {0.7}, Spacing::logarithmic),
                             shape_parameter("backlash_film", "1/s", "1/s", {0.0}, {2.0, RelativeTo::cutoff_frequency},
-                                            Spacing::linear)},
+                                            Spacing::linear),
+                            shape_parameter("backlash_load_drag", "1", "1", {0.0}, {2.0}, Spacing::linear)},
              .families = {EffectFamily::reversal},
              .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
              .parity = Parity::neither,
@@ -254,7 +272,7 @@ class Backlash final : public MemoryEffect {
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
-    return memory_of(LoadBehindGap(shape[0], shape[1], shape[2], shape[3], scales), lanes);
+    return memory_of(LoadBehindGap(shape[0], shape[1], shape[2], shape[3], shape[4], scales), lanes);
   }
 };
 

@@ -1,9 +1,11 @@
 // Break-away friction that grows while the joint rests: the contact ages, and sliding renews it.
 //
-// Equation   tau = s Fd (1 - exp(-age / tau_d)), d age/dt = 1 - |dq| age / D;
+// Equation   tau = s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 - |dq| age / D;
 //            s = sign(dq) weighted by the Coulomb levels of the baseline
 // Memory     the age of the contact [s], exact for a constant speed over a step
-// Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; dwell_time tau_d [s]; renewal_distance D [rad; m]
+// Growth     that comes to an end (grease), or with the logarithm of the rest and no end (dry contacts); a drive may have both
+// Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; breakaway_ageing Fa >= 0 [N m; N]: for each e-fold of the
+//            rest; dwell_time tau_d [s]; renewal_distance D [rad; m]
 // Signature  distance since the reversal of the velocity: a spike whose height follows the rest before it
 // Confused   stribeck; rests of different length tell them apart
 // Source     Rabinowicz 1958; Ruina 1983 (law of ageing)
@@ -33,8 +35,9 @@ class AgeingContact {
     age_s_ = age_s_ * std::exp(-renewed) + grown_s;
   }
 
-  std::array<double, 1> row(JointState const& state) const {
-    return {-sign_(state.dq) * std::expm1(-age_s_ / dwell_s_)};
+  std::array<double, 2> row(JointState const& state) const {
+    double const dwells = age_s_ / dwell_s_, sign = sign_(state.dq);
+    return {-sign * std::expm1(-dwells), sign * std::log1p(dwells)};
   }
 
  private:
@@ -46,20 +49,22 @@ class AgeingContact {
 class BreakawayDwell final : public MemoryEffect {
  public:
   BreakawayDwell()
-      : MemoryEffect({.name = "breakaway_dwell",
-                      .title = "break-away friction that grows while the joint rests",
-                      .equation = "s Fd (1 - exp(-age / tau_d)), d age/dt = 1 - |dq| age / D",
-                      .source = "Rabinowicz 1958; Ruina 1983",
-                      .separated_by = "rests of 0.1 to 30 s before each start",
-                      .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
-                                     shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
-                                                     {0.5, RelativeTo::duration}, Spacing::logarithmic),
-                                     shape_parameter("renewal_distance", "rad", "m", {1.0, RelativeTo::resolution},
-                                                     {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
-                      .families = {EffectFamily::reversal},
-                      .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::time},
-                      .parity = Parity::odd,
-                      .is_dry_friction = true}) {}
+      : MemoryEffect(
+            {.name = "breakaway_dwell",
+             .title = "break-away friction that grows while the joint rests",
+             .equation = "s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 - |dq| age / D",
+             .source = "Rabinowicz 1958; Ruina 1983",
+             .separated_by = "rests of 0.1 to 30 s before each start",
+             .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
+                            {"breakaway_ageing", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
+                            shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
+                                            {0.5, RelativeTo::duration}, Spacing::logarithmic),
+                            shape_parameter("renewal_distance", "rad", "m", {1.0, RelativeTo::resolution},
+                                            {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
+             .families = {EffectFamily::reversal},
+             .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::time},
+             .parity = Parity::odd,
+             .is_dry_friction = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,

@@ -1,8 +1,9 @@
 // Dry friction in proportion to the load that gears and bearings carry.
 //
-// Equation   tau = s mu |tau_load|; tau_load: gravity and inertia of the baseline;
+// Equation   tau = s mu |tau_load - (1 - k) J ddq|; tau_load: gravity and inertia of the baseline;
 //            s = sign(dq) weighted by the Coulomb levels of the baseline
-// Parameters load_dependent_friction mu >= 0 [1], up to 0.3
+// Parameters load_dependent_friction mu >= 0 [1], up to 0.3; load_friction_inertia_share k [1]: of the inertia J, behind
+//            the gear; what is before it, a rotor above all, presses no teeth
 // Signature  load, odd in the velocity
 // Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
 // Source     Hamon, Gautier, Garrec, Janot 2010; BAM model M3
@@ -15,21 +16,24 @@ namespace {
 class LoadDependentFriction final : public InstantEffect {
  public:
   LoadDependentFriction()
-      : InstantEffect({.name = "load_dependent_friction",
-                       .title = "dry friction in proportion to the load",
-                       .equation = "s mu |tau_load|",
-                       .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
-                       .separated_by = "the same motion with another payload",
-                       .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}}},
-                       .families = {EffectFamily::load},
-                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
-                       .parity = Parity::odd,
-                       .needs_baseline = true,
-                       .is_dry_friction = true}) {}
+      : InstantEffect(
+            {.name = "load_dependent_friction",
+             .title = "dry friction in proportion to the load",
+             .equation = "s mu |tau_load - (1 - k) J ddq|",
+             .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
+             .separated_by = "the same motion with another payload",
+             .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
+                            shape_parameter("load_friction_inertia_share", "1", "1", {0.0}, {1.0}, Spacing::linear)},
+             .families = {EffectFamily::load},
+             .signature = {SignatureAxis::load, SignatureAxis::velocity},
+             .parity = Parity::odd,
+             .needs_baseline = true,
+             .is_dry_friction = true}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const& scales, LawColumns out) const override {
-    out.col(0) = friction_sign(at.dq, scales) * at.load_torque.abs();
+  void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
+           LawColumns out) const override {
+    out.col(0) = friction_sign(at.dq, scales) * (at.load_torque - (1.0 - shape[0]) * scales.inertia * at.ddq).abs();
   }
 };
 

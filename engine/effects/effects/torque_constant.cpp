@@ -1,11 +1,16 @@
 // Saturating motor: the torque per ampere falls at high current, so the recorded torque (current times a constant) is
 // larger than the true one. A constant error of the scale cannot be seen: it scales every parameter alike.
 //
-// Equation   tau = beta tau_motor^3
+// Equation   tau = beta tau_motor^3; tau_motor: what the motor really gives, the recorded torque less tau
+// Why        of what it gives, not of what is recorded: whatever beta, more current is more torque. A cubic of the recorded torque
+//            turns round at 1 / sqrt(3 beta), and a joint that is simulated with it runs away there
+// Simulation told the recorded torque u: solves tau_motor + beta tau_motor^3 = u
 // Parameters torque_constant beta >= 0 [1/(N m)2; 1/N2]
 // Signature  load: at the peaks of torque, whatever the motion
 // Confused   load_dependent_friction, clipping
 // Source     Gautier, Briot 2014 (drive gains); PHYSICS.md A3
+
+#include <cmath>
 
 #include "engine/effects/instant_effect.hpp"
 
@@ -21,13 +26,33 @@ class TorqueConstant final : public InstantEffect {
              .equation = "beta tau_motor^3",
              .source = "Gautier, Briot 2014",
              .separated_by = "a known payload",
-             .parameters = {{"torque_constant", "1/(N m)2", "1/N2", {0.0}, {0.05, RelativeTo::torque_inverse2}}},
+             .parameters = {{"torque_constant", "1/(N m)2", "1/N2", {0.0}, {0.2, RelativeTo::torque_inverse2}}},
              .families = {EffectFamily::load},
              .signature = {SignatureAxis::load},
              .parity = Parity::neither,
              .needs_baseline = true}) {}
 
+  void torques(JointStates const& at, std::span<double const> parameters, JointScales const&,
+               std::span<double> out) const override {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      double const recorded = at.motor_torque[static_cast<Eigen::Index>(i)];
+      out[i] = recorded - given(recorded, parameters[0]);
+    }
+  }
+
  private:
+  // Newton from above: the cubic is convex there, so that it never steps past the root
+  static double given(double recorded, double beta) {
+    constexpr int enough = 6;
+    double const all_cubic = beta > 0.0 ? std::cbrt(recorded / beta) : recorded;
+    double torque = std::abs(all_cubic) < std::abs(recorded) ? all_cubic : recorded;
+    for (int i = 0; i < enough; ++i) {
+      double const square = beta * torque * torque;
+      torque -= (torque * (1.0 + square) - recorded) / (1.0 + 3.0 * square);
+    }
+    return torque;
+  }
+
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
     out.col(0) = at.motor_torque * at.motor_torque * at.motor_torque;
   }

@@ -25,7 +25,7 @@ JointState swinging(double t) {
 TEST(Backlash, HasAPlayOfExactlyTwoB) {
   // pushed forwards for long, then braked: the load flies across the gap at the acceleration of the motor
   double const half_gap = 2.5e-3, braking = 10.0, step_s = 1e-4;
-  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, 2000.0, 0.1, 0.0}, plain);
+  auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, 2000.0, 0.1, 0.0, 0.0}, plain);
   runner->advance({.ddq = braking}, 0.0);
   EXPECT_NEAR(runner->torque({.ddq = braking}), 0.0, 1e-9);
   JointState const braked{.ddq = -braking};
@@ -42,7 +42,7 @@ TEST(Backlash, AThinFilmChangesNothingAndAThickOneHoldsTheLoadBack) {
   // the load comes to rest in the grease of a gap without end: y'' = -c y', from the speed that the motor lost
   double const film_per_s = 40.0, lost = 0.5, step_s = 1e-5;
   auto const speed_after = [&](double film, double time_s) {
-    auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, 1e3, 50.0, 0.1, film}, plain);
+    auto const runner = find_effect("backlash")->runner(std::vector<double>{1.0, 1e3, 50.0, 0.1, film, 0.0}, plain);
     runner->advance({.ddq = 0.0}, 0.0);
     double left = lost, t = 0.0;
     runner->advance({.ddq = -lost / step_s}, step_s);  // half of it in this step, half in the next
@@ -59,7 +59,7 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
   JointScales scales;
   scales.inertia = 0.4;
   scales.gravity_cos = 4.0;  // 10 rad/s2 at q = 0, more than the motion asks for
-  auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1, 5.0}, scales);
+  auto const gap = find_effect("backlash")->runner(std::vector<double>{0.3, 2.5e-3, 20.0, 0.1, 5.0, 0.0}, scales);
   auto const spring = find_effect("joint_elasticity")->runner(std::vector<double>{0.3, 20.0, 0.1, 0.0}, scales);
   for (int i = 0; i < 5000; ++i) {
     double const t = 1e-3 * i;
@@ -70,15 +70,21 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
 }
 
 TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
-  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate
-  double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3, film_per_s = 30.0;
+  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate,
+  // less d Fv / J dq_l for the load's own drag, which the rigid joint has as well
+  double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3, film_per_s = 30.0, drag = 1.0;
+  JointScales braked;
+  braked.inertia = 2.0;
+  braked.viscous = 8.0;
+  double const drag_per_s = drag * braked.viscous / braked.inertia;
   double const omega = 2.0 * std::numbers::pi * frequency_hz;
-  auto const runner =
-      find_effect("backlash")->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping, film_per_s}, plain);
+  auto const runner = find_effect("backlash")
+                          ->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping, film_per_s, drag}, braked);
   constexpr int finer = 2000;
   constexpr double step_s = 1e-3;
   auto const start = swinging(0.1);
-  double q_load = start.q - std::copysign(half_gap, start.ddq) - start.ddq / (omega * omega), dq_load = start.dq;
+  double const pushed = start.ddq + drag_per_s * start.dq;
+  double q_load = start.q - std::copysign(half_gap, pushed) - pushed / (omega * omega), dq_load = start.dq;
   double difference = 0.0, size = 0.0;
   int free_samples = 0;
   runner->advance(start, 0.0);
@@ -92,11 +98,11 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
       push = side * deep > 0.0 ? omega * omega * deep + 2.0 * damping * omega * (now.dq - dq_load) : 0.0;
       touches = side * push > 0.0;
       if (!touches) push = film_per_s * (now.dq - dq_load);
-      dq_load += push * step_s / finer;
+      dq_load += (push - drag_per_s * dq_load) * step_s / finer;
       q_load += dq_load * step_s / finer;
     }
     auto const state = swinging(0.1 + step_s * i);
-    double const expected = push - state.ddq;
+    double const expected = push - state.ddq - drag_per_s * state.dq;
     difference += std::pow(runner->torque(state, step_s) - expected, 2);
     size += expected * expected;
     free_samples += touches ? 0 : 1;
@@ -108,7 +114,7 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
 TEST(Backlash, DoesNotCareHowASampleIsCutUp) {
   double const step_s = 1e-3;
   for (double const frequency_hz : {10.0, 60.0, 180.0}) {
-    std::vector<double> const parameters{1.0, 1e-3, frequency_hz, 0.2, 30.0};
+    std::vector<double> const parameters{1.0, 1e-3, frequency_hz, 0.2, 30.0, 0.5};
     auto const whole = find_effect("backlash")->runner(parameters, plain);
     auto const cut = find_effect("backlash")->runner(parameters, plain);
     double difference = 0.0, size = 0.0, before = swinging(0.0).ddq;
@@ -136,7 +142,7 @@ TEST(Backlash, TakesTheLoadAlongInALoop) {
   double const inertia = 0.1, push = 5.0, pushed_s = 0.01, step_s = 1e-4;
   for (double const share : {0.1, 0.5, 0.9}) {
     auto const runner =
-        find_effect("backlash")->runner(std::vector<double>{share * inertia, 1e-3, 60.0, 0.3, 20.0}, plain);
+        find_effect("backlash")->runner(std::vector<double>{share * inertia, 1e-3, 60.0, 0.3, 20.0, 0.0}, plain);
     JointState motor{};
     runner->advance(motor, 0.0);
     double const together = push * pushed_s / inertia;

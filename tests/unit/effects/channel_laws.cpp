@@ -68,6 +68,17 @@ TEST(TorqueConstant, IsCubicInTheTorque) {
   EXPECT_EQ(channel_columns("torque_constant", torque, 10.0, {}), Eigen::Vector3d(0.125, -1.0, 8.0));
 }
 
+// what is recorded is what the motor gives and the column of that; more of the one is more of the other, whatever beta
+TEST(TorqueConstant, TellsASimulatorWhatItsColumnSaysOfTheTorqueThatIsGiven) {
+  for (double const beta : {0.0, 0.01, 0.5, 20.0}) {
+    auto const runner = find_effect("torque_constant")->runner(std::vector<double>{beta}, {});
+    for (double const given : {-3.0, -0.2, 0.0, 0.7, 2.5}) {
+      double const missing = beta * given * given * given;
+      EXPECT_NEAR(runner->torque({.motor_torque = given + missing}), missing, 1e-9 * (1.0 + std::abs(missing)));
+    }
+  }
+}
+
 TEST(SensorDrift, IsARampAndAStepWhateverTheMotion) {
   auto const columns = channel_columns("sensor_drift", Eigen::VectorXd::Zero(101), 10.0, {4.0});
   EXPECT_NEAR(columns(100, 0), 10.0, 1e-12);

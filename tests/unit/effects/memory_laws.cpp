@@ -141,15 +141,17 @@ TEST(MaxwellSlip, StiffnessFallsAsElementsSlip) {
 }
 
 TEST(BreakawayDwell, GrowsWithTheRestAndIsRenewedBySliding) {
-  double const dwell_s = 3.0, distance = 1e-3;
-  Walk walk("breakaway_dwell", {0.5, dwell_s, distance});
+  double const dwell_s = 3.0, distance = 1e-3, to_an_end = 0.5, without_end = 0.2;
+  Walk walk("breakaway_dwell", {to_an_end, without_end, dwell_s, distance});
   walk.to(1.0, 100);
   walk.rest(6.0);
-  EXPECT_EQ(walk.torque(), 0.0);                                          // at rest friction is what holds
-  EXPECT_NEAR(walk.at_speed(1e-12), 0.5 * (1.0 - std::exp(-2.0)), 1e-3);  // age at the stop was 1 ms
+  EXPECT_EQ(walk.torque(), 0.0);  // at rest friction is what holds
+  double const two_dwells = to_an_end * (1.0 - std::exp(-2.0)) + without_end * std::log(3.0);
+  EXPECT_NEAR(walk.at_speed(1e-12), two_dwells, 1e-3);  // age at the stop was 1 ms
   EXPECT_NEAR(walk.at_speed(-1e-12), -walk.at_speed(1e-12), 1e-15);
   // sliding at 1 m/s: the age settles at D / v
-  EXPECT_NEAR(walk.to(1.0 + 50.0 * distance, 50), 0.5 * -std::expm1(-distance / dwell_s), 1e-12);
+  double const sliding = to_an_end * -std::expm1(-distance / dwell_s) + without_end * std::log1p(distance / dwell_s);
+  EXPECT_NEAR(walk.to(1.0 + 50.0 * distance, 50), sliding, 1e-12);
 }
 
 TEST(FrictionLag, SplitsTheCurveIntoTwoBranches) {

@@ -75,7 +75,7 @@ TEST(Regressor, RefusesWhatLeastSquaresOnTheMotionCannotFitAndSaysWhy) {
   EXPECT_EQ(
       what("stribeck"),
       "\"stribeck\" cannot be a term of the model: its torque is not linear in stribeck_speed, stribeck_exponent");
-  EXPECT_THAT(what("load_dependent_friction"), HasSubstr("built on the torque of a fitted model"));
+  EXPECT_THAT(what("torque_constant"), HasSubstr("built on the torque of a fitted model"));
   EXPECT_THAT(what("actuator_lag"), HasSubstr("depends on what happened before"));
   EXPECT_THAT(what("encoder_eccentricity"), HasSubstr("recorded channel"));
 }

@@ -181,7 +181,7 @@ TEST(Backlash, OfALoadHeavierThanItsMotorDoesNotRunAway) {
   for (double const share : {0.1, 0.5, 0.9, 0.97}) {
     TwinJoint joint;
     joint.lanes = {inertia, 0.0, 0.0, 0.0};
-    joint.effects = {lane_effect(*find_effect("backlash"), {share * inertia, 1e-3, 60.0, 0.3, 20.0}, {})};
+    joint.effects = {lane_effect(*find_effect("backlash"), {share * inertia, 1e-3, 60.0, 0.3, 20.0, 0.0}, {})};
     TwinGroup group;
     CleanTwin(joint, loop, pulse, 1e-4).simulate({5, 0, 0}, 0, group);
     auto const& q = group.position[0];

@@ -1,0 +1,21 @@
+#pragma once
+// The shape of a law as the recording's own motion tells it.
+//
+// Why        candidate columns are computed from the motion of a twin without the law (candidate_columns.hpp). A law that shapes the
+//            motion itself looks different there: a load that rings behind a spring takes out of the motor's motion the very frequency
+//            that drives it, one behind a gap knocks the motor at other instants. The recording's own motion has all that, and
+//            noise of its encoder, which biases a shape a little: good enough to make twins with, no statistic
+// Threads    spreads grid and populations over `threads`; same bits for any number
+
+#include <optional>
+
+#include "engine/diagnose/model_stage.hpp"
+#include "engine/diagnose/shape_refinement.hpp"
+
+namespace torquescope {
+
+// scan: of the effect, with its grid; nothing for an effect without memory, without a shape, or one that explains nothing there
+std::optional<RefinedEffect> refine_on_own_motion(ModelStage const& stage, EffectScan const& scan, ShapeSearch search,
+                                                  int threads);
+
+}  // namespace torquescope
