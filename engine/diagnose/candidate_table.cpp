@@ -25,7 +25,7 @@ std::string first_reason(Selection const& selection, std::size_t i, double q) {
                                                    : "explains less than the five best";
 }
 
-Candidate listed(Selection const& selection, std::size_t i, double q) {
+Candidate listed(Selection const& selection, std::size_t i, double q, double blocked_excess) {
   auto const& scan = selection.first_scan[i];
   double const excess = std::max(selection.first_excess, std::numeric_limits<double>::min());
   Candidate candidate;
@@ -39,7 +39,7 @@ Candidate listed(Selection const& selection, std::size_t i, double q) {
   candidate.chance_z = scan.chance_z;
   // without a mismatch there is nothing to have a share of
   candidate.gain = selection.is_gate_open ? std::max(0.0, scan.gain / excess) : 0.0;
-  if (selection.is_gate_open) candidate.cv_gain = selection.first_cv_gain[i] / excess;
+  if (selection.is_gate_open) candidate.cv_gain = selection.first_cv_gain[i] / blocked_excess;
   if (selection.has_accepted(scan.effect)) {
     bool const is_physics = scan.effect->acts_on() == ActsOn::joint;
     candidate.decision = is_physics ? Decision::named : Decision::measurement;
@@ -54,9 +54,13 @@ Candidate listed(Selection const& selection, std::size_t i, double q) {
 
 }  // namespace
 
-std::vector<Candidate> candidate_table(Selection const& selection, double q) {
+std::vector<Candidate> candidate_table(Selection const& selection, double q, double blocked_excess) {
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < selection.first_scan.size(); ++i) candidates.push_back(listed(selection, i, q));
+  // as the first excess: what one candidate takes was there
+  double blocked_whole = std::max(blocked_excess, std::numeric_limits<double>::min());
+  for (double gain : selection.first_cv_gain) blocked_whole = std::max(blocked_whole, std::isfinite(gain) ? gain : 0.0);
+  for (std::size_t i = 0; i < selection.first_scan.size(); ++i)
+    candidates.push_back(listed(selection, i, q, blocked_whole));
   std::stable_sort(candidates.begin(), candidates.end(), [&](auto const& a, auto const& b) {
     return selection.is_gate_open ? a.gain > b.gain : a.z - a.chance_z > b.z - b.chance_z;
   });

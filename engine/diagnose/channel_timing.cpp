@@ -58,7 +58,6 @@ double first_gain(Selection const& selection) {
 
 std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
                                             double rate_hz) {
-  constexpr double nearly_as_good = 0.9;  // as equivalent_effects.hpp
   static Effect const* const delay = find_effect("delay");
   if (!selection.is_gate_open) return std::nullopt;
   auto const& effects = selection.final->model().effects();

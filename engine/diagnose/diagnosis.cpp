@@ -1,5 +1,7 @@
 #include "engine/diagnose/diagnosis.hpp"
 
+#include "engine/effects/effect_traits.hpp"
+
 namespace torquescope {
 
 std::string word(Verdict verdict) {
@@ -35,5 +37,7 @@ std::string word(Decision decision) {
   }
   return {};
 }
+
+bool is_fault(NamedEffect const& effect) { return !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint); }
 
 }  // namespace torquescope

@@ -75,15 +75,17 @@ struct Candidate {
   std::string name;
   std::string family;
   double z = 0.0, p = 1.0, q = 1.0;
-  double gain = 0.0;          // share of the mismatch (residual beyond the twins) it explains, at its best shape
-  double cv_gain = unknown;   // the same predicted on blocks it was not fitted to; may be above 1 and below 0
+  double gain = 0.0;  // share of the mismatch (residual beyond the twins) it explains, at its best shape
+  double cv_gain =
+      unknown;  // of the mismatch on blocks of time that nothing was fitted to; below 0 where it makes them worse
   double chance_z = unknown;  // the largest z that 95 % of the twins stay below
   Decision decision = Decision::rejected;
   std::string reason{};  // one clause: why this decision; "" for what is named
 };
 
 struct EffectGain {
-  double train = unknown, cv = unknown, validation = unknown;  // shares of the residual's energy
+  // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to, unseen
+  double train = unknown, cv = unknown, validation = unknown;
 };
 
 // a curve to draw: the effect against its principal axis
@@ -113,6 +115,9 @@ struct NamedEffect {
   std::string sentence{};
   EffectCurve curve{};
 };
+
+// of a recorded channel, not physics of the joint
+bool is_fault(NamedEffect const& effect);
 
 struct Budget {  // shares of the baseline residual's energy, sum 1
   double parameter_error = 0.0, missing_physics = 0.0, unexplained = 0.0, noise = 1.0;

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double least_share_of_rest = 0.25;
 constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
-constexpr double nearly_as_good = 0.9;  // as equivalent_effects.hpp
 constexpr std::size_t n_refined = 5;
 
 }  // namespace

@@ -46,7 +46,6 @@ double chance_of_advantage(Eigen::MatrixXd const& accepted, Eigen::MatrixXd cons
 std::vector<Rival> rivals_of(ModelStage const& stage, std::size_t i, std::vector<Effect const*> const& others,
                              ShapeSearch const& search, int threads) {
   constexpr double common_level = 0.05;
-  constexpr double nearly_all = 0.9;
   auto const& [effect, shape] = stage.model().effects()[i];
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), i);
   auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
@@ -66,7 +65,7 @@ std::vector<Rival> rivals_of(ModelStage const& stage, std::size_t i, std::vector
     if (group.rank() == 0 || !(refined.gain > 0.0) || !other->is_plausible(refined.shape, columns.scales())) continue;
     Rival rival{other, refined.shape, refined.gain / own_gain, 1.0, true};
     rival.p = chance_of_advantage(own.q, group.q, signal, apart);
-    bool const as_good_but_for_form = rival.gain_ratio > nearly_all && own_gain - refined.gain <= left;
+    bool const as_good_but_for_form = rival.gain_ratio > nearly_as_good && own_gain - refined.gain <= left;
     rival.is_equivalent = as_good_but_for_form || rival.p > common_level;
     rivals.push_back(rival);
   }

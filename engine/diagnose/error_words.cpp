@@ -25,9 +25,14 @@ std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
 
 }  // namespace
 
-bool is_at_floor(double relerr, double floor) {
+std::string floor_words(double relerr, double floor, bool is_unseen) {
+  if (!std::isfinite(floor)) return "";
   constexpr double nearly = 1.02;
-  return relerr <= nearly * floor;
+  std::string const text = percent_text(floor);
+  if (relerr > nearly * floor) return ", floor " + text;
+  if (relerr >= floor / nearly) return ", at the floor (about " + text + ")";
+  return fmt::format(", below the floor (about {}: what clean twins leave on average{})", text,
+                     is_unseen ? ", with the noise of the training recording" : "");
 }
 
 std::string gain_sentence(JointDiagnosis const& joint) {
@@ -37,10 +42,7 @@ std::string gain_sentence(JointDiagnosis const& joint) {
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
   std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
                                        percent_text(before), percent_text(after));
-  if (!std::isfinite(joint.floor_relerr)) return text + ".";
-  std::string const floor = percent_text(joint.floor_relerr);
-  return text +
-         (is_at_floor(after, joint.floor_relerr) ? ", at the floor (about " + floor + ")." : ", floor " + floor + ".");
+  return text + floor_words(after, joint.floor_relerr, unseen) + ".";
 }
 
 std::string unseen_is_other_sentence(JointDiagnosis const& joint) {

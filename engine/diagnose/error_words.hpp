@@ -12,11 +12,11 @@
 
 namespace torquescope {
 
-// a fiftieth above the floor is at it: the floor is a mean over twins
-bool is_at_floor(double relerr, double floor);
+// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; ", below the floor (about 6.9 %: ...)"
+// with what the floor is; "" where none is known
+std::string floor_words(double relerr, double floor, bool is_unseen);
 
-// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %.", or ", at the floor (about 6.3 %)."; from cross-validation where nothing unseen
-// was recorded
+// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded
 std::string gain_sentence(JointDiagnosis const& joint);
 
 // An unseen error beyond three times and three points above both the error in training and the floor of the unseen recording,

@@ -8,16 +8,15 @@
 #include "engine/base/error.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/diagnose/abstention.hpp"
-#include "engine/diagnose/blocked_cv.hpp"
+#include "engine/diagnose/blocked_mismatch.hpp"
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/channel_timing.hpp"
-#include "engine/diagnose/detection_power.hpp"
 #include "engine/diagnose/error_words.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
 #include "engine/diagnose/joint_search.hpp"
 #include "engine/diagnose/mismatch_map.hpp"
+#include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
-#include "engine/diagnose/parameter_intervals.hpp"
 #include "engine/diagnose/recording_checks.hpp"
 #include "engine/diagnose/sentences.hpp"
 #include "engine/diagnose/simulator_gap.hpp"
@@ -27,25 +26,9 @@
 namespace torquescope {
 namespace {
 
-double relative_error(ProcessedRecord const& record) {
-  return record.residual_itself().norm() / record.torque_itself().norm();
-}
-
 constexpr char const* without_reference_sentence =
     "No reference was recorded: twins follow the measured motion, and the torque's noise is read from what the model "
     "leaves, so that small effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns).";
-
-std::string source_word(LoopSource source) {
-  switch (source) {
-    case LoopSource::identified:
-      return "identified";
-    case LoopSource::approximated:
-      return "approximated";
-    case LoopSource::tracking:
-      break;
-  }
-  return "tracking";
-}
 
 // what work() says of the recording, or what stopped it when that is the recording's fault
 template <typename Work>
@@ -107,8 +90,9 @@ class JointWork {
     selection_ = doubt_noise(setting, input_.selection, std::move(selection_), progress_);
     Remainder const remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
-    describe_baseline();
-    joint_.candidates = candidate_table(selection_, input_.selection.q);
+    account_for_models(selection_, torque_late_s_ == 0.0 ? "" : timing_remark(torque_late_s_, input_.train.rate_hz),
+                       joint_);
+    joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
@@ -142,53 +126,6 @@ class JointWork {
 
   ModelStage const& final_stage() const { return *selection_.final; }
   ModelStage const& baseline() const { return *selection_.baseline; }
-
-  void describe_baseline() {
-    auto const& stage = baseline();
-    auto const& rows = stage.comparison.rows;
-    joint_.baseline = estimate_parameters(stage).baseline;
-    joint_.train_relerr = relative_error(stage.comparison.recording);
-    if (selection_.keeps_reversals) joint_.rows = "with reversals";
-    joint_.loop_source = source_word(stage.twin->loop.source);
-    joint_.loop_remark = stage.twin->loop.remark;
-    if (torque_late_s_ != 0.0) remark(timing_remark(torque_late_s_, input_.train.rate_hz));
-    if (stage.twin->colour) remark(colour_remark(*stage.twin->colour, joint_.unit_torque));
-    joint_.torque_noise = stage.twin->loop.loop.torque_noise.std;
-    joint_.disturbance = stage.twin->disturbance.std;
-    joint_.friction_wander = stage.twin->friction_wander.std;
-    joint_.shape_evaluations = selection_.evaluations;
-    joint_.twins = static_cast<std::size_t>(rows.n_twins());
-    joint_.omnibus_z = stage.energy.z;
-    joint_.omnibus_p = stage.energy.p;
-    joint_.mismatch_rms = stage.energy.excess_rms();
-    joint_.mismatch_share = mismatch_share(stage);
-    joint_.left_rms = final_stage().energy.excess_rms();
-    for (Eigen::Index t = 0; t < rows.n_twins(); ++t)
-      joint_.twin_energy.push_back(rows.twins.col(t).squaredNorm() / stage.energy.residual);
-    auto const floor_of = [](ModelStage const& of) {
-      auto const& own = of.comparison.rows;
-      auto const& twins = own.plain_twins.size() > 0 ? own.plain_twins : own.twins;
-      return std::sqrt(twins.colwise().squaredNorm().mean()) / own.torque.norm();
-    };
-    joint_.train_floor_relerr = floor_of(final_stage());
-    joint_.floor_relerr = joint_.train_floor_relerr;
-    joint_.augmented_train_relerr = relative_error(final_stage().comparison.recording);
-    joint_.cv_relerr = cv_relerr(stage);
-    joint_.augmented_cv_relerr = cv_relerr(final_stage());
-    joint_.power_sentence = power_sentence(stage);
-  }
-
-  void remark(std::string const& what) {
-    if (!joint_.loop_remark.empty()) joint_.loop_remark += "; ";
-    joint_.loop_remark += what;
-  }
-
-  double cv_relerr(ModelStage const& stage) const {
-    auto const& record = stage.comparison.recording;
-    Eigen::VectorXd const& torque = record.torque_itself();
-    return std::sqrt(blocked_residual_energy(torque, record.columns_themselves(), guard_rows(*stage.pipeline)) /
-                     torque.squaredNorm());
-  }
 
   void account_for_effects() {
     ShapeSearch const search = shape_search(input_.selection.shape_optimiser, input_.seed);
@@ -286,10 +223,9 @@ class JointWork {
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
     bool const is_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                       [](NamedEffect const& one) { return !one.equivalent.empty(); });
-    bool const is_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(),
-                                      [](NamedEffect const& one) { return one.acts_on != word(ActsOn::joint); });
-    diagnosis_.verdict = is_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
-    if (is_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
+    bool const is_all_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+    diagnosis_.verdict = is_all_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
+    if (is_all_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
     joint_.excitation = advice_for(joint_.effects);
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/diagnose/blocked_mismatch.hpp"
 #include "engine/diagnose/effect_account.hpp"
 #include "engine/diagnose/equivalent_effects.hpp"
 #include "engine/diagnose/parameter_intervals.hpp"
@@ -25,7 +26,9 @@ std::vector<Effect const*> rivals_for(AcceptedEffect const& accepted, Selection 
   return rivals;
 }
 
-NamedEffect described(Selection const& selection, std::size_t i, std::vector<ParameterEstimate> const& parameters) {
+// blocked: energy that the baseline leaves on blocks it was not fitted to
+NamedEffect described(Selection const& selection, std::size_t i, double blocked,
+                      std::vector<ParameterEstimate> const& parameters) {
   auto const& accepted = selection.accepted[i];
   auto const& effect = *accepted.effect;
   double const residual = selection.first_energy.residual;
@@ -41,7 +44,7 @@ NamedEffect described(Selection const& selection, std::size_t i, std::vector<Par
   named.z = accepted.scan.z;
   named.p_is_bound = accepted.scan.p_is_bound;
   named.gain.train = accepted.gain / residual;
-  named.gain.cv = accepted.cv_gain / residual;
+  named.gain.cv = accepted.cv_gain / blocked;
   named.region = account.region;
   named.places = std::move(account.places);
   named.region_gain = accepted.region_gain;
@@ -70,7 +73,7 @@ std::size_t number_of(Selection const& selection, std::size_t i) {
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
   ModelEstimate const estimate = estimate_parameters(*selection.final);
-  double const residual = selection.first_energy.residual;
+  double const residual = selection.first_energy.residual, blocked = blocked_mismatch(*selection.baseline).energy;
   NamedEffects result;
   result.parameters = estimate.baseline;
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
@@ -83,10 +86,10 @@ NamedEffects name_effects(Selection const& selection, ShapeSearch const& search,
     if (same != result.effects.end()) {
       same->parameters.insert(same->parameters.end(), parameters.begin(), parameters.end());
       same->gain.train += accepted.gain / residual;
-      same->gain.cv += accepted.cv_gain / residual;
+      same->gain.cv += accepted.cv_gain / blocked;
       continue;
     }
-    NamedEffect named = described(selection, i, parameters);
+    NamedEffect named = described(selection, i, blocked, parameters);
     for (auto const& rival : rivals_of(*selection.final, i, rivals_for(accepted, selection), search, threads))
       if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
     result.effects.push_back(std::move(named));

@@ -192,11 +192,10 @@ std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, E
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
-  constexpr double nearly_all = 0.9;
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
   auto plausible = refine_plausible(columns, scan, mismatch, search, threads);
-  if (!plausible || plausible->gain < nearly_all * best.gain) return best;
+  if (!plausible || plausible->gain < nearly_as_good * best.gain) return best;
   plausible->evaluations += best.evaluations;
   return std::move(*plausible);
 }

@@ -20,6 +20,9 @@
 
 namespace torquescope {
 
+// of what another one explains: what explains so much has not lost to it
+inline constexpr double nearly_as_good = 0.9;
+
 using MakeShapeSearch = std::function<std::unique_ptr<Optimiser>(Bounds const&, RandomKey)>;
 
 struct ShapeSearch {

@@ -7,14 +7,11 @@
 // lets expect, and twins with white noise alone would take all of that for missing physics.
 //
 // Model      white noise plus white noise through one pole (corner_hz), both only logged
-// Statistic  energy of the residual's second differences over rows 0.4, 0.8, 1.6 ... periods of the filter's cut-off apart, as
-//            long as eight blocks of eight such steps are left: one per octave below the cut-off. Median over the blocks;
-//            every smooth function of position, velocity, acceleration and jerk that the residual holds is taken out first, with
-//            and without the motion's sign, and a parabola of dry friction's level: what is missing lives there, noise does not
+// Statistic  energies in the octaves below the filter's cut-off (octave_energies.hpp)
 // Fit        energies of the recording = those of twins without torque noise + of the two noises through the same filter and
 //            projection; gamma likelihood, its degrees of freedom from the noise's own draws; the slow part is taken in when
 //            Akaike's criterion asks for it. Non-negative
-// Corner     from the cut-off to an octave below the lowest band, in steps of half an octave
+// Corner     from the cut-off to an octave below the lowest one, in steps of half an octave
 // Units      N m or N; Hz
 // Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 // Source     McCullagh, Nelder 1989, 8.3 (gamma likelihood of spectral estimates: Whittle 1953)
@@ -30,7 +27,7 @@ namespace torquescope {
 struct TorqueColour {
   double white_std = 0.0;
   double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
-  double variance_error = 0.0;             // standard error of both variances, as a share: of the band known worst
+  double variance_error = 0.0;             // standard error of both variances, as a share: of the octave known worst
   bool ran_away = false;
 };
 

@@ -73,7 +73,11 @@ class Shard {
 };
 
 Error stopped(DiagnoseRequest const& request, Shard const* shard) {
-  if (shard == nullptr) return Error(Problem{ExitCode::stopped, "stopped: nothing was written"});
+  if (shard == nullptr) {
+    Problem problem{ExitCode::stopped, "stopped: nothing was written"};
+    problem.help = "the same command begins anew; one with --shard 0/2 keeps its twins and goes on with them";
+    return Error(problem);
+  }
   if (shard->is_finished())
     return Error(Problem{ExitCode::stopped, "another shard has finished " + request.output.string()});
   Problem problem{ExitCode::stopped, "stopped: twins so far are safe in " + segment_folder_of(request.output).string()};
@@ -99,6 +103,7 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
     if (shard && request.tell) request.tell("shard", shard->twins().account());
     // also those of shards that were killed, when one process made it all in the end
     if (shard || twin_parts_in(segment_folder_of(request.output)) > 0) remove_segments(request.output);
+    remove_unfinished(request.output);
     return diagnosis;
   } catch (TwinsAbandoned const&) {
     throw stopped(request, shard ? &*shard : nullptr);

@@ -39,6 +39,7 @@ Json region_json(MismatchRegion const& region) {
 Json effect_json(NamedEffect const& effect) {
   return {{"name", effect.name},
           {"family", effect.family},
+          {"acts_on", effect.acts_on},
           {"equivalent", effect.equivalent},
           {"p", number(effect.p)},
           {"q", number(effect.q)},

@@ -4,6 +4,7 @@
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/study_writer.hpp"
+#include "engine/store/temp_file.hpp"
 
 namespace torquescope {
 
@@ -11,9 +12,11 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
                              std::function<Diagnosis()> const& find) {
   Beginning const beginning;
   auto const& parts = experiment.parts();
+  // whether there may be a file is asked before hours are spent; while they pass, there is none that a killed process would leave
+  { TempFile const asked(request.output); }
+  Diagnosis diagnosis = find();
   ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
-  Diagnosis diagnosis = find();
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))
     writer.attribute("/diagnosis/options", key, value);

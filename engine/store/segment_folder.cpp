@@ -106,7 +106,11 @@ void remove_segments(fs::path const& result) {
       remove_if_abandoned(name);
   }
   ::rmdir(folder.c_str());
+  remove_unfinished(result);
+}
 
+void remove_unfinished(fs::path const& result) {
+  std::error_code ignored;
   fs::path const home = result.has_parent_path() ? result.parent_path() : fs::path(".");
   for (auto const& name : files_in(home, ignored))
     for (auto const& whole : {result, circumstances_file_of(result)})

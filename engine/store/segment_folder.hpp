@@ -50,6 +50,9 @@ std::size_t twin_parts_in(std::filesystem::path const& folder);
 // something else; and what killed processes left of the result itself. A file that a living process writes stays.
 void remove_segments(std::filesystem::path const& result);
 
+// only the last of these: what killed processes left of the result itself
+void remove_unfinished(std::filesystem::path const& result);
+
 std::string host_name();
 
 }  // namespace torquescope

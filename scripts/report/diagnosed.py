@@ -158,6 +158,10 @@ def is_at_floor(error, floor):
     return error <= 1.02 * floor
 
 
+def is_below_floor(error, floor):
+    return error < floor / 1.02
+
+
 def unseen_errors(joint):
     """(before, after, floor) on the unseen recording, or in training without one."""
     if math.isfinite(joint.validation_relerr):

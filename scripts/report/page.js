@@ -198,9 +198,7 @@
       const length = Math.min(Math.max(stop - start, least), last - first);
       start = Math.min(Math.max((start + stop) / 2 - length / 2, first), last - length);
       view = { start, stop: start + length };
-      const before = performance.now();
       redraw(shown);
-      figure.dataset.zoomMs = (performance.now() - before).toFixed(1);
     }
     // the width that is not shown waits until it is
     function redraw(now) {

@@ -84,8 +84,10 @@ def big_numbers(joint):
     elif math.isfinite(before):
         found.append((q.percent(before), "", f"error of the baseline {where}"))
     if math.isfinite(floor):
-        reached = diagnosed.is_at_floor(after if diagnosed.has_after(joint) and math.isfinite(after) else before, floor)
-        found.append((f"about {q.percent(floor)}", "", "floor: it is reached") if reached else
+        error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
+        reached = diagnosed.is_at_floor(error, floor)
+        found.append((f"about {q.percent(floor)}", "", "floor: it is reached") if reached and not diagnosed.is_below_floor(error, floor) else
+                     (f"about {q.percent(floor)}", "", "floor, as clean twins have it on average: the error is below") if reached else
                      (q.percent(floor), "", "floor: what a complete model would leave"))
     closed = diagnosed.share_closed(joint)
     if math.isfinite(closed):
@@ -117,8 +119,8 @@ def candidates_answer(joint):
     said = f"{q.count(tested, 'candidate')} tested, strongest first" if tested else "No candidate was tested"
     if tested and not named:
         said += "; none is named"
-    return (f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch predicted on blocks of time that the "
-            "effect was not fitted to.")
+    return (f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on blocks of "
+            "time that nothing was fitted to; –: not tried.")
 
 
 def fit_answer(study, joint):
@@ -135,8 +137,11 @@ def fit_answer(study, joint):
 
 
 def _floor_words(error, floor):
+    """Unseen, as the verdict's sentence has it (engine/diagnose/error_words.hpp)."""
     if not math.isfinite(floor):
         return ""
+    if diagnosed.is_below_floor(error, floor):
+        return f", below the floor (about {q.percent(floor)}: what clean twins leave on average, with the noise of the training recording)"
     return f", at the floor (about {q.percent(floor)})" if diagnosed.is_at_floor(error, floor) else f", floor {q.percent(floor)}"
 
 

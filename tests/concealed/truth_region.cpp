@@ -77,12 +77,13 @@ std::vector<std::string> const& truth_axes() {
 }
 
 std::vector<TruthRegion> truth_regions(Truth const& truth, std::vector<double> const& added, Baseline const& baseline) {
-  std::vector<double> load, transmitted;
+  std::vector<double> load_along_motion, transmitted;
   for (std::size_t k = 0; k < truth.t.size(); ++k) {
     double const direction = truth.v[k] > 0.0 ? 1.0 : truth.v[k] < 0.0 ? -1.0 : 0.0;
-    load.push_back(baseline.inertia * truth.a[k] + baseline.gravity_sin * std::sin(truth.q[k]) +
-                   baseline.gravity_cos * std::cos(truth.q[k]));
-    transmitted.push_back(load.back() + baseline.viscous * truth.v[k] + baseline.coulomb * direction);
+    double const load = baseline.inertia * truth.a[k] + baseline.gravity_sin * std::sin(truth.q[k]) +
+                        baseline.gravity_cos * std::cos(truth.q[k]);
+    load_along_motion.push_back(truth.v[k] < 0.0 ? -load : load);
+    transmitted.push_back(load + baseline.viscous * truth.v[k] + baseline.coulomb * direction);
   }
   auto const [lowest, highest] = std::minmax_element(truth.q.begin(), truth.q.end());
   double const shortest = 1e-5 * (*highest - *lowest);
@@ -90,7 +91,7 @@ std::vector<TruthRegion> truth_regions(Truth const& truth, std::vector<double> c
                                                    truth.q,
                                                    truth.v,
                                                    truth.a,
-                                                   load,
+                                                   load_along_motion,
                                                    since_reversal(truth, truth.v, shortest),
                                                    since_reversal(truth, transmitted, shortest)};
   std::vector<TruthRegion> regions;

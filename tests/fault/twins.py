@@ -140,6 +140,23 @@ class Twins(study.FaultTest):
             self.assert_ended(ended, 0)
             self.assertIn("a diagnosis: 3 parts of its twins are safe in r.h5.parts", ended.out)
 
+    def test_one_process_alone_leaves_nothing_behind_however_it_ends(self):
+        job = self.JOB.replace("twins = 60", "twins = 100000")
+        for number, code in ((signal.SIGTERM, 75), (signal.SIGINT, 75), (signal.SIGKILL, -signal.SIGKILL)):
+            folder = self.folder(job)
+            process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--progress", "lines")
+            while b"stage=twins" not in process.stderr.readline():
+                pass
+            process.send_signal(number)
+            ended = study.Ended(process)
+            self.assertEqual(ended.code, code, ended.said)
+            self.assertEqual(glob.glob(folder / "r.h5*"), [])
+            if number != signal.SIGKILL:
+                self.assertIn("stopping after the running step of the search", ended.said)
+                self.assertIn("nothing was written", ended.said)
+                self.assertIn("the same command begins anew", ended.said)
+                self.assertNotIn("generation", ended.said)
+
 
 if __name__ == "__main__":
     print(f"FAULT_SEED={study.SEED}", file=study.sys.stderr)

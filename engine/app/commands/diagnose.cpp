@@ -38,6 +38,13 @@ struct DiagnoseArguments {
   bool allow_full_disk = false;
 };
 
+constexpr StopWords words_of_one{
+    "stopping after the running step of the search",
+    "stopped in the middle of a step that takes long: nothing was written, the same command begins anew"};
+constexpr StopWords words_of_shard{
+    "stopping after the running step of the search",
+    "stopped in the middle of a step that takes long: the same command goes on with the twins that are safe"};
+
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     std::string line =
@@ -101,7 +108,10 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
 
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) {
     session.note(session.topic_line("job", experiment.diagnose_line()));
-    session.note(session.topic_line("done", "already diagnosed: nothing runs again"));
+    session.note(session.topic_line(
+        "done", fmt::format("already diagnosed: nothing runs again, the kept result is shown; --out another name, or "
+                            "delete {}, to diagnose anew",
+                            output.string())));
     return print_kept(arguments, session, output);
   }
 
@@ -115,7 +125,8 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.allow_full_disk = arguments.allow_full_disk;
   request.shard = shard;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
-  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken,
+                       shard.count > 1 ? words_of_shard : words_of_one);
   if (shard.count > 1)
     session.note(session.topic_line(
         "shard", fmt::format("{}/{} ({}): twins are shared in {}; --shard 0/1 makes all of them here", shard.index,

@@ -54,15 +54,21 @@ std::string decision_cell(Candidate const& one, std::vector<std::string> const& 
   return fmt::format("{} ({})", word(one.decision), at + 1);
 }
 
+bool is_cross_validated(Candidate const* one) { return std::isfinite(one->cv_gain); }
+
 std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> const& shown, bool with_family) {
   using Align = TextTable::Align;
   double const least_p = joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
   std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
                              Align::right, Align::right, Align::left};
-  if (!with_family) columns.erase(columns.begin() + 1);
+  bool const with_cv = std::any_of(shown.begin(), shown.end(), is_cross_validated);
+  constexpr std::ptrdiff_t of_family = 1, of_cv = 5;
+  if (!with_cv) columns.erase(columns.begin() + of_cv);
+  if (!with_family) columns.erase(columns.begin() + of_family);
   TextTable table(columns, std::string(lead_columns, ' '));
   auto const row = [&](std::vector<std::string> cells) {
-    if (!with_family) cells.erase(cells.begin() + 1);
+    if (!with_cv) cells.erase(cells.begin() + of_cv);
+    if (!with_family) cells.erase(cells.begin() + of_family);
     table.row(std::move(cells));
   };
   auto const reasons = reasons_of(shown, Decision::rejected);
@@ -94,8 +100,10 @@ std::string why_text(std::vector<Candidate const*> const& shown) {
     lines.push_back(fmt::format("({}) {}", i + 1, printable(rejected[i])));
   for (auto const& reason : reasons_of(shown, Decision::not_tested))
     lines.push_back("not tested: " + printable(reason));
-  if (std::any_of(shown.begin(), shown.end(), [](Candidate const* one) { return std::isfinite(one->cv_gain); }))
-    lines.push_back("CV gain: share of the mismatch predicted on blocks it was not fitted to");
+  auto const tried = std::count_if(shown.begin(), shown.end(), is_cross_validated);
+  if (tried > 0)
+    lines.push_back(std::string("CV gain: share of the mismatch predicted on blocks it was not fitted to") +
+                    (tried < std::ssize(shown) ? "; blank: not tried" : ""));
   std::string text;
   for (auto const& line : lines) text += hanging(lead(text.empty() ? "why" : ""), line);
   return text;

@@ -43,6 +43,14 @@ VerdictWords words_of(Verdict verdict) {
   return {"", ""};
 }
 
+// a fault of a channel beside physics
+bool has_fault(Diagnosis const& diagnosis) {
+  if (diagnosis.verdict != Verdict::named && diagnosis.verdict != Verdict::one_of_class) return false;
+  return std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), [](JointDiagnosis const& joint) {
+    return std::any_of(joint.effects.begin(), joint.effects.end(), is_fault);
+  });
+}
+
 bool needs_care(Verdict verdict) {
   return verdict == Verdict::unexplained || verdict == Verdict::insufficient || verdict == Verdict::data_fault;
 }
@@ -166,7 +174,8 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   VerdictWords const words = words_of(diagnosis.verdict);
   std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
-  std::string const inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
+  std::string inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
+  if (has_fault(diagnosis)) inked += ink.warning(" + DATA FAULT");
   // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
   std::string reason = printable(diagnosis.reason);
   for (auto const& [loose, tight] : kept_together) reason = with_each(reason, loose, tight);

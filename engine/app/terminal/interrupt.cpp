@@ -22,10 +22,11 @@ constexpr int stopped = 75;  // ExitCode::stopped
 std::atomic<int> first_signal{0};
 std::atomic<int> interrupts_seen{0};
 std::atomic<bool> notice_spoken{false};
+std::atomic<char const*> words_at_first{words_of_runs.at_first}, words_cut_short{words_of_runs.cut_short};
 std::atomic<bool> saving{false};
 std::atomic<double> budget_s{0.0};
 std::atomic<double> stop_at_s{std::numeric_limits<double>::infinity()};
-static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<char const*>::is_always_lock_free);
 
 double clock_s(clockid_t clock) {
   timespec now{};
@@ -45,14 +46,14 @@ void on_stop_signal(int number) {
   if (number == SIGINT && interrupts_seen.fetch_add(1) > 0) ::_exit(128 + number);
   int none = 0;
   if (first_signal.compare_exchange_strong(none, number)) {
-    say("\nstopping after the running generation (Ctrl-C to stop at once)\n");
+    for (char const* part : {"\n", words_at_first.load(), " (Ctrl-C to stop at once)\n"}) say(part);
     if (!saving.load()) ::alarm(seconds_to_stop);
   }
   errno = saved_errno;
 }
 
 void on_alarm(int) {
-  say("\nstopped in the middle of a generation that takes long; the same command goes on from its last segment\n");
+  for (char const* part : {"\n", words_cut_short.load(), "\n"}) say(part);
   ::_exit(stopped);
 }
 
@@ -73,7 +74,9 @@ char const* name_of(int number) {
 
 }  // namespace
 
-void install_stop_signals(StopNotice notice) {
+void install_stop_signals(StopNotice notice, StopWords const& words) {
+  words_at_first.store(words.at_first);
+  words_cut_short.store(words.cut_short);
   notice_spoken.store(notice == StopNotice::spoken);
   struct sigaction action {};
   action.sa_handler = on_stop_signal;

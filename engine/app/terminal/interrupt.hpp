@@ -1,5 +1,5 @@
 #pragma once
-// Ctrl-C and friends: the first asks the work to stop after its generation; a second Ctrl-C ends the process at once.
+// Ctrl-C and friends: the first asks the work to stop after its present step; a second Ctrl-C ends the process at once.
 //
 // Signals    SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGHUP; SIGPIPE and SIGXFSZ are ignored, so that writing reports them.
 //            SIGCONT is none: Slurm sends it along with SIGTERM. A batch system sends several signals in a row, so only
@@ -16,7 +16,16 @@ namespace torquescope {
 
 enum class StopNotice { spoken, silent };  // silent: --quiet
 
-void install_stop_signals(StopNotice notice);
+// what a signal handler prints: literals
+struct StopWords {
+  char const* at_first;   // after what it will stop
+  char const* cut_short;  // after four seconds
+};
+inline constexpr StopWords words_of_runs{
+    "stopping after the running generation",
+    "stopped in the middle of a generation that takes long; the same command goes on from its last segment"};
+
+void install_stop_signals(StopNotice notice, StopWords const& words = words_of_runs);
 void ignore_write_signals();  // SIGPIPE, SIGXFSZ: for every command
 // of the time since the process began; what is done is saved a tenth of it, but at most a minute, before its end
 void stop_after(double seconds);

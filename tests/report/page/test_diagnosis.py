@@ -127,9 +127,13 @@ class Verdict(unittest.TestCase):
         self.assertAlmostEqual(diagnosed.share_closed(joint("named")), (0.1213 - 0.0623) / (0.1213 - 0.0601))
 
     def test_below_the_floor_there_is_no_gap(self):
-        at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.041, floor_relerr=0.049)
+        at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.0485, floor_relerr=0.049)
         self.assertIn(("about 4.9 %", "", "floor: it is reached"), words_of_diagnosis.big_numbers(at_floor))
-        self.assertIn("4.1 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor))
+        self.assertIn("4.9 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor))
+        below = dataclasses.replace(at_floor, augmented_validation_relerr=0.041)
+        self.assertIn(("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"), words_of_diagnosis.big_numbers(below))
+        self.assertIn("4.1 % after, below the floor (about 4.9 %: what clean twins leave on average", words_of_diagnosis.fit_answer(
+            support.study("named"), below))
         self.assertEqual(diagnosed.share_closed(at_floor), 1.0)
         self.assertTrue(math.isnan(diagnosed.share_closed(dataclasses.replace(at_floor, validation_relerr=0.048))))
 

@@ -165,6 +165,7 @@ TEST_F(DiagnoseCommand, AFinishedJobIsShownAgainFromItsFile) {
   EXPECT_EQ(diagnosed, 1);
   EXPECT_EQ(again.out, first.out);
   EXPECT_THAT(again.err, HasSubstr("already diagnosed: nothing runs again"));
+  EXPECT_THAT(again.err, HasSubstr("to diagnose anew"));
   EXPECT_THAT(again.err, HasSubstr("\nkept   "));
   EXPECT_THAT(run({"--all"}).out, Not(HasSubstr("more below these")));
 }

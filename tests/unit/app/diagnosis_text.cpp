@@ -66,6 +66,27 @@ TEST(DiagnosisText, EveryVerdictHasItsMarkAndWord) {
   }
 }
 
+TEST(DiagnosisText, AFaultBesidePhysicsStandsInTheHeadline) {
+  for (auto diagnosis : {example::invented_diagnosis(), example::invented_class()}) {
+    std::string const before = verdict_text(diagnosis, true, Ink());
+    EXPECT_THAT(before, Not(HasSubstr("FAULT")));
+    NamedEffect delay = diagnosis.joints[0].effects[0];
+    delay.acts_on = "recorded_torque";
+    diagnosis.joints[0].effects.push_back(delay);
+    EXPECT_THAT(verdict_text(diagnosis, true, Ink()),
+                StartsWith(before.substr(0, before.find("  ")) + " + DATA FAULT  "));
+  }
+}
+
+TEST(DiagnosisText, ACrossValidatedGainStandsWhereThereIsOne) {
+  EXPECT_THAT(diagnosis_text(example::invented_diagnosis(), {}, Ink()), HasSubstr("CV gain"));
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].candidates[1].cv_gain = unknown;
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), HasSubstr("blank:"));
+  for (auto& one : diagnosis.joints[0].candidates) one.cv_gain = unknown;
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), Not(HasSubstr("CV gain")));
+}
+
 TEST(DiagnosisText, NoLineIsWiderThanThePage) {
   for (auto diagnosis : all_verdicts())
     for (bool all : {false, true})

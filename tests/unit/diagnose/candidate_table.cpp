@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace torquescope {
 namespace {
@@ -42,7 +43,7 @@ AcceptedEffect accepted(char const* name) {
 }
 
 Candidate candidate(Selection const& selection, std::string const& name) {
-  auto const table = candidate_table(selection, 0.05);
+  auto const table = candidate_table(selection, 0.05, 10.0);
   return *std::find_if(table.begin(), table.end(), [&](Candidate const& one) { return one.name == name; });
 }
 
@@ -50,7 +51,7 @@ TEST(CandidateTable, EveryOneThatIsNotNamedHasItsReason) {
   for (bool is_open : {false, true}) {
     Selection selection = selection_of(is_open);
     if (is_open) selection.accepted = {accepted("stribeck")};
-    for (auto const& one : candidate_table(selection, 0.05))
+    for (auto const& one : candidate_table(selection, 0.05, 10.0))
       EXPECT_EQ(one.reason.empty(), one.decision == Decision::named) << one.name;
   }
 }
@@ -86,6 +87,18 @@ TEST(CandidateTable, OfALaterRoundSaysWhatIsLeftBesideTheNames) {
   EXPECT_EQ(candidate(selection, "backlash").reason, "within chance (q above 0.05)");
 }
 
+TEST(CandidateTable, AGainOnOtherBlocksIsAShareOfWhatIsThere) {
+  Selection selection = selection_of(true);
+  EXPECT_DOUBLE_EQ(candidate(selection, "stribeck").cv_gain, 0.8);
+  EXPECT_DOUBLE_EQ(candidate(selection, "delay").cv_gain, 0.03);
+  // what one takes there was there, whatever noise is counted off
+  selection.first_cv_gain = {16.0, 4.0, unknown, unknown, -3.0, unknown};
+  EXPECT_DOUBLE_EQ(candidate(selection, "stribeck").cv_gain, 1.0);
+  EXPECT_DOUBLE_EQ(candidate(selection, "presliding").cv_gain, 0.25);
+  EXPECT_LT(candidate(selection, "delay").cv_gain, 0.0);
+  EXPECT_TRUE(std::isnan(candidate(selection, "cogging").cv_gain)) << "not tried";
+}
+
 TEST(CandidateTable, AFaultOfAChannelIsCalledOne) {
   Selection selection = selection_of(true);
   selection.accepted = {accepted("stribeck"), accepted("delay")};
@@ -94,7 +107,7 @@ TEST(CandidateTable, AFaultOfAChannelIsCalledOne) {
 }
 
 TEST(CandidateTable, WhatFitsAsWellSaysAsWhat) {
-  auto table = candidate_table(selection_of(true), 0.05);
+  auto table = candidate_table(selection_of(true), 0.05, 10.0);
   NamedEffect stribeck;
   stribeck.name = "stribeck";
   stribeck.equivalent = {"presliding"};

@@ -40,7 +40,12 @@ TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
   JointDiagnosis& joint = diagnosis.joints[0];
   joint.augmented_validation_relerr = 0.041;
   joint.floor_relerr = 0.049;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 4.1 %, at the floor (about 4.9 %)."));
+  EXPECT_THAT(
+      reason_sentence(diagnosis),
+      HasSubstr("Unseen relerr 12.1 % to 4.1 %, below the floor (about 4.9 %: what clean twins leave on average, "
+                "with the noise of the training recording)."));
+  joint.augmented_validation_relerr = 0.0485;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
   joint.augmented_validation_relerr = 0.0495;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
   joint.augmented_validation_relerr = 0.052;

@@ -23,7 +23,7 @@ Json const pattern = Json::parse(R"({
     "joint": 1,
     "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "train_relerr": 0, "validation_relerr": 0},
     "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0, "repeatable_share": 0}],
-    "effects": [{"name": "", "family": "", "equivalent": [""], "p": 0, "q": 0, "z": 0,
+    "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""], "p": 0, "q": 0, "z": 0,
                  "gain": {"train": 0, "cv": 0, "validation": 0},
                  "region": {"axis": "", "from": 0, "to": 0},
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
