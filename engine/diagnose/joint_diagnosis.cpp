@@ -22,6 +22,7 @@
 #include "engine/diagnose/simulator_gap.hpp"
 #include "engine/diagnose/unseen_record.hpp"
 #include "engine/diagnose/unseen_refutation.hpp"
+#include "engine/diagnose/unseen_selection.hpp"
 
 namespace torquescope {
 namespace {
@@ -88,7 +89,11 @@ class JointWork {
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
     selection_ = doubt_noise(setting, input_.selection, std::move(selection_), progress_);
-    Remainder const remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
+    Remainder remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
+    unseen_.reserve(input_.validate.size());
+    for (auto const& one : input_.validate)
+      unseen_.push_back(torque_late_s_ == 0.0 ? one : with_torque_earlier(one, torque_late_s_));
+    drop_spoilers(setting, unseen_, selection_, remainder);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, torque_late_s_ == 0.0 ? "" : timing_remark(torque_late_s_, input_.train.rate_hz),
                        joint_);
@@ -140,10 +145,8 @@ class JointWork {
     UnseenEnergies sum;
     double torque = 0.0, promised_floor = 0.0;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
-    for (auto const& recording : input_.validate) {
-      UnseenResult result =
-          check_unseen(torque_late_s_ == 0.0 ? recording : with_torque_earlier(recording, torque_late_s_), setting,
-                       baseline(), final_stage());
+    for (auto const& recording : unseen_) {
+      UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
       torque += result.energy;
       sum.before += result.before_energy;
       sum.after += result.after_energy;
@@ -252,6 +255,7 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
+  std::vector<Recording> unseen_;   // torque in time with that of the training recording
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   double parameter_share_ = 0.0;
   double torque_late_s_ = 0.0;  // taken out of all recordings (channel_timing.hpp)

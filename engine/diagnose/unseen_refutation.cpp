@@ -4,16 +4,6 @@
 #include <cmath>
 
 namespace torquescope {
-namespace {
-
-// of the very recording: its clock, its zero
-bool belongs_to_a_recording(Effect const& effect) {
-  auto const& families = effect.families();
-  return effect.is_event() || std::find(families.begin(), families.end(), EffectFamily::time) != families.end();
-}
-
-}  // namespace
-
 bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
   if (!std::isfinite(energies.floor))
@@ -23,10 +13,15 @@ bool speak_against(UnseenEnergies const& energies) {
   return !is_kept && promised >= enough && energies.moved >= enough;
 }
 
+// not what is of the very recording: its clock, its zero
+bool must_carry_over(Effect const& effect) {
+  auto const& families = effect.families();
+  return !effect.is_event() && std::find(families.begin(), families.end(), EffectFamily::time) == families.end();
+}
+
 bool must_carry_over(std::vector<AcceptedEffect> const& accepted) {
-  return !accepted.empty() && std::none_of(accepted.begin(), accepted.end(), [](AcceptedEffect const& one) {
-    return belongs_to_a_recording(*one.effect);
-  });
+  return !accepted.empty() &&
+         std::all_of(accepted.begin(), accepted.end(), [](auto const& one) { return must_carry_over(*one.effect); });
 }
 
 }  // namespace torquescope

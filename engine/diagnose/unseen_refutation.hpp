@@ -27,7 +27,8 @@ struct UnseenEnergies {
 
 bool speak_against(UnseenEnergies const& energies);
 
-// whether all that was accepted must hold in another recording too
+// whether a law, or all that was accepted, must hold in another recording too
+bool must_carry_over(Effect const& effect);
 bool must_carry_over(std::vector<AcceptedEffect> const& accepted);
 
 }  // namespace torquescope
