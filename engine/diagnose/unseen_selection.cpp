@@ -13,7 +13,7 @@ namespace {
 // the effect that spoils most, by what it gains for each unit of energy it moves
 std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<Recording const> unseen,
                                          Selection const& selection) {
-  constexpr double clearly = -0.5, enough_moved = 0.05;
+  constexpr double enough_moved = 0.1;
   std::vector<UnseenWithout> sum(selection.accepted.size());
   double residual = 0.0;
   for (auto const& recording : unseen) {
@@ -25,7 +25,7 @@ std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<
     }
   }
   std::optional<std::size_t> worst;
-  double least = clearly;
+  double least = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i) {
     if (!must_carry_over(*selection.accepted[i].effect) || sum[i].moved < enough_moved * residual) continue;
     if (sum[i].gain >= least * sum[i].moved) continue;
