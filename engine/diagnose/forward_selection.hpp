@@ -11,7 +11,8 @@
 //            also explain 3 % of the whole: what an imperfect name leaves is just as certain, and no physics
 // Weights    every accepted effect gets rows weighed anew (noise_weights.hpp), for what is missing passes for noise in part;
 //            energies of earlier steps are counted in the unit of the last (energy_unit)
-// Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds; the
+// Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds, on the common
+//            motion, or on the recording's own where a memory explains a good part more there (own_motion.hpp); the
 //            largest gain wins, a lesser one that gives 97 % of it when it is another wave of a named effect or has fewer
 //            parameters. It must explain a quarter of what is left and 0.2 % of the whole, have a
 //            plausible shape, help where it acts (region_consistency.hpp) and improve blocks of time it was not fitted to (t >= 2,

@@ -65,16 +65,23 @@ Recording recorded_with_a_soft_gear() {
   return recording;
 }
 
-TEST(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
+class OwnMotion : public testing::Test {
+ protected:
+  EffectScan scan_of(char const* effect) const {
+    return scan_candidates(columns.twin, {find_effect(effect)}, 2).front();
+  }
+
   Recording const recording = recorded_with_a_soft_gear();
   FilterOptions const filter = clean_filter();
   Section const section{};
   StageSetting const setting{recording, clean_regressor(), filter, section, 64, 1, 2};
   ModelStage const stage = make_stage(setting, clean_regressor()).value();
-  BothMotions const columns(stage);
-  auto const scan = scan_candidates(columns.twin, {find_effect("joint_elasticity")}, 2).front();
+  BothMotions const columns{stage};
   ShapeSearch const search = shape_search("de", 1);
+};
 
+TEST_F(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
+  EffectScan const scan = scan_of("joint_elasticity");
   RefinedEffect const by_twin = refine_shape(columns.twin, scan, stage.mismatch(), search, 2);
   auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
   ASSERT_TRUE(own);
@@ -85,15 +92,8 @@ TEST(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
   EXPECT_GT(std::abs(by_twin.shape[0] - spring_hz), 0.05 * spring_hz) << "then nothing was hidden";
 }
 
-TEST(OwnMotion, IsNotAskedOfALawWithoutMemory) {
-  Recording const recording = recorded_with_a_soft_gear();
-  FilterOptions const filter = clean_filter();
-  Section const section{};
-  StageSetting const setting{recording, clean_regressor(), filter, section, 64, 1, 2};
-  ModelStage const stage = make_stage(setting, clean_regressor()).value();
-  BothMotions const columns(stage);
-  auto const scan = scan_candidates(columns.twin, {find_effect("stribeck")}, 2).front();
-  EXPECT_FALSE(refine_on_own_motion(columns.recording, scan, stage.mismatch(), shape_search("de", 1), 2));
+TEST_F(OwnMotion, IsNotAskedOfALawWithoutMemory) {
+  EXPECT_FALSE(refine_on_own_motion(columns.recording, scan_of("stribeck"), stage.mismatch(), search, 2));
 }
 
 }  // namespace
