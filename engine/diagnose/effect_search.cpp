@@ -181,6 +181,7 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
 
 // where the shape of the recording's own motion explains a good part more than that of the common motion
 void EffectSearch::prefer_own_motion(CandidateColumns const& own, Trial& trial) {
+  if (trial.refined.gain > (1.0 - least_share_of_rest) * remaining_) return;  // there is no such part
   auto found = refine_on_own_motion(own, trial.scan, stage().mismatch(),
                                     shape_search(options_->shape_optimiser, setting_.seed), setting_.threads);
   if (!found) return;

@@ -9,7 +9,7 @@
 //            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
 // Why        flanks are soft: a rigid load and a plastic impact miss the ringing after contact, which is most of what shows.
 //            The push decides, not the velocity: a joint that gravity holds on one flank has no gap at its reversals
-// Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; backlash_half_gap b [rad; m];
+// Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia (joint_elasticity.cpp); backlash_half_gap b [rad; m];
 //            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1];
 //            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film passes
 //            for a wider gap; backlash_load_drag d [1]: a load that is braked by itself turns against the joint before
@@ -255,7 +255,7 @@ class Backlash final : public MemoryEffect {
                          "+ d Fv (dq + y')) / J, w = 2 pi f",
              .source = "Nordin, Gutman 2002",
              .separated_by = "reversals with and without a load that holds one flank; encoders on both sides",
-             .parameters = {{"backlash_load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
+             .parameters = {{"backlash_load_inertia", "kg m2", "kg", {0.0}, {4.0, RelativeTo::inertia}},
                             shape_parameter("backlash_half_gap", "rad", "m", {1.0, RelativeTo::resolution},
                                             {0.02, RelativeTo::position_range}, Spacing::logarithmic),
                             shape_parameter("backlash_frequency", "Hz", "Hz", {0.2, RelativeTo::cutoff_frequency},

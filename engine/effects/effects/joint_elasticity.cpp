@@ -7,7 +7,7 @@
 //            and after each step (Strang), of second order
 // Stiffening gears of thin steel are softest when they are not loaded; without c a gap would be the better fit, and its name wrong
 // Why        an operator, not jerk and snap: a series of derivatives fails once the resonance lies in the band
-// Parameters load_inertia J_l >= 0 [kg m2; kg], up to the whole inertia; elasticity_frequency f [Hz]: of the load with the
+// Parameters load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia, in which a load that stays behind has little part; elasticity_frequency f [Hz]: of the load with the
 //            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c >= 0 [1]
 // Signature  frequency: a narrow band fixed in time, rung by jerk
 // Confused   delay, actuator_lag far below f
@@ -104,7 +104,7 @@ class JointElasticity final : public MemoryEffect {
              .equation = "J_l y'', y'' + 2 zeta w y' + w^2 y (1 + c (y / y0)^2) = -ddq, w = 2 pi f",
              .source = "Spong 1987; Wernholt 2007",
              .separated_by = "a multisine or chirp up to twice the resonance",
-             .parameters = {{"load_inertia", "kg m2", "kg", {0.0}, {1.0, RelativeTo::inertia}},
+             .parameters = {{"load_inertia", "kg m2", "kg", {0.0}, {4.0, RelativeTo::inertia}},
                             shape_parameter("elasticity_frequency", "Hz", "Hz", {0.05, RelativeTo::cutoff_frequency},
                                             {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
                             shape_parameter("elasticity_damping", "1", "1", {0.005}, {0.2}, Spacing::logarithmic),

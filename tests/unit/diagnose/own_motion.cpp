@@ -40,7 +40,7 @@ Recording recorded_with_a_soft_gear() {
     double const t = static_cast<double>(row) / rate_hz, ramp = std::min(1.0, t / 0.5);
     double wanted = std::sin(2.0 * t) + 0.4 * std::sin(5.3 * t);
     for (int wave = 2; wave < 14; ++wave)
-      wanted += 0.0012 * std::sin(2.0 * std::numbers::pi * 1.03 * wave * t + 1.7 * wave * wave);
+      wanted += 0.006 * std::sin(2.0 * std::numbers::pi * 1.03 * wave * t + 1.7 * wave * wave);
     wanted *= ramp;
     double const measured = encoder_step * std::round(q / encoder_step);
     double const behind = wanted - measured, behind_rate = (wanted - last_wanted - measured + last) * rate_hz;
