@@ -181,14 +181,16 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
 
 // where the shape of the recording's own motion explains a good part more than that of the common motion
 void EffectSearch::prefer_own_motion(CandidateColumns const& own, Trial& trial) {
-  if (trial.refined.gain > (1.0 - least_share_of_rest) * remaining_) return;  // there is no such part
   auto found = refine_on_own_motion(own, trial.scan, stage().mismatch(),
                                     shape_search(options_->shape_optimiser, setting_.seed), setting_.threads);
   if (!found) return;
   selection_.evaluations += found->evaluations;
-  if (found->gain < trial.refined.gain + least_share_of_rest * remaining_) return;
-  trial.refined = std::move(*found);
-  trial.driven_by = DrivenBy::recording;
+  if (found->gain >= trial.refined.gain + least_share_of_rest * remaining_) {
+    trial.refined = std::move(*found);
+    trial.driven_by = DrivenBy::recording;
+  } else {
+    trial.own = std::move(found);
+  }
 }
 
 // waves may be named again: a second order is another wave
@@ -219,12 +221,27 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   return std::nullopt;
 }
 
+// twins with the refined shape, or with that of the own motion where it promises to explain a good part of what they leave, and does
+std::optional<ModelStage> EffectSearch::draft_of(Trial const& trial) const {
+  ModelStage const& before = stage();
+  auto const draft = [&](std::vector<double> const& shape) {
+    std::vector<ShapedEffect> effects = before.model().effects();
+    effects.push_back({trial.refined.effect, shape});
+    return refined_draft(setting_, before.reference(), std::move(effects));
+  };
+  auto first = draft(trial.refined.shape);
+  if (!trial.own) return first;
+  double const promised = energy_about_true_mean(before) - trial.own->gain;
+  if (first && energy_about_true_mean(*first) - promised < least_share_of_rest * remaining_) return first;
+  auto other = draft(trial.own->shape);
+  bool const is_nearer = other && (!first || energy_about_true_mean(*other) < energy_about_true_mean(*first));
+  return is_nearer ? std::move(other) : std::move(first);
+}
+
 bool EffectSearch::take(Trial const& trial) {
   auto const* effect = trial.refined.effect;
   auto const before = selection_.final;
-  std::vector<ShapedEffect> effects = before->model().effects();
-  effects.push_back({effect, trial.refined.shape});
-  auto next = refined_draft(setting_, before->reference(), std::move(effects));
+  auto next = draft_of(trial);
   if (!next) {
     note_refusal(effect, "twins with it do not follow the reference");
     return false;

@@ -57,6 +57,7 @@ class EffectSearch {
   std::vector<Trial> refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                     std::vector<double> const& q);
   void prefer_own_motion(CandidateColumns const& own, Trial& trial);
+  std::optional<ModelStage> draft_of(Trial const& trial) const;
   bool is_taken(Effect const* effect) const;
   // why the projection speaks against it; measures the trial's region
   std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;

@@ -10,6 +10,7 @@
 // Source     LESSONS items 9, 11 and 17 of our own prototype
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/diagnose/blocked_cv.hpp"
@@ -22,6 +23,7 @@ struct Trial {
   double q = 1.0;
   RefinedEffect refined;
   DrivenBy driven_by = DrivenBy::twin;  // whose motion the refined shape was found on (own_motion.hpp)
+  std::optional<RefinedEffect> own{};   // on the recording's own motion, where `refined` is not that
   BlockedGain cv{};
   bool is_named = false;  // already: another wave of it is no new kind of physics
   double region_share =
