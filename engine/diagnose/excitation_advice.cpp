@@ -22,7 +22,8 @@ std::vector<ExcitationAdvice> advice_for(std::vector<NamedEffect> const& effects
       one.lacks += (one.lacks.empty() ? "" : "; ") + known->separated_by();
       ++said;
     }
-    advice.push_back(std::move(one));
+    // terms of the baseline that are one another's sum: no motion tells them apart
+    if (!one.lacks.empty()) advice.push_back(std::move(one));
   }
   return advice;
 }

@@ -39,7 +39,7 @@ JointScales scales_of(double duration_s = 12.0, double range = 2.4) {
   return scales;
 }
 
-// of four, a linear one
+// of four or more, a linear one
 bool is_left_to_refinement(ShapeGrid const& grid, std::size_t k) {
   return grid.axes.size() >= 4 && grid.ranges[k].spacing == Spacing::linear;
 }

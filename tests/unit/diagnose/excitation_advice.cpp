@@ -1,0 +1,40 @@
+// Which motion would tell names of a class apart, and silence where none does.
+
+#include "engine/diagnose/excitation_advice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/effects/effect.hpp"
+
+using torquescope::advice_for;
+using torquescope::find_effect;
+using torquescope::NamedEffect;
+
+namespace {
+
+NamedEffect named(std::string name, std::vector<std::string> equivalent) {
+  NamedEffect effect;
+  effect.name = std::move(name);
+  effect.equivalent = std::move(equivalent);
+  return effect;
+}
+
+TEST(ExcitationAdvice, NamesTheMotionOfEachUpToTwo) {
+  auto const advice = advice_for({named("presliding", {"friction_lag", "backlash"})});
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_EQ(advice[0].would_separate, (std::vector<std::string>{"presliding", "friction_lag", "backlash"}));
+  EXPECT_EQ(advice[0].lacks,
+            find_effect("presliding")->separated_by() + "; " + find_effect("friction_lag")->separated_by());
+}
+
+TEST(ExcitationAdvice, HasNoneForASingleName) { EXPECT_TRUE(advice_for({named("stribeck", {})}).empty()); }
+
+TEST(ExcitationAdvice, IsSilentOfTermsThatNoMotionTellsApart) {
+  EXPECT_TRUE(advice_for({named("offset", {"coulomb_negative", "coulomb_positive"})}).empty());
+}
+
+}  // namespace
