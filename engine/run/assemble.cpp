@@ -29,9 +29,10 @@ void check_work(Job const& job, Experiment::Purpose purpose, std::vector<Problem
   if (purpose == Experiment::Purpose::diagnose || !job.all("estimator").empty()) return;
   bool const diagnoses = job.find("diagnose") != nullptr;
   if (purpose == Experiment::Purpose::check && diagnoses) return;
-  std::string const write = "write [[estimator]] with name = \"ols\"";
-  problems.push_back(missing(job, "the job has no [[estimator]]",
-                             diagnoses ? write + ", or run it with `torquescope diagnose`" : write));
+  std::string help = "write [[estimator]] with name = \"ols\"";
+  if (diagnoses) help += ", or run it with `torquescope diagnose`";
+  if (purpose == Experiment::Purpose::check) help += ", or [diagnose] where it is for `torquescope diagnose`";
+  problems.push_back(missing(job, "the job has no [[estimator]]", std::move(help)));
 }
 
 void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {

@@ -52,7 +52,9 @@ TEST(DiagnoseOptions, ARunStillNeedsAnEstimatorAndSaysWhoCanDoWithoutOne) {
   EXPECT_EQ(problems[0].what, "the job has no [[estimator]]");
   EXPECT_THAT(problems[0].help, HasSubstr("torquescope diagnose"));
   EXPECT_THAT(problems_of("[diagnose]\n", Purpose::check), SizeIs(0));
-  EXPECT_THAT(problems_of("", Purpose::check), SizeIs(1));
+  auto const neither = problems_of("", Purpose::check);
+  ASSERT_THAT(neither, SizeIs(1));
+  EXPECT_THAT(neither[0].help, HasSubstr("[diagnose]"));
 }
 
 TEST(DiagnoseOptions, AllLeavesOutTheTermsOfTheModelAndWhatTheJointCannotHave) {
