@@ -27,6 +27,7 @@ struct Remainder {
   bool is_most_left = false;  // the reason for that: the names explain less than half
 };
 
+// selection: with its baseline
 Remainder judge_remainder(Selection const& selection, ModelStage const& final);
 
 // regions of a map, those with most energy first, five at most: where to look for what has no name

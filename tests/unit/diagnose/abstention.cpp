@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "engine/diagnose/mismatch_energy.hpp"
@@ -40,7 +41,20 @@ class Abstention : public testing::Test {
     CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
     for (int pass = 0; pass < 2; ++pass) wave -= columns.nuisance() * (columns.nuisance().transpose() * wave).eval();
     rows.residual = rows.twin_mean + wave * (size * rows.torque.norm() / wave.norm());
+    rows.plain_residual.resize(0);  // rows that weigh alike are the torque itself
+    rows.plain_twins.resize(0, 0);
     stage.energy = mismatch_energy(rows);
+  }
+
+  // without effects, and with that much missing in the torque itself
+  std::shared_ptr<ModelStage const> began_with(double energy) const {
+    auto first = std::make_shared<ModelStage>(make_stage(setting, clean_regressor()).value());
+    auto& rows = first->comparison.rows;
+    rows.plain_residual.resize(0);
+    rows.plain_twins.resize(0, 0);
+    Eigen::VectorXd const wave = (2.5 * rows.q.array()).cos();
+    rows.residual = rows.twin_mean + wave * (std::sqrt(std::max(0.0, energy)) / wave.norm());
+    return first;
   }
 
   Eigen::VectorXd of_position() const { return (2.5 * stage.comparison.rows.q.array()).cos(); }
@@ -55,6 +69,7 @@ class Abstention : public testing::Test {
     Selection selection;
     selection.is_gate_open = true;
     selection.first_excess = first_over_left * std::abs(stage.energy.excess);
+    selection.baseline = began_with(selection.first_excess + stage.energy.noise);
     if (is_any_accepted) selection.accepted.push_back({find_effect("stribeck"), {}, 0.0, 1.0, 1.0});
     return selection;
   }
@@ -150,6 +165,17 @@ TEST_F(Abstention, NamesFallWhenTheyExplainLessThanHalfWhateverTheRestLooksLike)
   Remainder const found = judge_remainder(selection_of(1.9, true), stage);
   EXPECT_TRUE(found.is_most_left);
   EXPECT_TRUE(found.is_unexplained);
+}
+
+TEST_F(Abstention, NamesStandWhenTheyExplainTheTorqueItself) {
+  // weighed rows make little of friction that wanders: what is left of them is most, of the torque itself it is a crumb
+  Eigen::Index const n = stage.comparison.rows.size();
+  leave(0.1,
+        Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::sin(0.37 * static_cast<double>(i * i)); }));
+  Selection selection = selection_of(1.9, true);
+  ASSERT_TRUE(judge_remainder(selection, stage).is_most_left);
+  selection.baseline = began_with(20.0 * selection.first_excess);
+  EXPECT_FALSE(judge_remainder(selection, stage).is_most_left);
 }
 
 TEST_F(Abstention, NamesStandWhenAllButTheyIsWithinChance) {
