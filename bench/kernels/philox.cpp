@@ -21,7 +21,7 @@ void add_philox_benchmarks(std::vector<std::string> const& instruction_sets) {
                     std::vector<std::uint32_t> words(2 * n_doubles);
                     kernels::PhiloxStreams const streams{{1, 2}, 0, 3, 4};
                     measure(state, {n_doubles, 1, 0.0},
-                            [&] { kernels::philox_blocks(streams, n_members, n_blocks, words.data()); });
+                            [&] { kernels::philox_blocks(streams, n_members, 0, n_blocks, words.data()); });
                     kernels::release_instruction_set();
                   });
   }

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/base/contract.hpp"
-
 namespace torquescope {
 
 namespace {
@@ -118,14 +116,6 @@ double normal_quantile(double probability) {
   double const value =
       r <= 5.0 ? polynomial(r - 1.6, c) / polynomial(r - 1.6, d) : polynomial(r - 5.0, e) / polynomial(r - 5.0, f);
   return q < 0.0 ? -value : value;
-}
-
-void normal_quantiles(std::span<double const> probabilities, std::span<double> quantiles) {
-  TORQUESCOPE_EXPECT(probabilities.size() == quantiles.size());
-  // without a branch, several at once; six of seven stay
-  for (std::size_t i = 0; i < probabilities.size(); ++i) quantiles[i] = central_quantile(probabilities[i] - 0.5);
-  for (std::size_t i = 0; i < probabilities.size(); ++i)
-    if (!(std::fabs(probabilities[i] - 0.5) <= central)) quantiles[i] = normal_quantile(probabilities[i]);
 }
 
 }  // namespace torquescope

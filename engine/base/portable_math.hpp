@@ -8,15 +8,11 @@
 // Error      both at most 2 ULP on the tested range (tests/unit/base/portable_math.cpp)
 // Source     normal_quantile: Wichura, Algorithm AS 241 (PPND16), relative error about 1e-16
 
-#include <span>
-
 namespace torquescope {
 
 double portable_exp(double x);
 double portable_log(double x);
-// inverse of the standard normal cumulative distribution, 0 < p < 1
+// inverse of the standard normal cumulative distribution, 0 < p < 1; of many: kernels/normal_quantiles.hpp
 double normal_quantile(double probability);
-// of many, into other memory: the same bits, several times as fast
-void normal_quantiles(std::span<double const> probabilities, std::span<double> quantiles);
 
 }  // namespace torquescope

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/base/contract.hpp"
+#include "kernels/prediction_errors.hpp"
 
 namespace torquescope {
 namespace {
@@ -72,16 +73,6 @@ std::vector<double> covariance_from(std::vector<double> const& density, std::siz
   return covariance;
 }
 
-// sum of past_i x_(-i), in four sums that need not wait for one another; always the same four
-double backward_product(std::vector<double> const& past, double const* x) {
-  double sums[4] = {0.0, 0.0, 0.0, 0.0};
-  std::size_t i = 0;
-  for (; i + 4 <= past.size(); i += 4)
-    for (std::size_t part = 0; part < 4; ++part) sums[part] += past[i + part] * *(x - (i + part));
-  for (; i < past.size(); ++i) sums[0] += past[i] * *(x - i);
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
 }  // namespace
 
 RowWhitening::RowWhitening(std::span<double const> covariance, double quietest) {
@@ -111,13 +102,17 @@ void RowWhitening::apply(Eigen::Ref<Eigen::MatrixXd> signals, std::span<Eigen::I
   if (is_identity()) return;
   auto const order = static_cast<Eigen::Index>(gain_.size()) - 1;
   for_each_stretch(kept_rows, [&](Eigen::Index first, Eigen::Index end) {
+    Eigen::Index const full = std::min(end, first + order);  // from here on a row has all its past
     for (Eigen::Index column = 0; column < signals.cols(); ++column) {
       double* const x = &signals.coeffRef(0, column);
+      auto const take = [&](Eigen::Index m, Eigen::Index from, Eigen::Index to) {
+        auto const& past = past_[static_cast<std::size_t>(m)];
+        kernels::take_prediction_errors(past.data(), past.size(), gain_[static_cast<std::size_t>(m)], x + from,
+                                        static_cast<std::size_t>(to - from));
+      };
       // from the end, for what stands before a row is still wanted as it was
-      for (Eigen::Index k = end - 1; k >= first; --k) {
-        auto const m = static_cast<std::size_t>(std::min(k - first, order));
-        x[k] = gain_[m] * (x[k] - backward_product(past_[m], x + k - 1));
-      }
+      take(order, full, end);
+      for (Eigen::Index k = full - 1; k >= first; --k) take(k - first, k, k + 1);
     }
   });
 }

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/portable_math.hpp"
+#include "engine/base/random_stream.hpp"
+#include "kernels/normal_quantiles.hpp"
 
 namespace torquescope {
 
@@ -14,11 +15,23 @@ std::uint32_t stream_number(TwinAddress const& address, TwinStream stream) {
   return address.set * most_streams + static_cast<std::uint32_t>(stream);
 }
 
+namespace {
+
+// streams of all lanes of a group
+kernels::PhiloxStreams lane_streams(TwinAddress const& address, TwinStream stream, std::uint32_t group) {
+  RandomKey const key{address.seed, address.recording, RandomDomain::twin};
+  auto const philox_key = RandomStream::philox_key(key);
+  auto const counter =
+      RandomStream::first_counter(key, stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes));
+  return {{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]};
+}
+
+}  // namespace
+
 LaneNoise::LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_t group, Autoregression model)
-    : model_(std::move(model)), history_(model_.past.size() * twin_lanes, 0.0) {
-  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane)
-    streams_.emplace_back(RandomKey{address.seed, address.recording, RandomDomain::twin},
-                          stream_number(address, stream), group * static_cast<std::uint32_t>(twin_lanes) + lane);
+    : model_(std::move(model)),
+      streams_(lane_streams(address, stream, group)),
+      history_(model_.past.size() * twin_lanes, 0.0) {
   // from nothing to stationary
   constexpr std::size_t settling = 20;
   alignas(64) double dropped[twin_lanes];
@@ -26,11 +39,16 @@ LaneNoise::LaneNoise(TwinAddress const& address, TwinStream stream, std::uint32_
 }
 
 void LaneNoise::draw() {
-  std::array<double, ticks_together * twin_lanes> probabilities;
-  for (std::size_t tick = 0; tick < ticks_together; ++tick)
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      probabilities[tick * twin_lanes + lane] = RandomStream::probability(streams_[lane].bits());
-  normal_quantiles(probabilities, normals_);
+  constexpr std::size_t n_blocks = ticks_together / 2, words = 4;  // a block of four words is two draws
+  std::array<std::uint32_t, twin_lanes * n_blocks * words> drawn;
+  kernels::philox_blocks(streams_, twin_lanes, next_block_, n_blocks, drawn.data());
+  next_block_ += n_blocks;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    for (std::size_t tick = 0; tick < ticks_together; ++tick) {
+      std::uint32_t const* const two = drawn.data() + (lane * ticks_together + tick) * 2;
+      normals_[tick * twin_lanes + lane] = RandomStream::probability(std::uint64_t{two[1]} << 32 | two[0]);
+    }
+  kernels::normal_quantiles(normals_.data(), normals_.size(), normals_.data());
   tick_ = 0;
 }
 
@@ -44,11 +62,13 @@ void LaneNoise::next(double* out) {
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] = model_.innovation * fresh[lane];
   std::size_t const order = model_.past.size();
   if (order == 0) return;
-  for (std::size_t i = 0; i < order; ++i) {
-    double const* const before = history_.data() + ((newest_ + i) % order) * twin_lanes;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] += model_.past[i] * before[lane];
+  std::size_t place = newest_;
+  for (double const weight : model_.past) {
+    double const* const before = history_.data() + place * twin_lanes;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) out[lane] += weight * before[lane];
+    if (++place == order) place = 0;
   }
-  newest_ = (newest_ + order - 1) % order;
+  newest_ = (newest_ == 0 ? order : newest_) - 1;
   std::copy_n(out, twin_lanes, history_.data() + newest_ * twin_lanes);
 }
 

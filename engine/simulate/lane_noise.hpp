@@ -11,6 +11,7 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/simulate/clean_twin.hpp"
+#include "kernels/philox.hpp"
 
 namespace torquescope {
 
@@ -41,7 +42,8 @@ class LaneNoise {
   void draw();
 
   Autoregression model_;
-  std::vector<RandomStream> streams_;
+  kernels::PhiloxStreams streams_;                             // neighbours, one per lane
+  std::size_t next_block_ = 0;                                 // of every stream
   std::array<double, ticks_together * twin_lanes> normals_{};  // of the present ticks, tick by tick
   std::size_t tick_ = ticks_together;                          // of these, the next one to give
   std::vector<double> history_;                                // [order][lanes], a ring

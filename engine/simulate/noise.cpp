@@ -6,6 +6,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/portable_math.hpp"
+#include "kernels/normal_quantiles.hpp"
 #include "kernels/philox.hpp"
 
 namespace torquescope {
@@ -57,11 +58,11 @@ void addressed_normals(RandomKey const& key, NoiseStream stream, std::size_t fir
     auto const counter =
         RandomStream::first_counter(key, static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(first + done));
     auto const philox_key = RandomStream::philox_key(key);
-    kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, count, 1,
+    kernels::philox_blocks({{philox_key[0], philox_key[1]}, counter[1], counter[2], counter[3]}, count, 0, 1,
                            blocks.data());
     for (std::size_t i = 0; i < count; ++i)
       probabilities[i] = RandomStream::probability(std::uint64_t{blocks[words * i + 1]} << 32 | blocks[words * i]);
-    normal_quantiles(std::span(probabilities).first(count), normals.subspan(done, count));
+    kernels::normal_quantiles(probabilities.data(), count, normals.data() + done);
   }
 }
 

@@ -21,7 +21,7 @@ class Draws {
  public:
   Draws(PhiloxStreams streams, std::size_t member, std::size_t n_draws) : words_(4 * ((n_draws + 1) / 2)) {
     streams.first_word_1 += static_cast<std::uint32_t>(member);
-    philox_blocks(streams, 1, words_.size() / 4, words_.data());
+    philox_blocks(streams, 1, 0, words_.size() / 4, words_.data());
   }
 
   std::uint64_t below(std::uint64_t n) {
