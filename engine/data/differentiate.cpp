@@ -20,26 +20,33 @@ Eigen::VectorXd derivative(Eigen::VectorXd const& signal, double rate_hz) {
 
 }  // namespace
 
+Eigen::MatrixXd smooth_positions(Eigen::Ref<Eigen::MatrixXd const> const& positions, FilterOptions const& options,
+                                 double rate_hz) {
+  if (options.cutoff_hz == 0) return positions;
+  return zero_phase_columns(butterworth_lowpass(static_cast<int>(options.order), options.cutoff_hz, rate_hz),
+                            positions);
+}
+
+Motion differentiate_smooth(Recording&& recording) {
+  TORQUESCOPE_EXPECT(recording.position.size() == recording.torque.size());
+  Motion motion;
+  motion.rate_hz = recording.rate_hz;
+  motion.time_s = std::move(recording.time_s);
+  motion.q = std::move(recording.position);
+  motion.dq = recording.velocity.size() > 0 ? std::move(recording.velocity) : derivative(motion.q, motion.rate_hz);
+  motion.ddq =
+      recording.acceleration.size() > 0 ? std::move(recording.acceleration) : derivative(motion.dq, motion.rate_hz);
+  motion.torque = std::move(recording.torque);
+  return motion;
+}
+
 Motion differentiate(Recording&& recording, FilterOptions const& options, Section const& section) {
   TORQUESCOPE_EXPECT(recording.position.size() == recording.torque.size());
   check_cutoff("cutoff_hz", options.cutoff_hz, recording.rate_hz, section);
   check_length(options, recording.position.size(), recording.rate_hz);
-
-  auto const smooth = [&](Eigen::VectorXd&& signal) -> Eigen::VectorXd {
-    if (options.cutoff_hz == 0) return std::move(signal);
-    return zero_phase(butterworth_lowpass(static_cast<int>(options.order), options.cutoff_hz, recording.rate_hz),
-                      signal);
-  };
-  Motion motion;
-  motion.rate_hz = recording.rate_hz;
-  motion.time_s = std::move(recording.time_s);
-  motion.q = smooth(std::move(recording.position));
-  motion.dq =
-      recording.velocity.size() > 0 ? smooth(std::move(recording.velocity)) : derivative(motion.q, motion.rate_hz);
-  motion.ddq = recording.acceleration.size() > 0 ? smooth(std::move(recording.acceleration))
-                                                 : derivative(motion.dq, motion.rate_hz);
-  motion.torque = std::move(recording.torque);
-  return motion;
+  for (Eigen::VectorXd* channel : {&recording.position, &recording.velocity, &recording.acceleration})
+    if (channel->size() > 0) *channel = smooth_positions(*channel, options, recording.rate_hz);
+  return differentiate_smooth(std::move(recording));
 }
 
 Motion differentiate(Recording const& recording, FilterOptions const& options, Section const& section) {

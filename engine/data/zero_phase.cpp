@@ -37,16 +37,16 @@ void run(std::vector<FilterSection> const& sections, Block& block, kernels::Casc
                        direction);
 }
 
-// `width` columns from `from` on, each in its lane; the other lanes are silent
+// `width` columns from `from` on, each in its lane; the other lanes repeat the last of them, so that every sample takes the same few
+// instructions
 void load(Eigen::Ref<Eigen::MatrixXd const> const& signals, Eigen::Index from, Eigen::Index width, Eigen::Index pad,
           Block& block) {
   std::array<double const*, static_cast<std::size_t>(side_by_side)> column{};
-  for (Eigen::Index k = 0; k < width; ++k) column[static_cast<std::size_t>(k)] = signals.col(from + k).data();
+  for (Eigen::Index k = 0; k < side_by_side; ++k)
+    column[static_cast<std::size_t>(k)] = signals.col(from + std::min(k, width - 1)).data();
   double* out = block.data() + pad * side_by_side;
-  for (Eigen::Index i = 0; i < signals.rows(); ++i, out += side_by_side) {
-    for (Eigen::Index k = 0; k < width; ++k) out[k] = column[static_cast<std::size_t>(k)][i];
-    for (Eigen::Index k = width; k < side_by_side; ++k) out[k] = 0.0;
-  }
+  for (Eigen::Index i = 0; i < signals.rows(); ++i, out += side_by_side)
+    for (std::size_t k = 0; k < column.size(); ++k) out[k] = column[k][i];
 }
 
 }  // namespace
@@ -83,8 +83,8 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
     }
     run(sections, block, kernels::CascadeDirection::forwards);
     run(sections, block, kernels::CascadeDirection::backwards);
-    for (Eigen::Index k = 0; k < width; ++k)
-      for (Eigen::Index i = 0; i < kept.count; ++i) filtered(i, from + k) = block(k, pad + kept.first + i * kept.step);
+    for (Eigen::Index i = 0; i < kept.count; ++i)
+      filtered.row(i).segment(from, width) = block.col(pad + kept.first + i * kept.step).head(width);
   }
   return filtered;
 }

@@ -43,6 +43,13 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   return record;
 }
 
+ProcessedRecord RecordPipeline::process_smooth(Recording&& recording) const {
+  std::string const name = recording.name;
+  ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)));
+  fit(record, name);
+  return record;
+}
+
 // columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle. What two
 // waves of the same effect have in common is there once: friction that changes along the travel has one slope
 std::vector<Eigen::Index> RecordPipeline::present_columns(Eigen::MatrixXd const& columns) const {
@@ -120,9 +127,13 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
 }
 
 ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
-  TORQUESCOPE_EXPECT(recording.position.size() == n_samples_ && recording.torque.size() == n_samples_);
+  return prepare(differentiate(recording, options_, section_));
+}
+
+ProcessedRecord RecordPipeline::prepare(Motion&& motion) const {
+  TORQUESCOPE_EXPECT(motion.q.size() == n_samples_ && motion.torque.size() == n_samples_);
   ProcessedRecord record;
-  record.motion = differentiate(recording, options_, section_);
+  record.motion = std::move(motion);
   record.kept_rows =
       fixed_rows_.empty()
           ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz, keeps_reversals_)

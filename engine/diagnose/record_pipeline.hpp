@@ -79,6 +79,11 @@ class RecordPipeline {
   void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;
+  // of a recording whose position went through smoothed(), one of many: they share that filter's work
+  ProcessedRecord process_smooth(Recording&& recording) const;
+  Eigen::MatrixXd smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const {
+    return smooth_positions(positions, options_, rate_hz_);
+  }
   // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay empty
   ProcessedRecord prepare(Recording const& recording) const;
   // the same record on fewer of its rows, fitted again; name: of the recording, for the message when that fails
@@ -97,6 +102,7 @@ class RecordPipeline {
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   bool is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const;
+  ProcessedRecord prepare(Motion&& motion) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
 
   JointModel model_;

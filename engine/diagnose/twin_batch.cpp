@@ -48,6 +48,12 @@ bool put_numbers(std::vector<TwinPlaces> const& places, std::size_t twin, std::s
   return in[0] != 0.0;
 }
 
+Eigen::MatrixXd side_by_side(std::array<Eigen::VectorXd, twin_lanes> const& signals) {
+  Eigen::MatrixXd all(signals.front().size(), static_cast<Eigen::Index>(twin_lanes));
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) all.col(static_cast<Eigen::Index>(lane)) = signals[lane];
+  return all;
+}
+
 }  // namespace
 
 void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
@@ -60,11 +66,13 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
   std::size_t const first_group = range.from / twin_lanes, groups = (range.to + twin_lanes - 1) / twin_lanes;
   std::size_t const wave = static_cast<std::size_t>(std::max(1, threads));
   std::vector<TwinGroup> simulated(std::min(wave, groups - first_group));
+  std::vector<Eigen::MatrixXd> smooth(simulated.size());  // positions of a group
   for (std::size_t first = first_group; first < groups; first += wave) {
     // as many groups as there are threads, then all their twins: the pipeline is the longer part and spreads evenly
     std::size_t const now = std::min(wave, groups - first);
     parallel_for(now, threads, [&](std::size_t i, int) {
       twin.simulate(address, static_cast<std::uint32_t>(first + i), simulated[i]);
+      smooth[i] = pipeline.smoothed(side_by_side(simulated[i].position));
     });
     std::size_t const twins = std::min(range.to - first * twin_lanes, now * twin_lanes);
     parallel_for(twins, threads, [&](std::size_t i, int thread) {
@@ -77,9 +85,9 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
         recording.name = "twin";
         recording.rate_hz = pipeline.rate_hz();
         recording.time_s = time_s;
-        recording.position = group.position[lane];
+        recording.position = smooth[i / twin_lanes].col(static_cast<Eigen::Index>(lane));
         recording.torque = group.torque[lane];
-        record = pipeline.process(recording);
+        record = pipeline.process_smooth(std::move(recording));
       }
       visit({first * twin_lanes + i, thread, ran_away, record});
     });

@@ -19,6 +19,7 @@
 #include <numbers>
 
 #include "engine/effects/memory_effect.hpp"
+#include "engine/effects/remembered_steps.hpp"
 
 namespace torquescope::effects {
 namespace {
@@ -40,12 +41,15 @@ class LoadOnSpring {
   }
 
   void advance(JointState const& state, double step_s) {
-    if (step_s != whole_step_s_) remember_step(step_s);
+    if (step_s != whole_step_s_) {
+      whole_step_s_ = step_s;
+      swing_ = steps_.of(step_s, [this](double whole_s) { return swing_in(whole_s); });
+    }
     double const jerk = (state.ddq - ddq_) / step_s;
-    for (int part = 0; part < parts_; ++part) {
-      dy_ -= 0.5 * step_s_ * stiffened();
+    for (int part = 0; part < swing_.parts; ++part) {
+      dy_ -= 0.5 * swing_.step_s * stiffened();
       coast(jerk);
-      dy_ -= 0.5 * step_s_ * stiffened();
+      dy_ -= 0.5 * swing_.step_s * stiffened();
     }
     ddq_ = state.ddq;
   }
@@ -55,6 +59,12 @@ class LoadOnSpring {
   }
 
  private:
+  // a straight spring in one part of a step
+  struct Swing {
+    int parts = 1;
+    double step_s = 0.0, faded = 1.0, cosine = 1.0, sine = 0.0;
+  };
+
   static constexpr double most_stiffening = 25.0;  // times as stiff as unloaded: no gear goes further
 
   // acceleration of the load by what the spring has more than a straight one
@@ -69,29 +79,28 @@ class LoadOnSpring {
     double const dfollow = -jerk / square;
     double const free = y_ - follow, dfree = dy_ - dfollow;
     double const quadrature = (dfree + decay_ * free) / ringing_;
-    double const rung = faded_ * (free * cosine_ + quadrature * sine_);
+    auto const& [parts, step_s, faded, cosine, sine] = swing_;
+    double const rung = faded * (free * cosine + quadrature * sine);
     double const drung =
-        faded_ * ((quadrature * ringing_ - decay_ * free) * cosine_ - (free * ringing_ + decay_ * quadrature) * sine_);
+        faded * ((quadrature * ringing_ - decay_ * free) * cosine - (free * ringing_ + decay_ * quadrature) * sine);
 
-    y_ = rung + follow + dfollow * step_s_;
+    y_ = rung + follow + dfollow * step_s;
     dy_ = drung + dfollow;
-    ddq_ += jerk * step_s_;
+    ddq_ += jerk * step_s;
   }
 
-  void remember_step(double step_s) {
+  Swing swing_in(double whole_s) const {
     // kicks are stable up to 2 rad of the stiffest spring's swing
-    double const swing = per_square_ > 0.0 ? omega_ * std::sqrt(most_stiffening) * step_s : 0.0;
-    parts_ = std::max(1, static_cast<int>(std::ceil(swing)));
-    whole_step_s_ = step_s;
-    step_s_ = step_s / parts_;
-    faded_ = std::exp(-decay_ * step_s_);
-    cosine_ = std::cos(ringing_ * step_s_);
-    sine_ = std::sin(ringing_ * step_s_);
+    double const stiffest = per_square_ > 0.0 ? omega_ * std::sqrt(most_stiffening) * whole_s : 0.0;
+    int const parts = std::max(1, static_cast<int>(std::ceil(stiffest)));
+    double const step_s = whole_s / parts;
+    return {parts, step_s, std::exp(-decay_ * step_s), std::cos(ringing_ * step_s), std::sin(ringing_ * step_s)};
   }
 
   double omega_, decay_, ringing_, per_square_;
-  int parts_ = 1;
-  double whole_step_s_ = 0.0, step_s_ = 0.0, faded_ = 1.0, cosine_ = 1.0, sine_ = 0.0;
+  RememberedSteps<Swing> steps_{};
+  double whole_step_s_ = 0.0;
+  Swing swing_{};  // of that step
   double ddq_ = 0.0, y_ = 0.0, dy_ = 0.0;
 };
 
