@@ -13,8 +13,9 @@
 namespace torquescope {
 namespace {
 
-constexpr auto side_by_side = static_cast<Eigen::Index>(kernels::cascade_signals);
-using Block = Eigen::Matrix<double, side_by_side, Eigen::Dynamic>;  // one column per sample
+constexpr auto most_together = static_cast<Eigen::Index>(kernels::most_cascade_signals);
+template <Eigen::Index lanes>
+using Block = Eigen::Matrix<double, lanes, Eigen::Dynamic>;  // one column per sample
 
 // Numbers below 1e-308 are zero while this lives: a signal that is zero for long leaves a filter full of them, and each
 // costs a hundred times as much as another number.
@@ -32,21 +33,35 @@ class TinyIsZero {
 #endif
 };
 
-void run(std::vector<FilterSection> const& sections, Block& block, kernels::CascadeDirection direction) {
-  kernels::run_cascade(sections.data(), sections.size(), block.data(), static_cast<std::size_t>(block.cols()),
-                       direction);
-}
-
 // `width` columns from `from` on, each in its lane; the other lanes repeat the last of them, so that every sample takes the same few
 // instructions
+template <Eigen::Index lanes>
 void load(Eigen::Ref<Eigen::MatrixXd const> const& signals, Eigen::Index from, Eigen::Index width, Eigen::Index pad,
-          Block& block) {
-  std::array<double const*, static_cast<std::size_t>(side_by_side)> column{};
-  for (Eigen::Index k = 0; k < side_by_side; ++k)
+          Block<lanes>& block) {
+  std::array<double const*, static_cast<std::size_t>(lanes)> column{};
+  for (Eigen::Index k = 0; k < lanes; ++k)
     column[static_cast<std::size_t>(k)] = signals.col(from + std::min(k, width - 1)).data();
-  double* out = block.data() + pad * side_by_side;
-  for (Eigen::Index i = 0; i < signals.rows(); ++i, out += side_by_side)
+  double* out = block.data() + pad * lanes;
+  for (Eigen::Index i = 0; i < signals.rows(); ++i, out += lanes)
     for (std::size_t k = 0; k < column.size(); ++k) out[k] = column[k][i];
+}
+
+// `width` columns from `from` on, at most `lanes`
+template <Eigen::Index lanes>
+void filter(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::MatrixXd const> const& signals,
+            KeptSamples const& kept, Eigen::Index from, Eigen::Index width, Eigen::MatrixXd& filtered) {
+  Eigen::Index const n = signals.rows(), pad = padding_of(sections);
+  Block<lanes> block(lanes, n + 2 * pad);
+  load<lanes>(signals, from, width, pad, block);
+  for (Eigen::Index i = 1; i <= pad; ++i) {
+    block.col(pad - i) = 2 * block.col(pad) - block.col(pad + i);
+    block.col(pad + n - 1 + i) = 2 * block.col(pad + n - 1) - block.col(pad + n - 1 - i);
+  }
+  for (auto const direction : {kernels::CascadeDirection::forwards, kernels::CascadeDirection::backwards})
+    kernels::run_cascade(sections.data(), sections.size(), block.data(), static_cast<std::size_t>(block.cols()),
+                         static_cast<std::size_t>(lanes), direction);
+  for (Eigen::Index i = 0; i < kept.count; ++i)
+    filtered.row(i).segment(from, width) = block.col(pad + kept.first + i * kept.step).head(width);
 }
 
 }  // namespace
@@ -69,22 +84,14 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
 Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
                                    Eigen::Ref<Eigen::MatrixXd const> const& signals, KeptSamples const& kept) {
   [[maybe_unused]] TinyIsZero const tiny_is_zero;
-  Eigen::Index const n = signals.rows(), pad = padding_of(sections);
-  TORQUESCOPE_EXPECT(n > pad && kept.first >= 0 && kept.step >= 1);
+  [[maybe_unused]] Eigen::Index const n = signals.rows();
+  TORQUESCOPE_EXPECT(n > padding_of(sections) && kept.first >= 0 && kept.step >= 1);
   TORQUESCOPE_EXPECT(kept.count == 0 || kept.first + (kept.count - 1) * kept.step < n);
   Eigen::MatrixXd filtered(kept.count, signals.cols());
-  Block block(side_by_side, n + 2 * pad);
-  for (Eigen::Index from = 0; from < signals.cols(); from += side_by_side) {
-    Eigen::Index const width = std::min(side_by_side, signals.cols() - from);
-    load(signals, from, width, pad, block);
-    for (Eigen::Index i = 1; i <= pad; ++i) {
-      block.col(pad - i) = 2 * block.col(pad) - block.col(pad + i);
-      block.col(pad + n - 1 + i) = 2 * block.col(pad + n - 1) - block.col(pad + n - 1 - i);
-    }
-    run(sections, block, kernels::CascadeDirection::forwards);
-    run(sections, block, kernels::CascadeDirection::backwards);
-    for (Eigen::Index i = 0; i < kept.count; ++i)
-      filtered.row(i).segment(from, width) = block.col(pad + kept.first + i * kept.step).head(width);
+  for (Eigen::Index from = 0; from < signals.cols(); from += most_together) {
+    Eigen::Index const width = std::min(most_together, signals.cols() - from);
+    auto const filter_them = width <= 2 ? filter<2> : width <= 4 ? filter<4> : filter<most_together>;
+    filter_them(sections, signals, kept, from, width, filtered);
   }
   return filtered;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/base/contract.hpp"
-#include "kernels/prediction_errors.hpp"
 
 namespace torquescope {
 namespace {
@@ -79,40 +79,37 @@ RowWhitening::RowWhitening(std::span<double const> covariance, double quietest) 
   TORQUESCOPE_EXPECT(!covariance.empty() && covariance[0] > 0.0 && quietest > 0.0);
   noise_std_ = std::sqrt(quietest);
   double variance = covariance[0];
-  past_.emplace_back();
-  gain_.push_back(std::sqrt(quietest / variance));
+  std::vector<std::vector<double>> pasts;  // of every order below
+  std::vector<double> gains;
+  gain_ = std::sqrt(quietest / variance);
   for (std::size_t m = 1; m < covariance.size(); ++m) {
-    std::vector<double> const& before = past_.back();
     double product = covariance[m];
-    for (std::size_t i = 1; i < m; ++i) product -= before[i - 1] * covariance[m - i];
+    for (std::size_t i = 1; i < m; ++i) product -= past_[i - 1] * covariance[m - i];
     double const reflection = product / variance;
     double const left = variance * (1.0 - reflection * reflection);
     if (!(left > 0.0)) break;  // rounding: as far as the past tells anything
     std::vector<double> past(m);
-    for (std::size_t i = 1; i < m; ++i) past[i - 1] = before[i - 1] - reflection * before[m - i - 1];
+    for (std::size_t i = 1; i < m; ++i) past[i - 1] = past_[i - 1] - reflection * past_[m - i - 1];
     past[m - 1] = reflection;
     variance = left;
-    past_.push_back(std::move(past));
-    gain_.push_back(std::sqrt(quietest / variance));
+    pasts.push_back(std::exchange(past_, std::move(past)));
+    gains.push_back(std::exchange(gain_, std::sqrt(quietest / variance)));
   }
+  begin_ = {pasts, gains};
 }
 
 void RowWhitening::apply(Eigen::Ref<Eigen::MatrixXd> signals, std::span<Eigen::Index const> kept_rows) const {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(signals.rows()) == kept_rows.size());
   if (is_identity()) return;
-  auto const order = static_cast<Eigen::Index>(gain_.size()) - 1;
+  auto const order = static_cast<Eigen::Index>(past_.size());
   for_each_stretch(kept_rows, [&](Eigen::Index first, Eigen::Index end) {
     Eigen::Index const full = std::min(end, first + order);  // from here on a row has all its past
     for (Eigen::Index column = 0; column < signals.cols(); ++column) {
       double* const x = &signals.coeffRef(0, column);
-      auto const take = [&](Eigen::Index m, Eigen::Index from, Eigen::Index to) {
-        auto const& past = past_[static_cast<std::size_t>(m)];
-        kernels::take_prediction_errors(past.data(), past.size(), gain_[static_cast<std::size_t>(m)], x + from,
-                                        static_cast<std::size_t>(to - from));
-      };
-      // from the end, for what stands before a row is still wanted as it was
-      take(order, full, end);
-      for (Eigen::Index k = full - 1; k >= first; --k) take(k - first, k, k + 1);
+      // the later rows first, for what stands before a row is still wanted as it was
+      kernels::take_prediction_errors(past_.data(), past_.size(), gain_, x + full,
+                                      static_cast<std::size_t>(end - full));
+      begin_.take(x + first, static_cast<std::size_t>(full - first));
     }
   });
 }

@@ -15,6 +15,8 @@
 #include <span>
 #include <vector>
 
+#include "kernels/prediction_errors.hpp"
+
 namespace torquescope {
 
 class RowWhitening {
@@ -24,13 +26,14 @@ class RowWhitening {
   // variance `quietest` passes as it is.  Requires covariance of a stationary noise, quietest > 0
   RowWhitening(std::span<double const> covariance, double quietest);
 
-  bool is_identity() const { return gain_.empty(); }
+  bool is_identity() const { return gain_ == 0.0; }
   double noise_std() const { return noise_std_; }  // of a whitened row; not for an identity
   void apply(Eigen::Ref<Eigen::MatrixXd> signals, std::span<Eigen::Index const> kept_rows) const;
 
  private:
-  std::vector<std::vector<double>> past_{};  // a_m of every order m
-  std::vector<double> gain_{};               // of every order m
+  kernels::FirstPredictionErrors begin_{};  // of rows with less past than the order
+  std::vector<double> past_{};              // a of the order
+  double gain_ = 0.0;                       // of the order; 0: an identity
   double noise_std_ = 0.0;
 };
 

@@ -36,6 +36,25 @@ TEST_P(PredictionErrors, AreThoseOfTheDocumentedSum) {
     }
 }
 
+TEST_P(PredictionErrors, BeginAStretchWithWhatPastThereIs) {
+  for (std::size_t samples : {0, 1, 2, 8, 30, 48, 61}) {
+    std::vector<std::vector<double>> past(samples);
+    std::vector<double> gain(samples), x(samples);
+    for (std::size_t m = 0; m < samples; ++m) {
+      for (std::size_t i = 0; i < m; ++i) past[m].push_back(std::cos(0.7 * static_cast<double>(i * m)));
+      gain[m] = 0.3 + 0.01 * static_cast<double>(m);
+      x[m] = std::sin(0.3 * static_cast<double>(m * m % 97));
+    }
+    FirstPredictionErrors const take_errors(past, gain);
+    for (std::size_t n = 0; n <= samples; ++n) {
+      std::vector<double> expected = x, found = x;
+      for (std::size_t m = 0; m < n; ++m) expected[m] = gain[m] * (x[m] - told_by_past(past[m], x, m));
+      take_errors.take(found.data(), n);
+      ASSERT_EQ(found, expected) << n << " of " << samples;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Target, PredictionErrors, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
 }  // namespace

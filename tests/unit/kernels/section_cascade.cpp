@@ -41,25 +41,26 @@ std::vector<double> textbook(std::vector<CascadeSection> const& cascade, std::ve
 class SectionCascade : public EveryInstructionSet {};
 
 TEST_P(SectionCascade, GivesTheBitsOfTheTextbookInBothDirections) {
-  for (std::size_t n_sections : {0, 1, 2, 3})
-    for (std::size_t n : {0, 1, 2, 7, 200}) {
-      auto const cascade = sections(n_sections);
-      std::vector<double> forwards(n * cascade_signals), backwards(n * cascade_signals);
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < cascade_signals; ++k)
-          forwards[i * cascade_signals + k] = backwards[(n - 1 - i) * cascade_signals + k] = sample(i, k);
-      run_cascade(cascade.data(), n_sections, forwards.data(), n, CascadeDirection::forwards);
-      run_cascade(cascade.data(), n_sections, backwards.data(), n, CascadeDirection::backwards);
-      for (std::size_t k = 0; k < cascade_signals && n > 0; ++k) {
-        std::vector<double> signal(n);
-        for (std::size_t i = 0; i < n; ++i) signal[i] = sample(i, k);
-        auto const expected = textbook(cascade, signal);
-        for (std::size_t i = 0; i < n; ++i) {
-          ASSERT_EQ(forwards[i * cascade_signals + k], expected[i]) << n_sections << " sections, sample " << i;
-          ASSERT_EQ(backwards[(n - 1 - i) * cascade_signals + k], expected[i]) << "backwards, sample " << i;
+  for (std::size_t signals : {2, 4, 8})
+    for (std::size_t n_sections : {0, 1, 2, 3})
+      for (std::size_t n : {0, 1, 2, 7, 200}) {
+        auto const cascade = sections(n_sections);
+        std::vector<double> forwards(n * signals), backwards(n * signals);
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t k = 0; k < signals; ++k)
+            forwards[i * signals + k] = backwards[(n - 1 - i) * signals + k] = sample(i, k);
+        run_cascade(cascade.data(), n_sections, forwards.data(), n, signals, CascadeDirection::forwards);
+        run_cascade(cascade.data(), n_sections, backwards.data(), n, signals, CascadeDirection::backwards);
+        for (std::size_t k = 0; k < signals && n > 0; ++k) {
+          std::vector<double> signal(n);
+          for (std::size_t i = 0; i < n; ++i) signal[i] = sample(i, k);
+          auto const expected = textbook(cascade, signal);
+          for (std::size_t i = 0; i < n; ++i) {
+            ASSERT_EQ(forwards[i * signals + k], expected[i]) << n_sections << " sections, sample " << i;
+            ASSERT_EQ(backwards[(n - 1 - i) * signals + k], expected[i]) << "backwards, sample " << i;
+          }
         }
       }
-    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Target, SectionCascade, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
