@@ -60,19 +60,20 @@ class LaneController {
 
   void command(double const* measured, double open, double wanted, double* torque) {
     std::size_t const lags = law_.position.size();
-    newest_ = (newest_ + lags - 1) % lags;
+    newest_ = (newest_ == 0 ? lags : newest_) - 1;
     std::copy_n(measured, twin_lanes, seen_.data() + newest_ * twin_lanes);
+    alignas(64) double sum[twin_lanes];
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       summed_error_[lane] += wanted - measured[lane];
-      torque[lane] = open + law_.integral * summed_error_[lane];
+      sum[lane] = open + law_.integral * summed_error_[lane];
     }
-    for (std::size_t lag = 0; lag < lags; ++lag) {
-      double const gain = law_.position[lag];
-      double const* const q = seen_.data() + ((newest_ + lag) % lags) * twin_lanes;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) torque[lane] += gain * q[lane];
+    std::size_t place = newest_;
+    for (double const gain : law_.position) {
+      double const* const q = seen_.data() + place * twin_lanes;
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += gain * q[lane];
+      if (++place == lags) place = 0;
     }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      torque[lane] = std::clamp(torque[lane], law_.least, law_.most);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) torque[lane] = std::clamp(sum[lane], law_.least, law_.most);
   }
 
  private:
@@ -195,6 +196,8 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneTorques torques;
   bool const any_follows_steps =
       std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
+  bool const any_follows_ticks =
+      std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return !effect->follows_steps(); });
   alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
   double const tick_s = 1.0 / track_.rate_hz;
   read_as_recorded(joint_, instant_of(state, 0.0, tick_s, command), state.q);
@@ -235,10 +238,12 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       noise[lane] = command[lane] + disturbance_std[lane] * noise[lane] - joint_.offset;
     LaneDemand of_tick;
-    LaneInstant middle = instant_of(state, time_s, tick_s, command);
-    foresee(middle);
-    for (auto const& effect : effects)
-      if (!effect->follows_steps()) effect->add(middle, of_tick);
+    if (any_follows_ticks) {
+      LaneInstant middle = instant_of(state, time_s, tick_s, command);
+      foresee(middle);
+      for (auto const& effect : effects)
+        if (!effect->follows_steps()) effect->add(middle, of_tick);
+    }
     if (!any_follows_steps) {
       load_lanes(joint_, noise, friction.level(), of_tick, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
