@@ -48,8 +48,8 @@ void load(Eigen::Ref<Eigen::MatrixXd const> const& signals, Eigen::Index from, E
 
 // `width` columns from `from` on, at most `lanes`
 template <Eigen::Index lanes>
-void filter(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::MatrixXd const> const& signals,
-            KeptSamples const& kept, Eigen::Index from, Eigen::Index width, Eigen::MatrixXd& filtered) {
+void filter_block(std::vector<FilterSection> const& sections, Eigen::Ref<Eigen::MatrixXd const> const& signals,
+                  KeptSamples const& kept, Eigen::Index from, Eigen::Index width, Eigen::MatrixXd& filtered) {
   Eigen::Index const n = signals.rows(), pad = padding_of(sections);
   Block<lanes> block(lanes, n + 2 * pad);
   load<lanes>(signals, from, width, pad, block);
@@ -90,7 +90,7 @@ Eigen::MatrixXd zero_phase_columns(std::vector<FilterSection> const& sections,
   Eigen::MatrixXd filtered(kept.count, signals.cols());
   for (Eigen::Index from = 0; from < signals.cols(); from += most_together) {
     Eigen::Index const width = std::min(most_together, signals.cols() - from);
-    auto const filter_them = width <= 2 ? filter<2> : width <= 4 ? filter<4> : filter<most_together>;
+    auto const filter_them = width <= 2 ? filter_block<2> : width <= 4 ? filter_block<4> : filter_block<most_together>;
     filter_them(sections, signals, kept, from, width, filtered);
   }
   return filtered;

@@ -48,7 +48,7 @@ bool put_numbers(std::vector<TwinPlaces> const& places, std::size_t twin, std::s
   return in[0] != 0.0;
 }
 
-Eigen::MatrixXd side_by_side(std::array<Eigen::VectorXd, twin_lanes> const& signals) {
+Eigen::MatrixXd in_columns(std::array<Eigen::VectorXd, twin_lanes> const& signals) {
   Eigen::MatrixXd all(signals.front().size(), static_cast<Eigen::Index>(twin_lanes));
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) all.col(static_cast<Eigen::Index>(lane)) = signals[lane];
   return all;
@@ -72,7 +72,7 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
     std::size_t const now = std::min(wave, groups - first);
     parallel_for(now, threads, [&](std::size_t i, int) {
       twin.simulate(address, static_cast<std::uint32_t>(first + i), simulated[i]);
-      smooth[i] = pipeline.smoothed(side_by_side(simulated[i].position));
+      smooth[i] = pipeline.smoothed(in_columns(simulated[i].position));
     });
     std::size_t const twins = std::min(range.to - first * twin_lanes, now * twin_lanes);
     parallel_for(twins, threads, [&](std::size_t i, int thread) {
