@@ -24,6 +24,7 @@ std::vector<bool> signs(Effect const& effect) {
 }  // namespace
 
 double shape_step(ParameterRange const& range, double value) {
+  if (!(range.upper > range.lower)) return 0.0;
   constexpr double share = 1e-3;
   double const step = range.spacing == Spacing::logarithmic ? share * value : share * (range.upper - range.lower);
   return value + step <= range.upper ? step : -step;
@@ -123,6 +124,10 @@ Eigen::MatrixXd CandidateColumns::fill_tangents(Eigen::VectorXd const& parameter
     for (std::size_t k = 0; k < shape.size(); ++k) {
       std::vector<double> moved = shape;
       double const step = shape_step(ranges[k], shape[k]);
+      if (step == 0.0) {  // no other value could be
+        found.emplace_back(Eigen::VectorXd::Zero(here.size()));
+        continue;
+      }
       moved[k] += step;
       found.emplace_back((columns(*effect, moved) * linear - here) / step);
     }

@@ -65,7 +65,7 @@ class CandidateColumns {
   Eigen::MatrixXd model_columns_, tangents_, nuisance_;
 };
 
-// a step of a shape parameter for a difference quotient: small against its bounds, inside them
+// a step of a shape parameter for a difference quotient: small against its bounds, inside them; 0 where they leave one value
 double shape_step(ParameterRange const& range, double value);
 
 }  // namespace torquescope

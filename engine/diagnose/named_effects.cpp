@@ -27,8 +27,7 @@ std::vector<Effect const*> rivals_for(AcceptedEffect const& accepted, Selection 
 }
 
 // blocked: energy that the baseline leaves on blocks it was not fitted to
-NamedEffect described(Selection const& selection, std::size_t i, double blocked,
-                      std::vector<ParameterEstimate> const& parameters) {
+NamedEffect described(Selection const& selection, std::size_t i, double blocked) {
   auto const& accepted = selection.accepted[i];
   auto const& effect = *accepted.effect;
   double const residual = selection.first_energy.residual;
@@ -51,7 +50,6 @@ NamedEffect described(Selection const& selection, std::size_t i, double blocked,
   named.curve = std::move(account.curve);
   named.rms = account.rms;
   named.peak = account.peak;
-  named.parameters = parameters;
   return named;
 }
 
@@ -62,14 +60,23 @@ std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameter
   return parameters;
 }
 
-// which of the same name the i-th accepted is, from 1
-std::size_t number_of(Selection const& selection, std::size_t i) {
-  std::size_t number = 1;
-  for (std::size_t k = 0; k < i; ++k) number += selection.accepted[k].effect == selection.accepted[i].effect ? 1 : 0;
-  return number;
-}
-
 }  // namespace
+
+// of harmonics people know the fundamental, and the one that was found first may be any of them
+std::vector<std::size_t> waves_in_order(JointModel const& model) {
+  constexpr std::size_t sine_and_cosine =
+      2;  // with a column beside them, the wave that was fitted first has it for all
+  auto const& effects = model.effects();
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    auto const& [effect, shape] = effects[i];
+    auto const is_longer = [&](std::size_t k) {
+      return effects[k].effect == effect && effect->n_linear() == sine_and_cosine && shape < effects[k].shape;
+    };
+    order.insert(std::find_if(order.begin(), order.end(), is_longer), i);
+  }
+  return order;
+}
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
   ModelEstimate const estimate = estimate_parameters(*selection.final);
@@ -78,21 +85,26 @@ NamedEffects name_effects(Selection const& selection, ShapeSearch const& search,
   result.parameters = estimate.baseline;
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
     auto const& accepted = selection.accepted[i];
-    auto const parameters = numbered(estimate.effects[i], number_of(selection, i));
-    result.parameters.insert(result.parameters.end(), parameters.begin(), parameters.end());
     auto const same = std::find_if(result.effects.begin(), result.effects.end(),
                                    [&](NamedEffect const& one) { return one.name == accepted.effect->name(); });
     result.place.push_back(static_cast<std::size_t>(same - result.effects.begin()));
     if (same != result.effects.end()) {
-      same->parameters.insert(same->parameters.end(), parameters.begin(), parameters.end());
       same->gain.train += accepted.gain / residual;
       same->gain.cv += accepted.cv_gain / blocked;
       continue;
     }
-    NamedEffect named = described(selection, i, blocked, parameters);
+    NamedEffect named = described(selection, i, blocked);
     for (auto const& rival : rivals_of(*selection.final, i, rivals_for(accepted, selection), search, threads))
       if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
     result.effects.push_back(std::move(named));
+  }
+  std::vector<std::size_t> waves(result.effects.size(), 0);
+  for (std::size_t const i : waves_in_order(selection.final->model())) {
+    std::size_t const place = result.place[i];
+    auto const parameters = numbered(estimate.effects[i], ++waves[place]);
+    result.parameters.insert(result.parameters.end(), parameters.begin(), parameters.end());
+    auto& own = result.effects[place].parameters;
+    own.insert(own.end(), parameters.begin(), parameters.end());
   }
   return result;
 }

@@ -1,7 +1,7 @@
 #pragma once
 // What is told of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told from.
 //
-// Waves      a second wave of one kind belongs to the first: one name, both waves' parameters
+// Waves      a second wave of one kind belongs to the first: one name, both waves' parameters, the lower order first
 // Threads    spreads the refinement of rivals over `threads`; same bits for any number
 
 #include <cstddef>
@@ -17,6 +17,9 @@ struct NamedEffects {
   std::vector<ParameterEstimate> parameters{};  // of the baseline beside them, then of each accepted effect
   std::vector<std::size_t> place{};             // of each accepted effect among `effects`
 };
+
+// of the model's effects: as they come, but sines of one kind the longest first
+std::vector<std::size_t> waves_in_order(JointModel const& model);
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads);
 

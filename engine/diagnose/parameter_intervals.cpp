@@ -56,6 +56,14 @@ void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& s
   }
 }
 
+// what the joint itself fixes was not measured
+void drop_fixed(std::vector<ParameterEstimate>& estimates, Effect const& effect, JointScales const& scales) {
+  auto const bounds = effect.shape_bounds(scales);
+  for (std::size_t k = bounds.size(); k-- > 0;)
+    if (!(bounds[k].upper > bounds[k].lower))
+      estimates.erase(estimates.begin() + static_cast<std::ptrdiff_t>(effect.n_linear() + k));
+}
+
 }  // namespace
 
 Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns const& columns) {
@@ -90,6 +98,7 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
       own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], half[at]));
     }
     widen_placed(own, stage, i);
+    drop_fixed(own, effect, columns.scales());
     result.effects.push_back(std::move(own));
   }
   return result;

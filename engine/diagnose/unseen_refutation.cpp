@@ -6,6 +6,9 @@
 namespace torquescope {
 bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
+  // how much of the torque that the names add is there: 1 of a right law, 0 of one that has nothing to do with the recording
+  double const there = 0.5 * (1.0 + (energies.before - energies.after) / energies.moved);
+  if (energies.moved >= enough_moved * energies.before && there < quarter) return true;
   if (!std::isfinite(energies.floor))
     return energies.after > energies.before && energies.moved >= quarter * energies.before;
   double const enough = quarter * energies.before, promised = energies.before - energies.floor;

@@ -5,7 +5,8 @@
 // Refuted    when the model with its names keeps less than a quarter of what its own twins of these recordings promise, though they
 //            promise that a quarter of the residual's energy goes, and though the names change the prediction by as
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
-//            spares a right law on a recording that has something else wrong with it. Where nobody knows what twins promise (a
+//            spares a right law on a recording that has something else wrong with it. Refuted too where less than a quarter of the
+//            torque that the names add is found there, if they add a tenth of the residual's energy. Where nobody knows what twins promise (a
 //            loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
 // Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
@@ -24,6 +25,8 @@ struct UnseenEnergies {
   double floor = 0.0;
   double moved = 0.0;  // of the difference between both predictions
 };
+
+inline constexpr double enough_moved = 0.1;  // of the residual: less says nothing
 
 bool speak_against(UnseenEnergies const& energies);
 

@@ -13,7 +13,6 @@ namespace {
 // the effect that spoils most, by what it gains for each unit of energy it moves
 std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<Recording const> unseen,
                                          Selection const& selection) {
-  constexpr double enough_moved = 0.1;
   std::vector<UnseenWithout> sum(selection.accepted.size());
   double residual = 0.0;
   for (auto const& recording : unseen) {

@@ -43,6 +43,8 @@ JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_
   scales.encoder_step = encoder_step;
   scales.torque_rms = std::sqrt(motion.torque.squaredNorm() / static_cast<double>(motion.torque.size()));
   scales.torque_peak = motion.torque.cwiseAbs().maxCoeff();
+  scales.torque_highest = std::max(0.0, motion.torque.maxCoeff());
+  scales.torque_lowest = std::max(0.0, -motion.torque.minCoeff());
   return scales;
 }
 
@@ -63,11 +65,13 @@ FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double cons
   Eigen::MatrixXd const phi = regressor.columns(motion);
   baseline.load_torque.setZero(phi.rows());
   baseline.model_torque.setZero(phi.rows());
+  scales.bears_only_inertia = true;
   for (std::size_t k = 0; k < regressor.size(); ++k) {
     auto const& column = regressor.column_owners()[k];
     Eigen::VectorXd const torque = parameters[k] * phi.col(static_cast<Eigen::Index>(k));
     baseline.model_torque += torque;
     if (column.needs_position || column.needs_acceleration) baseline.load_torque += torque;
+    if (column.needs_position) scales.bears_only_inertia = false;
   }
   return baseline;
 }

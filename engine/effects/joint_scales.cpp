@@ -76,6 +76,10 @@ double bound_value(Bound const& bound, JointScales const& scales) {
       return f * scales.torque_rms;
     case RelativeTo::torque_peak:
       return f * scales.torque_peak;
+    case RelativeTo::torque_highest:
+      return f * scales.torque_highest;
+    case RelativeTo::torque_lowest:
+      return f * scales.torque_lowest;
     case RelativeTo::torque_inverse2:
       return f / (scales.torque_rms * scales.torque_rms);
     case RelativeTo::coulomb:
@@ -90,6 +94,8 @@ double bound_value(Bound const& bound, JointScales const& scales) {
       return f * viscous_or_torque(scales) / scales.duration_s;
     case RelativeTo::inertia:
       return f * inertia_or_torque(scales);
+    case RelativeTo::bears_only_inertia:
+      return scales.bears_only_inertia ? f : 0.0;
     case RelativeTo::torque_per_duration:
       return f * scales.torque_rms / scales.duration_s;
     case RelativeTo::torque_per_speed:
@@ -157,6 +163,12 @@ std::string bound_text(Bound const& bound) {
     case RelativeTo::torque_peak:
       scale = " x torque peak";
       break;
+    case RelativeTo::torque_highest:
+      scale = " x highest torque";
+      break;
+    case RelativeTo::torque_lowest:
+      scale = " x lowest torque, as a magnitude";
+      break;
     case RelativeTo::torque_inverse2:
       scale = " / torque rms^2";
       break;
@@ -177,6 +189,9 @@ std::string bound_text(Bound const& bound) {
       break;
     case RelativeTo::inertia:
       scale = " x inertia";
+      break;
+    case RelativeTo::bears_only_inertia:
+      scale = " where the load is inertia alone, else 0";
       break;
     case RelativeTo::torque_per_duration:
       scale = " x torque rms / duration";

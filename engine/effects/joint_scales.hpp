@@ -20,22 +20,25 @@ struct FrictionSign {
 
 struct JointScales {
   JointKind joint = JointKind::revolute;
-  double start_s = 0.0;           // time of the first sample
-  double duration_s = 1.0;        //
-  double rate_hz = 1000.0;        // of the motion the columns are computed from
-  double cutoff_hz = 100.0;       // of the parallel filter: the highest frequency the regression sees
-  double peak_speed = 1.0;        // rad/s
-  double position_range = 1.0;    // rad, largest minus smallest
-  double position_centre = 0.0;   // rad, middle of the range
-  double encoder_step = 0.0;      // rad; 0: unknown or too fine to see
-  double torque_rms = 1.0;        // N m
-  double torque_peak = 1.0;       // N m, largest magnitude
-  double coulomb_positive = 0.0;  // N m, magnitude while dq > 0; of the fitted baseline, as all that follow
-  double coulomb_negative = 0.0;  // N m, magnitude while dq < 0
-  double inertia = 0.0;           // kg m2
-  double viscous = 0.0;           // N m s/rad
-  double gravity_sin = 0.0;       // N m, of sin(q)
-  double gravity_cos = 0.0;       // N m, of cos(q)
+  double start_s = 0.0;          // time of the first sample
+  double duration_s = 1.0;       //
+  double rate_hz = 1000.0;       // of the motion the columns are computed from
+  double cutoff_hz = 100.0;      // of the parallel filter: the highest frequency the regression sees
+  double peak_speed = 1.0;       // rad/s
+  double position_range = 1.0;   // rad, largest minus smallest
+  double position_centre = 0.0;  // rad, middle of the range
+  double encoder_step = 0.0;     // rad; 0: unknown or too fine to see
+  double torque_rms = 1.0;       // N m
+  double torque_peak = 1.0;      // N m, largest magnitude
+  double torque_highest = 1.0;   // N m, and the largest one below zero, as a magnitude; at least 0
+  double torque_lowest = 1.0;
+  double coulomb_positive = 0.0;    // N m, magnitude while dq > 0; of the fitted baseline, as all that follow
+  double coulomb_negative = 0.0;    // N m, magnitude while dq < 0
+  double inertia = 0.0;             // kg m2
+  double viscous = 0.0;             // N m s/rad
+  double gravity_sin = 0.0;         // N m, of sin(q)
+  double gravity_cos = 0.0;         // N m, of cos(q)
+  bool bears_only_inertia = false;  // no term of the baseline that a standing joint would carry
 
   // the smallest length worth asking for: an encoder step, or a millionth of the range
   double resolution() const;
@@ -62,6 +65,8 @@ enum class RelativeTo {
   highest_order,         // 1/rad: wave at the cutoff when the joint moves at a tenth of its peak speed
   torque,                // N m: rms
   torque_peak,           // N m
+  torque_highest,        // N m
+  torque_lowest,         // N m, as a magnitude
   torque_inverse2,       // 1/(N m)^2
   coulomb,               // N m: mean level of the baseline; without one, the rms torque
   coulomb_per_range,     // N m/rad
@@ -69,6 +74,7 @@ enum class RelativeTo {
   viscous,               // N m s/rad: of the baseline; without one, rms torque at the peak speed
   viscous_per_duration,  // N m/rad
   inertia,  // kg m2: of the baseline; without one, what the rms torque brings to the peak speed in a filter time
+  bears_only_inertia,   // 1: the baseline's load is inertia alone; else 0
   torque_per_duration,  // N m/s
   torque_per_speed,     // N m s/rad
   torque_per_speed2,    // N m s2/rad2

@@ -1,7 +1,8 @@
 // A torque channel that cannot show more than its limit, while the joint gets what it needs.
 //
-// Equation   recorded = true + c (clamp(true, -L, L) - true)
-// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L [N m; N]
+// Equation   recorded = true + c (clamp(true, -M, L) - true)
+// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L and clipping_limit_negative M [N m; N]: a
+//            channel with a zero of its own reaches them at torques that differ
 // Signature  load: flat tops
 // Confused   torque_constant
 // Source     definition of saturation; PHYSICS.md A4
@@ -11,17 +12,22 @@
 namespace torquescope::effects {
 namespace {
 
+// what clips has been there: its limit is the extreme of the record, but for noise behind the limit
+EffectParameter limit(char const* name, RelativeTo extreme) {
+  return shape_parameter(name, "N m", "N", {0.8, extreme}, {1.0, extreme}, Spacing::linear);
+}
+
 class Clipping final : public InstantEffect {
  public:
   Clipping()
       : InstantEffect({.name = "clipping",
                        .title = "torque channel that clips at a limit",
-                       .equation = "recorded torque + c (clamp(tau_motor, -L, L) - tau_motor)",
+                       .equation = "recorded torque + c (clamp(tau_motor, -M, L) - tau_motor)",
                        .source = "definition of saturation",
                        .separated_by = "a gentler motion, and a log of the saturation flag",
                        .parameters = {{"clipping", "1", "1", {0.0}, {1.0}},
-                                      shape_parameter("clipping_limit", "N m", "N", {0.5, RelativeTo::torque_peak},
-                                                      {1.0, RelativeTo::torque_peak}, Spacing::linear)},
+                                      limit("clipping_limit", RelativeTo::torque_highest),
+                                      limit("clipping_limit_negative", RelativeTo::torque_lowest)},
                        .families = {EffectFamily::measurement, EffectFamily::load},
                        .signature = {SignatureAxis::load},
                        .parity = Parity::neither,
@@ -30,7 +36,7 @@ class Clipping final : public InstantEffect {
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
-    out.col(0) = at.motor_torque.max(-shape[0]).min(shape[0]) - at.motor_torque;
+    out.col(0) = at.motor_torque.max(-shape[1]).min(shape[0]) - at.motor_torque;
   }
 };
 

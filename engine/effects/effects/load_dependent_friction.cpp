@@ -3,7 +3,7 @@
 // Equation   tau = s mu |tau_load - (1 - k) J ddq|; tau_load: gravity and inertia of the baseline;
 //            s = sign(dq) weighted by the Coulomb levels of the baseline
 // Parameters load_dependent_friction mu >= 0 [1], up to 0.3; load_friction_inertia_share k [1]: of the inertia J, behind
-//            the gear; what is before it, a rotor above all, presses no teeth
+//            the gear; what is before it, a rotor above all, presses no teeth. 1 where inertia is all the load: mu k is one number
 // Signature  load, odd in the velocity
 // Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
 // Source     Hamon, Gautier, Garrec, Janot 2010; BAM model M3
@@ -16,19 +16,19 @@ namespace {
 class LoadDependentFriction final : public InstantEffect {
  public:
   LoadDependentFriction()
-      : InstantEffect(
-            {.name = "load_dependent_friction",
-             .title = "dry friction in proportion to the load",
-             .equation = "s mu |tau_load - (1 - k) J ddq|",
-             .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
-             .separated_by = "the same motion with another payload",
-             .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
-                            shape_parameter("load_friction_inertia_share", "1", "1", {0.0}, {1.0}, Spacing::linear)},
-             .families = {EffectFamily::load},
-             .signature = {SignatureAxis::load, SignatureAxis::velocity},
-             .parity = Parity::odd,
-             .needs_baseline = true,
-             .is_dry_friction = true}) {}
+      : InstantEffect({.name = "load_dependent_friction",
+                       .title = "dry friction in proportion to the load",
+                       .equation = "s mu |tau_load - (1 - k) J ddq|",
+                       .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3",
+                       .separated_by = "the same motion with another payload",
+                       .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
+                                      shape_parameter("load_friction_inertia_share", "1", "1",
+                                                      {1.0, RelativeTo::bears_only_inertia}, {1.0}, Spacing::linear)},
+                       .families = {EffectFamily::load},
+                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
+                       .parity = Parity::odd,
+                       .needs_baseline = true,
+                       .is_dry_friction = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

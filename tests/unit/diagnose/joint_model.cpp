@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
 #include "engine/diagnose/twin_batch.hpp"
 #include "unit/diagnose/clean_records.hpp"
@@ -202,6 +203,17 @@ TEST(JointModel, GivesNoNegativeValueToAParameterThatCannotHaveOne) {
   Eigen::VectorXd const alone = pipeline_of(JointModel(clean_regressor()), recording).process(recording).parameters;
   EXPECT_EQ(fit[4], 0.0);
   EXPECT_LT((fit.head(4) - alone).norm(), 1e-12 * alone.norm());
+}
+
+TEST(WavesInOrder, PutTheFundamentalBeforeItsHarmonics) {
+  auto const regressor = clean_regressor();
+  Effect const* error = find_effect("transmission_error");
+  JointModel const model(regressor, reference(),
+                         {{error, {48.0}}, shaped_stribeck(), {&cogging(), {7.0}}, {error, {24.0}}, {error, {72.0}}});
+  EXPECT_EQ(waves_in_order(model), (std::vector<std::size_t>{3, 0, 1, 2, 4}));
+  Effect const* friction = find_effect("position_dependent_friction");
+  JointModel const sharing(regressor, reference(), {{friction, {8.0}}, {friction, {4.0}}});
+  EXPECT_EQ(waves_in_order(sharing), (std::vector<std::size_t>{0, 1})) << "the first has the slope of both";
 }
 
 // two waves of friction along the travel have one slope between them

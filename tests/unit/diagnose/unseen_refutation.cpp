@@ -10,6 +10,7 @@ using torquescope::AcceptedEffect;
 using torquescope::find_effect;
 using torquescope::must_carry_over;
 using torquescope::speak_against;
+using torquescope::UnseenEnergies;
 
 TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
   EXPECT_TRUE(speak_against({.before = 4.0, .after = 5.0, .floor = 2.0, .moved = 3.0}));
@@ -20,6 +21,18 @@ TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 5.0, .floor = 3.5, .moved = 3.0})) << "twins promise little";
   EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = 2.0, .moved = 0.5}))
       << "the rest is another matter";
+}
+
+TEST(UnseenRefutation, WantsTheTorqueThatIsAddedToBeThere) {
+  double const floor = 2.0, moved = 0.8, before = 4.0;
+  auto const with_share = [&](double there) {
+    return UnseenEnergies{
+        .before = before, .after = before - (2.0 * there - 1.0) * moved, .floor = floor, .moved = moved};
+  };
+  EXPECT_TRUE(speak_against(with_share(0.0)));
+  EXPECT_TRUE(speak_against(with_share(0.2)));
+  EXPECT_FALSE(speak_against(with_share(0.3))) << "its size differs, as friction of another day does";
+  EXPECT_FALSE(speak_against({.before = before, .after = 4.3, .floor = floor, .moved = 0.3})) << "too little to tell";
 }
 
 TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {

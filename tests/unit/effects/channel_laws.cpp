@@ -59,8 +59,14 @@ TEST(ActuatorLag, UndoesTheLagOfTheMotor) {
 
 TEST(Clipping, InFullMakesFlatTops) {
   Eigen::Vector4d const torque(0.4, 1.7, -2.0, -0.9);
-  auto const column = channel_columns("clipping", torque, 10.0, {1.0});
+  auto const column = channel_columns("clipping", torque, 10.0, {1.0, 1.0});
   EXPECT_EQ((torque + column), Eigen::Vector4d(0.4, 1.0, -1.0, -0.9));
+}
+
+TEST(Clipping, HasALimitForEitherSide) {
+  Eigen::Vector4d const torque(0.4, 1.7, -2.0, -0.9);
+  auto const column = channel_columns("clipping", torque, 10.0, {1.5, 0.5});
+  EXPECT_EQ((torque + column), Eigen::Vector4d(0.4, 1.5, -0.5, -0.5));
 }
 
 TEST(TorqueConstant, IsCubicInTheTorque) {

@@ -52,6 +52,8 @@ JointScales slide_in(Units const& u) {
   scales.encoder_step = 1e-6 * u.metre;
   scales.torque_rms = 20.0 * u.newton;
   scales.torque_peak = 60.0 * u.newton;
+  scales.torque_highest = 60.0 * u.newton;
+  scales.torque_lowest = 45.0 * u.newton;
   scales.coulomb_positive = 8.0 * u.newton;
   scales.coulomb_negative = 9.0 * u.newton;
   scales.inertia = 90.0 * u.newton * u.second * u.second / u.metre;
@@ -92,6 +94,20 @@ TEST(Bounds, AreIntervalsAndPositiveWhereTheSearchTakesLogarithms) {
       EXPECT_TRUE(range.spacing == Spacing::linear || range.lower > 0.0) << effect->name();
     }
     for (auto const& range : effect->linear_bounds(slide_in({}))) EXPECT_LT(range.lower, range.upper) << effect->name();
+  }
+}
+
+// a friction coefficient and the share of the inertia it feels: nothing but weight, or a spring, tells one from the other
+TEST(Bounds, LeaveNoInertiaShareWhereInertiaIsAllTheLoad) {
+  auto scales = slide_in({});
+  for (auto const& [name, place] : {std::pair{"load_dependent_friction", 0}, std::pair{"directional_efficiency", 1}}) {
+    auto const at = static_cast<std::size_t>(place);
+    scales.bears_only_inertia = true;
+    auto const alone = find_effect(name)->shape_bounds(scales)[at];
+    EXPECT_EQ(alone.lower, 1.0) << name;
+    EXPECT_EQ(alone.upper, 1.0) << name;
+    scales.bears_only_inertia = false;
+    EXPECT_EQ(find_effect(name)->shape_bounds(scales)[at].lower, 0.0) << name;
   }
 }
 
