@@ -30,7 +30,8 @@ struct Remainder {
 // selection: with its baseline
 Remainder judge_remainder(Selection const& selection, ModelStage const& final);
 
-// regions of a map, those with most energy first, five at most: where to look for what has no name
+// Where to look for what has no name: of the regions of a map the five that tell most, first the one whose share of the energy is
+// most surprising for its share of the time (the scan statistic of Kulldorff 1997); of spectra the stretch that is so for its width and its share of the torque
 std::vector<UnexplainedPart> largest_parts(std::vector<MapAxis> const& map);
 
 }  // namespace torquescope

@@ -83,11 +83,15 @@ void note_not_tried(Selection& selection, std::vector<EffectScan> const& scans, 
 
 void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect> const& effects) {
   for (auto& candidate : candidates)
-    for (auto const& effect : effects)
+    for (auto const& effect : effects) {
+      // one of a class that holds physics too is no fault of the recording yet
+      if (candidate.name == effect.name && candidate.decision == Decision::measurement && !is_fault(effect))
+        candidate.decision = Decision::named;
       if (std::find(effect.equivalent.begin(), effect.equivalent.end(), candidate.name) != effect.equivalent.end()) {
         candidate.decision = Decision::equivalent;
         candidate.reason = "this motion cannot tell it from " + effect.name;
       }
+    }
 }
 
 void withdraw_names(std::vector<Candidate>& candidates, std::string const& reason) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/quantity_text.hpp"
 #include "engine/diagnose/forward_selection.hpp"
 
 namespace torquescope {
@@ -28,8 +29,15 @@ std::string power_sentence(ModelStage const& stage) {
   double const per_unit = group.r.squaredNorm();
   if (!(per_unit > 0.0)) return {};
   double const share = std::sqrt(needed / per_unit) / coulomb;
-  if (share > 1.0) return "Only a Stribeck effect larger than the Coulomb friction itself would have shown.";
-  return fmt::format("A Stribeck effect of {:.2g} % of the Coulomb friction would have shown.", 100.0 * share);
+  // of the rows' torque: any law whatever, as far as the model's own terms do not imitate it
+  double const any = std::sqrt(needed / rows.torque.squaredNorm());
+  std::string const others =
+      fmt::format("Missing torque that the model's own terms do not imitate would have shown from {} of the torque on",
+                  percent_text(any));
+  if (share > 1.0)
+    return others +
+           "; Stribeck friction, hard to see on this motion, only where it is larger than the Coulomb friction itself.";
+  return fmt::format("{}; Stribeck friction from {} of the Coulomb friction on.", others, percent_text(share));
 }
 
 }  // namespace torquescope

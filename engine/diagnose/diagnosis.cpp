@@ -1,5 +1,8 @@
 #include "engine/diagnose/diagnosis.hpp"
 
+#include <algorithm>
+
+#include "engine/effects/effect.hpp"
 #include "engine/effects/effect_traits.hpp"
 
 namespace torquescope {
@@ -38,6 +41,12 @@ std::string word(Decision decision) {
   return {};
 }
 
-bool is_fault(NamedEffect const& effect) { return !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint); }
+bool is_fault(NamedEffect const& effect) {
+  bool const acts_on_a_channel = !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint);
+  return acts_on_a_channel && std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
+           Effect const* known = find_effect(name);
+           return known && known->acts_on() == ActsOn::joint;
+         });
+}
 
 }  // namespace torquescope

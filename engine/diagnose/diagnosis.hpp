@@ -54,6 +54,7 @@ struct MapCell {
   double z = 0.0;              // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
   double after_z = unknown;    // the same with everything named in the model
   double after_residual = unknown;
+  double torque_share = unknown;  // of a spectrum: of the torque's own energy about its mean; not stored
 };
 
 // one row of the mismatch map
@@ -116,7 +117,7 @@ struct NamedEffect {
   EffectCurve curve{};
 };
 
-// of a recorded channel, not physics of the joint
+// of a recorded channel, not physics of the joint; nor may any effect that cannot be excluded be physics
 bool is_fault(NamedEffect const& effect);
 
 struct Budget {  // shares of the baseline residual's energy, sum 1

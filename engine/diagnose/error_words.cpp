@@ -7,6 +7,7 @@
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/effects/effect_traits.hpp"
 
 namespace torquescope {
 namespace {
@@ -16,6 +17,12 @@ bool is_other_kind(double unseen, double train, double floor) {
   constexpr double times = 3.0, points = 0.03;
   double const expected = std::isfinite(floor) ? std::max(train, floor) : train;
   return unseen > times * expected && unseen > expected + points;
+}
+
+// a torque channel before the motion
+bool comes_early(NamedEffect const& effect) {
+  return effect.acts_on == word(ActsOn::recorded_torque) && !effect.parameters.empty() &&
+         effect.parameters[0].unit == "s" && effect.parameters[0].value < 0.0;
 }
 
 std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
@@ -61,7 +68,9 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
 }
 
 std::string way_out_of_a_fault(JointDiagnosis const& joint) {
-  std::string const mend = "correct the channel, or record again";
+  std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
+                               ? "correct the channel, or record the torque that the drive gives instead of its command"
+                               : "correct the channel, or record again";
   return unseen_is_other_sentence(joint).empty() ? mend + "; the model itself needs nothing more" : mend;
 }
 
@@ -72,15 +81,15 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
   std::string const p = p_text(joint.omnibus_p, false, least);
   if (!(joint.omnibus_p < usual) || !std::isfinite(joint.mismatch_share))
     return fmt::format("The residual of joint {} looks like that of {} clean twins ({}).", joint.joint, joint.twins, p);
-  std::string const differs =
-      fmt::format("The residual of joint {} differs from that of {} clean twins ({})", joint.joint, joint.twins, p);
-  std::string const share = percent_text(joint.mismatch_share), asked_for = percent_text(smallest_mismatch_share);
-  if (joint.mismatch_share <= smallest_mismatch_share)
-    return fmt::format("{}, but by {} of the torque: too little to look for.", differs, share);
+  std::string const larger =
+      fmt::format("The residual of joint {} is larger than that of {} clean twins ({}), but only by {} of the torque",
+                  joint.joint, joint.twins, p, percent_text(joint.mismatch_share));
+  if (joint.mismatch_share <= smallest_mismatch_share) return larger + ": too little to look for.";
   return fmt::format(
-      "{} by {} of the torque, but by less than {:.0f} times their spread, and none of {} known effects is both beyond "
-      "chance and worth more than {} of the torque.",
-      differs, share, smallest_omnibus_z, n_asked(joint), asked_for);
+      "{}, which is not enough beside how much the twins differ from one another; and no known effect of {} explains "
+      "both "
+      "more than chance does and more than {} of the torque.",
+      larger, n_asked(joint), percent_text(smallest_mismatch_share));
 }
 
 }  // namespace torquescope

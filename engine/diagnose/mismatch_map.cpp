@@ -130,6 +130,19 @@ Eigen::RowVectorXd strongest_window(Eigen::MatrixXd const& energies) {
   return beyond.colwise().maxCoeff();
 }
 
+// of the torque itself: any law of the motion leaves most where most of the motion is
+void set_torque_shares(std::vector<MapCell>& cells, MismatchRows const& rows, WaveGrid const& grid,
+                       std::vector<WaveBand> const& bands) {
+  MismatchRows alone;
+  alone.residual = rows.torque.array() - rows.torque.mean();
+  alone.twin_mean = Eigen::VectorXd::Zero(rows.size());
+  alone.twins.resize(rows.size(), 0);
+  Eigen::VectorXd const energy = band_energies(alone, grid, bands, 1);
+  double const whole = energy.sum();
+  for (std::size_t i = 0; i < cells.size() && whole > 0.0; ++i)
+    cells[i].torque_share = energy[static_cast<Eigen::Index>(i)] / whole;
+}
+
 MapAxis spectrum_axis(SignatureAxis which, MismatchRows const& rows, JointScales const& scales, int threads) {
   MapAxis axis{word(which), axis_unit(which, scales.joint), true};
   double const highest = bound_value(
@@ -145,6 +158,7 @@ MapAxis spectrum_axis(SignatureAxis which, MismatchRows const& rows, JointScales
   Eigen::MatrixXd const amplitudes = wave_amplitudes(grid, cells, energies);
   std::vector<CellScores> const scores{score_amplitudes(amplitudes)};
   axis.cells = make_cells(edges, wave_counts(cells), amplitudes, scores.front());
+  set_torque_shares(axis.cells, rows, grid, cells);
 
   double const residual_energy = rows.residual.squaredNorm();
   if (windows.empty()) return axis;

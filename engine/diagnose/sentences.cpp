@@ -93,22 +93,67 @@ std::string joint_clause(JointDiagnosis const& joint, NamedEffect const& effect)
   return fmt::format("the friction of joint {} differs by {}", joint.joint, size);
 }
 
+MapCell range_of(JointDiagnosis const& joint, SignatureAxis axis) {
+  for (auto const& row : joint.map)
+    if (row.axis == word(axis) && !row.cells.empty()) return {row.cells.front().from, row.cells.back().to};
+  return {};
+}
+
+// what a creeping parameter comes to over the recording: a multiple of its value; 0 of one that does not creep
+double creep_of(JointDiagnosis const& joint, EffectParameter const& parameter) {
+  MapCell const time = range_of(joint, SignatureAxis::time), speed = range_of(joint, SignatureAxis::velocity);
+  RelativeTo const to = parameter.lower.to;
+  if (to == RelativeTo::torque_per_duration || to == RelativeTo::coulomb_per_duration) return time.to - time.from;
+  if (to == RelativeTo::viscous_per_duration) return (time.to - time.from) * std::max(-speed.from, speed.to);
+  return 0.0;
+}
+
+// "from 14.7 s on": of a law that begins at an instant and stays. "" where it has another shape beside the instant (a push ends), or
+// creeps by more than it steps
+std::string onset_phrase(JointDiagnosis const& joint, NamedEffect const& effect) {
+  Effect const* known = find_effect(effect.name);
+  MapCell const time = range_of(joint, SignatureAxis::time);
+  if (!known || known->parameters().size() != effect.parameters.size() || !(time.to > time.from)) return "";
+  double onset = unknown, step = 0.0, creep = 0.0;
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    EffectParameter const& parameter = known->parameters()[i];
+    double const value = effect.parameters[i].value, over_all = creep_of(joint, parameter);
+    if (parameter.is_instant())
+      onset = value;
+    else if (parameter.is_shape)
+      return "";
+    else
+      (over_all > 0.0 ? creep : step) += std::abs(value) * (over_all > 0.0 ? over_all : 1.0);
+  }
+  return std::isfinite(onset) && step > creep ? fmt::format("from {:.3g} s on", onset) : "";
+}
+
 // whole clause with its place
 std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effect) {
-  std::string const where = place_phrase(joint, effect.places);
+  std::string const onset = onset_phrase(joint, effect);
+  std::string const where = onset.empty() ? place_phrase(joint, effect.places) : onset;
   std::string const at = where.empty() ? "" : " " + where;
+  std::string const fault = is_fault(effect) ? ", a fault of the recording" : "";
   auto const linear = linear_parameters(effect);
   if (effect.acts_on == word(ActsOn::recorded_torque)) {
     // a channel that is wrong by a time is wrong everywhere
-    if (!linear.empty() && linear[0].unit == "s")
-      return fmt::format("the torque of joint {} comes {} {} the motion, a fault of the recording", joint.joint,
-                         quantity_text(std::abs(linear[0].value), "s"), linear[0].value >= 0.0 ? "after" : "before");
-    return fmt::format("the torque channel of joint {} is off by {}{}, a fault of the recording", joint.joint,
-                       amount(joint, effect), at);
+    if (!linear.empty() && linear[0].unit == "s") {
+      std::string const time = quantity_text(std::abs(linear[0].value), "s");
+      if (linear[0].value >= 0.0)
+        return fmt::format("the torque of joint {} comes {} after the motion{}", joint.joint, time, fault);
+      // no cause comes after what it does: the motion is told late, or the torque too early
+      return fmt::format(
+          "the torque of joint {} comes {} before the motion, because the position channel is late or because a row "
+          "holds "
+          "a command that the drive follows late (actuator lag)",
+          joint.joint, time);
+    }
+    return fmt::format("the torque{} of joint {} is off by {}{}{}", fault.empty() ? "" : " channel", joint.joint,
+                       amount(joint, effect), at, fault);
   }
   if (effect.acts_on == word(ActsOn::recorded_position))
-    return fmt::format("the position of joint {} is misread{}, as if {} were missing, a fault of the recording",
-                       joint.joint, at, amount(joint, effect));
+    return fmt::format("the position of joint {} is misread{}, as if {} were missing{}", joint.joint, at,
+                       amount(joint, effect), fault);
   return joint_clause(joint, effect) + at;
 }
 

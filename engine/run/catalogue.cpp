@@ -41,6 +41,10 @@ std::string parameter_line(EffectParameter const& parameter) {
   return line;
 }
 
+bool is_time_of_a_channel(Effect const& effect) {
+  return effect.acts_on() == ActsOn::recorded_torque && effect.parameters().front().unit_revolute == "s";
+}
+
 void add_effects(std::vector<CatalogueEntry>& entries) {
   for (Effect const* effect : effect_choices()) {
     CatalogueEntry entry{effect->name(), "effect", effect->title() + " [" + word(effect->family()) + "]", {}, {}};
@@ -53,6 +57,11 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
                     effect->parity() == Parity::neither ? "neither odd nor even" : word(effect->parity())));
     entry.text.push_back(fmt::format("acts on    {}{}", word(effect->acts_on()),
                                      effect->is_plain_term() ? "; may be a term of [model]" : ""));
+    if (is_time_of_a_channel(*effect))
+      entry.text.push_back(
+          "counted    from a drive that holds the torque of a row until the next row; where rows are instants it is "
+          "half a row less, "
+          "where they are means of the last period a whole row less");
     entry.text.push_back("source     " + effect->source());
     entries.push_back(std::move(entry));
   }
@@ -89,6 +98,15 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<ExperimentOptions>(entries);
   add_section<RecordingOptions>(entries);
   add_section<FilterOptions>(entries);
+  entries.back().text = {
+      "Choosing: cutoff_hz well above the fastest motion (ten times it, or where the measured acceleration drowns in "
+      "the encoder's "
+      "noise); parallel_cutoff_hz half of that, never above it, or the torque keeps what the motion has lost; "
+      "decimate_to_hz 2.5 to 4 "
+      "times parallel_cutoff_hz, so that nothing folds back and rows are not all the same.",
+      "What lies above parallel_cutoff_hz nobody sees: raise both where backlash, elasticity or ripple is looked for. "
+      "A lower one makes "
+      "errors smaller, not the model better: compare errors at the same one only."};
   add_section<ModelOptions>(entries);
   entries.push_back(
       {"model.bounds",

@@ -36,12 +36,18 @@ Json region_json(MismatchRegion const& region) {
           {"repeatable_share", number(region.repeatable_share)}};
 }
 
-Json effect_json(NamedEffect const& effect) {
+// below the smallest p that can be counted: the tail of the twins, continued
+Json beyond_counting(double p, std::size_t twins) {
+  return twins > 0 && p < 1.0 / static_cast<double>(twins + 1) * (1.0 - 1e-9);
+}
+
+Json effect_json(NamedEffect const& effect, std::size_t twins) {
   return {{"name", effect.name},
           {"family", effect.family},
           {"acts_on", effect.acts_on},
           {"equivalent", effect.equivalent},
           {"p", number(effect.p)},
+          {"p_is_extrapolated", beyond_counting(effect.p, twins)},
           {"q", number(effect.q)},
           {"z", number(effect.z)},
           {"gain",
@@ -54,10 +60,17 @@ Json effect_json(NamedEffect const& effect) {
           {"sentence", effect.sentence}};
 }
 
-Json candidate_json(Candidate const& candidate) {
-  return {{"name", candidate.name},     {"family", candidate.family},     {"decision", word(candidate.decision)},
-          {"reason", candidate.reason}, {"z", number(candidate.z)},       {"p", number(candidate.p)},
-          {"q", number(candidate.q)},   {"gain", number(candidate.gain)}, {"cv_gain", number(candidate.cv_gain)}};
+Json candidate_json(Candidate const& candidate, std::size_t twins) {
+  return {{"name", candidate.name},
+          {"family", candidate.family},
+          {"decision", word(candidate.decision)},
+          {"reason", candidate.reason},
+          {"z", number(candidate.z)},
+          {"p", number(candidate.p)},
+          {"p_is_extrapolated", beyond_counting(candidate.p, twins)},
+          {"q", number(candidate.q)},
+          {"gain", number(candidate.gain)},
+          {"cv_gain", number(candidate.cv_gain)}};
 }
 
 Json unexplained_json(UnexplainedPart const& part) {
@@ -75,14 +88,17 @@ Json joint_json(JointDiagnosis const& joint) {
   Json mismatch = Json::array();
   for (auto const& axis : joint.map)
     for (auto const& region : axis.regions) mismatch.push_back(region_json(region));
+  auto const effect = [&](NamedEffect const& one) { return effect_json(one, joint.twins); };
+  auto const candidate = [&](Candidate const& one) { return candidate_json(one, joint.twins); };
   return {{"joint", joint.joint},
+          {"twins", joint.twins},
           {"baseline",
            {{"parameters", list(joint.baseline, parameter_json)},
             {"train_relerr", number(joint.train_relerr)},
             {"validation_relerr", number(joint.validation_relerr)}}},
           {"mismatch", mismatch},
-          {"effects", list(joint.effects, effect_json)},
-          {"candidates", list(joint.candidates, candidate_json)},
+          {"effects", list(joint.effects, effect)},
+          {"candidates", list(joint.candidates, candidate)},
           {"augmented",
            {{"train_relerr", number(joint.augmented_train_relerr)},
             {"validation_relerr", number(joint.augmented_validation_relerr)},

@@ -136,6 +136,7 @@ void write_effect(ResultWriter& writer, std::string const& group, NamedEffect co
   writer.attribute(group, "title", effect.title);
   writer.attribute(group, "equation", effect.equation);
   writer.attribute(group, "acts_on", effect.acts_on);
+  writer.attribute(group, "is_fault", is_fault(effect));
   text_list(writer, group, "equivalent", effect.equivalent);
   writer.attribute(group, "p", effect.p);
   writer.attribute(group, "p_is_bound", effect.p_is_bound);

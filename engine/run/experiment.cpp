@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/base/digest.hpp"
+#include "engine/data/filter_checks.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "kernels/dispatch.hpp"
 
@@ -121,6 +122,18 @@ std::string ablation_words(DiagnoseOptions const& options) {
 
 }  // namespace
 
+std::string Experiment::filter_warning() const {
+  FilterOptions const& filter = parts_->filter;
+  double const parallel_hz = parallel_cutoff_of(filter);
+  if (!(filter.cutoff_hz > 0.0) || parallel_hz <= filter.cutoff_hz) return {};
+  return fmt::format(
+      "parallel_cutoff_hz = {:g} is above cutoff_hz = {:g}: between the two the torque keeps what the motion has lost, "
+      "and what the "
+      "model cannot follow there looks like missing physics; set parallel_cutoff_hz = {:.3g}, half of cutoff_hz, or "
+      "raise cutoff_hz",
+      parallel_hz, filter.cutoff_hz, 0.5 * filter.cutoff_hz);
+}
+
 std::vector<std::string> Experiment::warnings() const {
   std::vector<std::string> lines;
   auto const add = [&](DataSet const& set) {
@@ -131,6 +144,7 @@ std::vector<std::string> Experiment::warnings() const {
   add(parts_->train);
   if (parts_->validate) add(*parts_->validate);
   if (!parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
+  if (std::string const words = filter_warning(); !words.empty()) lines.push_back("filter: " + words);
   if (std::string const words = ablation_words(parts_->diagnose); !words.empty()) lines.push_back("diagnose: " + words);
   return lines;
 }
@@ -160,6 +174,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   add_set(parts_->train, "recording");
   if (parts_->validate) add_set(*parts_->validate, "unseen");
 
+  if (std::string const words = filter_warning(); !words.empty()) lines.push_back({Level::warn, "filter", words});
   for (auto const& facts : parts_->train.excitation)
     lines.push_back({Level::ok, "excitation", excitation_words(facts, parts_->regressor->joint())});
   if (parts_->health.words.empty())

@@ -61,6 +61,8 @@ class Experiment {
   void forget_reductions();
 
  private:
+  std::string filter_warning() const;  // empty: the cut-offs go together
+
   explicit Experiment(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };

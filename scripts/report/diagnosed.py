@@ -52,7 +52,7 @@ def share_words(share):
 
 def is_fault(effect):
     """Of a recorded channel, not physics of the joint."""
-    return effect.acts_on not in ("", "joint")
+    return effect.is_fault
 
 
 def figure_name(study, joint, base):

@@ -114,6 +114,7 @@ class NamedEffect:
     sentence: str
     parameters: dict
     curve: Curve  # None when there is nothing to draw
+    is_fault: bool  # of a recorded channel; no physics of the joint would explain it as well
 
 
 @dataclass

@@ -106,7 +106,8 @@ def _effect(group):
         drawn = group.curve
         curve = Curve(_interval(drawn, "range"), drawn.at, drawn.partial, drawn.modelled, drawn.spread)
     return NamedEffect(**plain, **numbers, equivalent=group.get("equivalent", []), p_is_bound=bool(group.get("p_is_bound", 0)),
-                       region=region, places=places, parameters=_parameters(group.get("parameters")), curve=curve)
+                       region=region, places=places, parameters=_parameters(group.get("parameters")), curve=curve,
+                       is_fault=bool(group.get("is_fault", plain["acts_on"] not in ("", "joint"))))
 
 
 def _unexplained(group):

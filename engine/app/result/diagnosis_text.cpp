@@ -133,6 +133,10 @@ std::string where_text(JointDiagnosis const& joint, bool utf8) {
   std::size_t const end = std::min(text.find('\n'), text.size());
   if (!found.empty() && columns_of(text.substr(0, end)) + columns_of(of) <= page_width) text.insert(end, of);
 
+  if (!found.empty())
+    text +=
+        hanging(std::string(lead_columns, ' '),
+                "%: energy that goes with this axis, beyond clean twins; axes overlap, so the shares need not add up");
   std::size_t const quiet = joint.map.size() - found.size();
   if (quiet > 0)
     text += fmt::format("{}{}{} {}: nothing beyond the clean twins\n", std::string(lead_columns, ' '), quiet,

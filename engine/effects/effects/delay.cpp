@@ -36,7 +36,7 @@ class Delay final : public MemoryEffect {
   Delay()
       : MemoryEffect(
             {.name = "delay",
-             .title = "torque channel that lags behind the position",
+             .title = "torque and position channel out of step",
              .equation = "recorded torque + d (tau_motor(t - D) - tau_motor(t)) / D",
              .source = "MuJoCo sysid, apply_delay",
              .separated_by = "a step of torque recorded on both channels, or a wideband multisine",

@@ -200,4 +200,39 @@ TEST_F(LongAbstention, NamesStandWhenTheRestLiesOnTheirOwnAxisOfPosition) {
   EXPECT_FALSE(found.is_unexplained);
 }
 
+MapAxis axis_with(char const* name, std::vector<MismatchRegion> regions) {
+  MapAxis axis{name, "s"};
+  axis.regions = std::move(regions);
+  return axis;
+}
+
+TEST(LargestParts, BeginWithTheShareThatIsMostSurprisingForItsTime) {
+  auto const parts = largest_parts(
+      {axis_with("velocity", {{{"velocity", -1.0, 1.0, "rad/s"}, 0.95, 0.99, 0.9}}),
+       axis_with("time", {{{"time", 3.0, 7.0, "s"}, 0.13, 0.44, 0.3}, {{"time", 8.0, 9.0, "s"}, 0.2, 0.1, 0.5}})});
+  // less than its share of the time is no place to look
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].where.axis, "time");
+  EXPECT_EQ(parts[0].energy_share, 0.44);
+  EXPECT_EQ(parts[1].where.axis, "velocity");
+}
+
+TEST(LargestParts, OfASpectrumTellTheStretchThatIsNeitherWideNorTheTorquesOwn) {
+  MapAxis spectrum{"frequency", "Hz", true};
+  for (int i = 0; i < 20; ++i) {
+    MapCell cell{static_cast<double>(i), static_cast<double>(i + 1), 10, i == 12 ? 3.0 : 1.0, 0.1};
+    cell.torque_share = 0.05;
+    spectrum.cells.push_back(cell);
+  }
+  spectrum.regions = {{{"frequency", 0.0, 20.0, "Hz"}, unknown, 1.0, 0.99}};
+  auto const parts = largest_parts({spectrum});
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].where.from, 12.0);
+  EXPECT_EQ(parts[0].where.to, 13.0);
+  EXPECT_NEAR(parts[0].energy_share, 9.0 / 28.0, 1e-12);
+  // where the torque is, any law of the motion is
+  for (auto& cell : spectrum.cells) cell.torque_share = cell.from == 12.0 ? 0.9 : 0.1 / 19.0;
+  for (auto const& part : largest_parts({spectrum})) EXPECT_NE(part.where.to - part.where.from, 1.0);
+}
+
 }  // namespace

@@ -22,15 +22,16 @@ TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
   joint.power_sentence.clear();
   joint.omnibus_p = 1.0 / 201.0;
   joint.mismatch_share = 0.0012;
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 is larger than that of 200 clean twins (p < 0.005), but only by 0.12 % of the "
+            "torque: too "
+            "little to look for.");
+  joint.mismatch_share = 0.0043;
   EXPECT_EQ(
       reason_sentence(diagnosis),
-      "The residual of joint 1 differs from that of 200 clean twins (p < 0.005), but by 0.12 % of the torque: too "
-      "little to look for.");
-  joint.mismatch_share = 0.0043;
-  EXPECT_EQ(reason_sentence(diagnosis),
-            "The residual of joint 1 differs from that of 200 clean twins (p < 0.005) by 0.43 % of the torque, but by "
-            "less than 4 times their spread, and none of 34 known effects is both beyond chance and worth more than "
-            "0.25 % of the torque.");
+      "The residual of joint 1 is larger than that of 200 clean twins (p < 0.005), but only by 0.43 % of the torque, "
+      "which is not enough beside how much the twins differ from one another; and no known effect of 34 explains both "
+      "more than chance does and more than 0.25 % of the torque.");
   joint.omnibus_p = 0.2;
   EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.20).");
 }

@@ -131,9 +131,10 @@ TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
   EXPECT_EQ(reason_sentence(example::invented_insufficient()),
             "Only one direction of motion was recorded. Viscous and coulomb cannot be told apart. Record both "
             "directions.");
-  EXPECT_EQ(reason_sentence(example::invented_data_fault()),
-            "The torque of joint 1 comes 3.8 ms after the motion, a fault of the recording: torque channel that lags "
-            "behind the position (delay, p < 0.005). Shift it (recording.delay_s = -0.0038) or fix the logger.");
+  EXPECT_EQ(
+      reason_sentence(example::invented_data_fault()),
+      "The torque of joint 1 comes 3.8 ms after the motion, a fault of the recording: torque and position channel "
+      "out of step (delay, p < 0.005). Shift it (recording.delay_s = -0.0038) or fix the logger.");
 }
 
 TEST(EffectSentence, FollowsTheSignOfFriction) {
@@ -153,10 +154,38 @@ TEST(EffectSentence, TellsFaultsOfAChannelFromPhysics) {
   JointDiagnosis const joint = joint_of_two_hundred_twins();
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("sensor_drift"), 0.1)),
               StartsWith("The torque channel of joint 1 is off by up to 0.21 N m, a fault of the recording:"));
-  EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("delay"), -0.002)),
-              StartsWith("The torque of joint 1 comes 2.0 ms before the motion, a fault of the recording:"));
+  EXPECT_THAT(
+      effect_sentence(joint, effect_of(*find_effect("delay"), -0.002)),
+      StartsWith("The torque of joint 1 comes 2.0 ms before the motion, because the position channel is late or "
+                 "because a row holds a command that the drive follows late (actuator lag):"));
   EXPECT_THAT(effect_sentence(joint, effect_of(*find_effect("encoder_eccentricity"), 0.001)),
               AllOf(StartsWith("The position of joint 1 is misread"), HasSubstr(", a fault of the recording: ")));
+}
+
+TEST(EffectSentence, CallsNothingAFaultThatPhysicsExplainsAsWell) {
+  NamedEffect drift = effect_of(*find_effect("sensor_drift"), 0.1);
+  EXPECT_TRUE(is_fault(drift));
+  drift.equivalent = {"clipping"};
+  EXPECT_EQ(is_fault(drift), find_effect("clipping")->acts_on() != ActsOn::joint);
+  drift.equivalent = {"payload_change"};
+  EXPECT_FALSE(is_fault(drift));
+  EXPECT_THAT(effect_sentence(joint_of_two_hundred_twins(), drift),
+              AllOf(StartsWith("The torque of joint 1 is off by up to 0.21 N m"), Not(HasSubstr("fault"))));
+}
+
+TEST(EffectSentence, TellsWhatBeginsAtAnInstantByIt) {
+  JointDiagnosis const joint = example::invented_diagnosis().joints[0];  // 60 s
+  NamedEffect drift = effect_of(*find_effect("sensor_drift"), 0.0);
+  drift.places = {{"time", 20.0, 60.0, "s"}};
+  drift.parameters[1].value = 1.6;
+  drift.parameters[2].value = 14.678;
+  EXPECT_THAT(effect_sentence(joint, drift), HasSubstr(" from 14.7 s on, a fault"));
+  // what creeps by more than it steps began at once, and a push ends
+  drift.parameters[0].value = -0.03;
+  EXPECT_THAT(effect_sentence(joint, drift), HasSubstr(" after 20 s, a fault"));
+  NamedEffect push = effect_of(*find_effect("contact"), 2.0);
+  push.places = {{"time", 20.0, 22.0, "s"}};
+  EXPECT_THAT(effect_sentence(joint, push), HasSubstr(" between 20.0 and 22.0 s"));
 }
 
 TEST(EffectSentence, NamesAnEffectThatTheCatalogueDoesNotKnow) {

@@ -20,14 +20,14 @@ using Json = nlohmann::json;
 Json const pattern = Json::parse(R"({
   "schema": 1, "verdict": "", "reason": "",
   "joints": [{
-    "joint": 1,
+    "joint": 1, "twins": 0,
     "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "train_relerr": 0, "validation_relerr": 0},
     "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0, "repeatable_share": 0}],
-    "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""], "p": 0, "q": 0, "z": 0,
+    "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""], "p": 0, "p_is_extrapolated": false, "q": 0, "z": 0,
                  "gain": {"train": 0, "cv": 0, "validation": 0},
                  "region": {"axis": "", "from": 0, "to": 0},
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
-    "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0, "q": 0, "gain": 0, "cv_gain": 0}],
+    "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0, "p_is_extrapolated": false, "q": 0, "gain": 0, "cv_gain": 0}],
     "augmented": {"train_relerr": 0, "validation_relerr": 0, "floor_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
     "budget": {"parameter_error": 0, "missing_physics": 0, "unexplained": 0, "noise": 0},
@@ -52,6 +52,8 @@ void expect_like(Json const& document, Json const& wanted, std::string const& pl
     for (auto const& element : document) expect_like(element, wanted.front(), place + "[]");
   } else if (wanted.is_number()) {
     EXPECT_TRUE(document.is_number() || document.is_null());
+  } else if (wanted.is_boolean()) {
+    EXPECT_TRUE(document.is_boolean());
   } else {
     EXPECT_TRUE(document.is_string());
   }
