@@ -156,6 +156,7 @@ class JointWork {
       promised_floor += result.twins_ran_away ? 0.0 : floor;
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
       sum.moved += result.moved_energy;
+      sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.without[i].energy - result.after_energy;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));

@@ -253,6 +253,7 @@ UnseenPrediction predict_unseen(Recording const& given, StageSetting const& sett
   result.before_energy = left_before.squaredNorm();
   result.after_energy = left_after.squaredNorm();
   result.moved_energy = (left_before - left_after).squaredNorm();
+  result.blocks = added_torque(left_before, left_after);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i) {
     auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(i));
     auto const width = static_cast<Eigen::Index>(augmented.model().effects()[i].effect->n_linear());

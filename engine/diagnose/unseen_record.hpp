@@ -19,6 +19,7 @@
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
 
@@ -32,6 +33,7 @@ struct UnseenWithout {
 struct UnseenPrediction {
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
   double moved_energy = 0.0;                                     // of the difference between both predictions
+  std::vector<AddedTorque> blocks{};
   std::vector<UnseenWithout> without{};                          // per effect
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};

@@ -6,7 +6,8 @@
 //            promise that a quarter of the residual's energy goes, and though the names change the prediction by as
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
 //            spares a right law on a recording that has something else wrong with it. Refuted too where less than a quarter of the
-//            torque that the names add is found there, if they add a tenth of the residual's energy. Where nobody knows what twins promise (a
+//            torque that the names add is found there, if they add a tenth of the residual's energy, or if twenty blocks of each
+//            recording agree on it to two standard errors. Where nobody knows what twins promise (a
 //            loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
 // Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
@@ -19,16 +20,25 @@
 
 namespace torquescope {
 
+// of the torque that the names add, on one stretch of rows: its own energy, and its product with what is left without the names
+struct AddedTorque {
+  double energy = 0.0, found = 0.0;
+};
+
 struct UnseenEnergies {
   double before = 0.0, after = 0.0;
   // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
   double floor = 0.0;
-  double moved = 0.0;  // of the difference between both predictions
+  double moved = 0.0;                 // of the difference between both predictions
+  std::vector<AddedTorque> blocks{};  // of all recordings
 };
 
 inline constexpr double enough_moved = 0.1;  // of the residual: less says nothing
 
 bool speak_against(UnseenEnergies const& energies);
+
+// of the residuals without and with the names, in equal stretches
+std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after);
 
 // whether a law, or all that was accepted, must hold in another recording too
 bool must_carry_over(Effect const& effect);

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 
 using torquescope::AcceptedEffect;
+using torquescope::added_torque;
 using torquescope::find_effect;
 using torquescope::must_carry_over;
 using torquescope::speak_against;
@@ -33,6 +36,31 @@ TEST(UnseenRefutation, WantsTheTorqueThatIsAddedToBeThere) {
   EXPECT_TRUE(speak_against(with_share(0.2)));
   EXPECT_FALSE(speak_against(with_share(0.3))) << "its size differs, as friction of another day does";
   EXPECT_FALSE(speak_against({.before = before, .after = 4.3, .floor = floor, .moved = 0.3})) << "too little to tell";
+}
+
+// a wave that chance found in the training recording adds little, and that little is nowhere in the unseen one
+TEST(UnseenRefutation, IsSureOfLittleWhereAllStretchesAgree) {
+  constexpr Eigen::Index n = 4000;
+  std::mt19937 draw(3);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd noise(n), wave(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    noise[i] = normal(draw);
+    wave[i] = 0.2 * std::sin(0.3 * static_cast<double>(i));
+  }
+  auto const energies = [&](double there) {
+    Eigen::VectorXd const before = noise + there * wave, after = before - wave;
+    double const promised = noise.squaredNorm();
+    return UnseenEnergies{before.squaredNorm(), after.squaredNorm(), promised, wave.squaredNorm(),
+                          added_torque(before, after)};
+  };
+  ASSERT_LT(energies(0.0).moved, 0.03 * energies(0.0).before);
+  EXPECT_TRUE(speak_against(energies(-0.5)));
+  EXPECT_FALSE(speak_against(energies(0.5)));
+  EXPECT_FALSE(speak_against(energies(1.0)));
+  auto doubtful = energies(-0.5);
+  doubtful.blocks.clear();
+  EXPECT_FALSE(speak_against(doubtful));
 }
 
 TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {
