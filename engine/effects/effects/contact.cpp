@@ -2,6 +2,7 @@
 //
 // Equation   tau = a sin^2(pi (t - t_0) / w) for t_0 < t < t_0 + w
 // Parameters contact a [N m; N], either sign; contact_start t_0, contact_width w [s]
+//            not in the first and last moments: what came before the recording, a long rest above all, is not in it
 // Signature  time: one stretch, not repeated, whatever the motion
 // Confused   sensor_drift
 // Source     De Luca, Mattone 2005 (momentum observer; the push itself has no law)
@@ -22,7 +23,7 @@ class Contact final : public InstantEffect {
                        .source = "De Luca, Mattone 2005",
                        .separated_by = "the same lap again",
                        .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
-                                      shape_parameter("contact_start", "s", "s", {0.0, RelativeTo::instant},
+                                      shape_parameter("contact_start", "s", "s", {0.02, RelativeTo::instant},
                                                       {0.98, RelativeTo::instant}, Spacing::linear),
                                       shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
                                                       {0.2, RelativeTo::duration}, Spacing::logarithmic)},
