@@ -64,8 +64,8 @@ std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameter
 
 // of harmonics people know the fundamental, and the one that was found first may be any of them
 std::vector<std::size_t> waves_in_order(JointModel const& model) {
-  constexpr std::size_t sine_and_cosine =
-      2;  // with a column beside them, the wave that was fitted first has it for all
+  // with a column beside them, the wave that was fitted first has it for all
+  constexpr std::size_t sine_and_cosine = 2;
   auto const& effects = model.effects();
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < effects.size(); ++i) {

@@ -144,8 +144,7 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
       // no cause comes after what it does: the motion is told late, or the torque too early
       return fmt::format(
           "the torque of joint {} comes {} before the motion, because the position channel is late or because a row "
-          "holds "
-          "a command that the drive follows late (actuator lag)",
+          "holds a command that the drive follows late (actuator lag)",
           joint.joint, time);
     }
     return fmt::format("the torque{} of joint {} is off by {}{}{}", fault.empty() ? "" : " channel", joint.joint,
