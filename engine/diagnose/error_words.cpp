@@ -32,14 +32,13 @@ std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
 
 }  // namespace
 
-std::string floor_words(double relerr, double floor, bool is_unseen) {
+std::string floor_words(double relerr, double floor) {
   if (!std::isfinite(floor)) return "";
   constexpr double nearly = 1.02;
   std::string const text = percent_text(floor);
   if (relerr > nearly * floor) return ", floor " + text;
   if (relerr >= floor / nearly) return ", at the floor (about " + text + ")";
-  return fmt::format(", below the floor (about {}: what clean twins leave on average{})", text,
-                     is_unseen ? ", with the noise of the training recording" : "");
+  return fmt::format(", at the floor (about {}: what clean twins leave on average)", text);
 }
 
 std::string gain_sentence(JointDiagnosis const& joint) {
@@ -49,7 +48,7 @@ std::string gain_sentence(JointDiagnosis const& joint) {
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
   std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
                                        percent_text(before), percent_text(after));
-  return text + floor_words(after, joint.floor_relerr, unseen) + ".";
+  return text + floor_words(after, joint.floor_relerr) + ".";
 }
 
 std::string unseen_is_other_sentence(JointDiagnosis const& joint) {

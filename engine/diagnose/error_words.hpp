@@ -12,9 +12,9 @@
 
 namespace torquescope {
 
-// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; ", below the floor (about 6.9 %: ...)"
-// with what the floor is; "" where none is known
-std::string floor_words(double relerr, double floor, bool is_unseen);
+// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; what is below it has some twins below
+// it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
+std::string floor_words(double relerr, double floor);
 
 // "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded
 std::string gain_sentence(JointDiagnosis const& joint);

@@ -143,17 +143,18 @@ class JointWork {
   void check_on_unseen(StageSetting const& setting) {
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     UnseenEnergies sum;
-    double torque = 0.0, promised_floor = 0.0;
+    double torque = 0.0, floor = 0.0;
+    bool has_twins = false;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : unseen_) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
       torque += result.energy;
       sum.before += result.before_energy;
       sum.after += result.after_energy;
-      double const floor = result.floor * result.floor * result.energy;
-      sum.floor += floor;
+      floor += result.floor * result.floor * result.energy;
       // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
-      promised_floor += result.twins_ran_away ? 0.0 : floor;
+      sum.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.energy;
+      has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
       sum.moved += result.moved_energy;
       sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
@@ -170,8 +171,7 @@ class JointWork {
     }
     joint_.validation_relerr = std::sqrt(sum.before / torque);
     joint_.augmented_validation_relerr = std::sqrt(sum.after / torque);
-    if (std::isfinite(sum.floor)) joint_.floor_relerr = std::sqrt(sum.floor / torque);
-    sum.floor = promised_floor;
+    if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
     is_refuted_ = must_carry_over(selection_.accepted) && speak_against(sum);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 #include "engine/diagnose/twin_batch.hpp"
+#include "engine/diagnose/unseen_floor.hpp"
 #include "engine/simulate/autoregression.hpp"
 
 namespace torquescope {
@@ -150,15 +151,6 @@ std::optional<RecordedLoop> loop_of(Recording const& recording, ModelStage const
   return recorded_loop(recording, 1.0, {});
 }
 
-// disturbance and wander as in training
-TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
-  auto const& trained = stage.twin->loop.loop;
-  for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
-                                  &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
-    loop.*level = trained.*level;
-  return loop;
-}
-
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
   CleanTwin const twin(stage.model().twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
                        stage.twin->twin.step_s());
@@ -169,21 +161,20 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
                    static_cast<double>(recording.position.size()));
 }
 
-double floor_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                RecordedLoop const& loop, Eigen::VectorXd const& parameters) {
-  RecordPipeline const pipeline = pipeline_for(setting, recording, stage.model());
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
-                       stage.twin->twin.step_s());
-  std::vector<double> relerr(twin_lanes, unknown);
-  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, relerr.size(), setting.threads,
-                [&](VisitedTwin const& visited) {
-                  if (visited.ran_away) return;
-                  auto const& record = visited.record;
-                  relerr[visited.index] = (record.torque - record.columns * parameters).norm() / record.torque.norm();
-                });
-  double sum = 0.0;
-  for (double one : relerr) sum += one;
-  return sum / static_cast<double>(relerr.size());
+// what its twins leave, and whether that is a floor of it
+void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                       RecordedLoop const& loop, UnseenResult& result) {
+  auto const errors_in = [&](RecordedLoop const& one) {
+    return unseen_twin_errors(recording, setting, stage, one, stage.parameters());
+  };
+  TwinErrors const own = errors_in(loop);
+  result.promised = own.mean;
+  result.twins_ran_away = !std::isfinite(own.mean);
+  double const relerr = std::sqrt(result.after_energy / result.energy);
+  result.floor = floor_below(relerr, own);
+  RecordedLoop const& trained = stage.twin->loop;
+  if (std::isfinite(result.floor) || result.twins_ran_away || trained.track.rate_hz != loop.track.rate_hz) return;
+  result.floor = floor_below(relerr, errors_in(with_law_of(trained, loop)));
 }
 
 }  // namespace
@@ -282,8 +273,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
-    result.floor = floor_of(recording, setting, augmented, *loop, augmented.parameters());
-    result.twins_ran_away = !std::isfinite(result.floor);
+    account_for_twins(recording, setting, augmented, *loop, result);
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }

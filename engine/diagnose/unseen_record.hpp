@@ -12,7 +12,8 @@
 // Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its share is
 //            refitted in the same way, between none and all
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
-// Floor      relerr of 16 twins of this recording under the final model, with the same parameters
+// Promised   relerr of 16 twins of this recording under the final model, with the same parameters
+// Floor      the same where it is one (unseen_floor.hpp)
 // Units      SI
 // Threads    spreads twins over `threads`; same bits for any number
 // Source     PHYSICS.md section 2 steps 9, 12
@@ -34,14 +35,14 @@ struct UnseenPrediction {
   double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
   double moved_energy = 0.0;                                     // of the difference between both predictions
   std::vector<AddedTorque> blocks{};
-  std::vector<UnseenWithout> without{};                          // per effect
+  std::vector<UnseenWithout> without{};  // per effect
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
 };
 
 struct UnseenResult : UnseenPrediction {
-  double floor = unknown;       // relerr
-  bool twins_ran_away = false;  // of this recording, under the final model: no floor
+  double promised = unknown, floor = unknown;  // relerr
+  bool twins_ran_away = false;                 // of this recording, under the final model: no floor
   ForwardSimulation forward{};
 };
 

@@ -43,14 +43,16 @@ TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
   joint.floor_relerr = 0.049;
   EXPECT_THAT(
       reason_sentence(diagnosis),
-      HasSubstr("Unseen relerr 12.1 % to 4.1 %, below the floor (about 4.9 %: what clean twins leave on average, "
-                "with the noise of the training recording)."));
+      HasSubstr("Unseen relerr 12.1 % to 4.1 %, at the floor (about 4.9 %: what clean twins leave on average)."));
   joint.augmented_validation_relerr = 0.0485;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
   joint.augmented_validation_relerr = 0.0495;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
   joint.augmented_validation_relerr = 0.052;
   EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 5.2 %, floor 4.9 %."));
+  // where the twins are louder than the recording there is none
+  joint.floor_relerr = unknown;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 5.2 %."));
 }
 
 TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind) {
