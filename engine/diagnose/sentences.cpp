@@ -284,10 +284,14 @@ std::string too_little_clause(JointDiagnosis const& joint, double share) {
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;
-  std::string const twins = twins_ran_away ? std::string("run away") : "promise " + percent_text(joint.floor_relerr);
-  return fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}, where twins with {} {}",
-                     joined(names, "and"), is_one ? "takes" : "take", percent_text(joint.validation_relerr),
-                     percent_text(joint.augmented_validation_relerr), is_one ? "it" : "them", twins);
+  std::string text = fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}", joined(names, "and"),
+                                 is_one ? "takes" : "take", percent_text(joint.validation_relerr),
+                                 percent_text(joint.augmented_validation_relerr));
+  std::string const with = is_one ? "it" : "them";
+  if (twins_ran_away)
+    return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);
+  if (!std::isfinite(joint.floor_relerr)) return text;
+  return text + fmt::format(", where twins with {} promise {}", with, percent_text(joint.floor_relerr));
 }
 
 std::string reason_sentence(Diagnosis const& diagnosis) {

@@ -20,7 +20,7 @@ namespace torquescope {
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect);
 
 // of names that are to be withdrawn because of unseen recordings: "backlash, which would explain it, takes the unseen relerr from
-// 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "where twins with it run away"
+// 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "and a joint simulated with it no longer follows the reference"
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
 // because of what they leave: "backlash, the closest of 29 known effects, explains 37 % of what is missing". Share: 0 to 1
 std::string too_little_clause(JointDiagnosis const& joint, double share);

@@ -114,7 +114,8 @@ TEST(ReasonSentence, OfRefutedNamesSaysWhatTheyPromisedAndWhatTheyDid) {
             "backlash, "
             "which would explain it, takes the unseen relerr from 2.2 % to 2.5 %, where twins with it promise 1.6 %.");
   diagnosis.joints[0].refutation = refutation_clause(refuted, true);
-  EXPECT_THAT(reason_sentence(diagnosis), EndsWith("from 2.2 % to 2.5 %, where twins with it run away."));
+  EXPECT_THAT(reason_sentence(diagnosis),
+              EndsWith("from 2.2 % to 2.5 %, and a joint simulated with it no longer follows the reference."));
 }
 
 TEST(ReasonSentence, OfNamesThatExplainTooLittleSaysHowMuch) {
