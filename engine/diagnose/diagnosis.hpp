@@ -108,10 +108,11 @@ struct NamedEffect {
   double p = 1.0, q = 1.0, z = 0.0;       // at the step at which it was accepted
   bool p_is_bound = false;                // no twin reached it: p is an upper bound
   EffectGain gain{};
-  AxisInterval region{};                 // where it acts, as one interval (acting_region.hpp)
-  std::vector<AxisInterval> places{};    // the same as one or two
-  double region_gain = unknown;          // share of its gain taken where it acts (region_consistency.hpp)
-  double rms = unknown, peak = unknown;  // torque, on the rows
+  AxisInterval region{};               // where it acts, as one interval (acting_region.hpp)
+  std::vector<AxisInterval> places{};  // the same as one or two
+  double region_gain = unknown;        // share of its gain taken where it acts (region_consistency.hpp)
+  double rms = unknown,
+         peak = unknown;  // torque beside the model's own terms; peak: where it acts (effect_account.hpp)
   std::vector<ParameterEstimate> parameters{};
   std::string sentence{};
   EffectCurve curve{};

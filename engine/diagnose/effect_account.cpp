@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/diagnose/acting_region.hpp"
 #include "engine/diagnose/map_axes.hpp"
+#include "engine/diagnose/reversal_mask.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -34,25 +36,40 @@ Eigen::VectorXd parameters_of(ModelStage const& stage, std::size_t i) {
                                     static_cast<Eigen::Index>(effect->n_linear()));
 }
 
-Eigen::VectorXd effect_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
+// on the rows, as it is
+Eigen::VectorXd whole_torque(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
-  return beside_the_level(stage, *effect, stage.comparison.common.columns_themselves(),
-                          columns.plain_columns(*effect, shape) * parameters_of(stage, i));
+  return columns.plain_columns(*effect, shape) * parameters_of(stage, i);
 }
 
-// what is cut off at the ends of the record has no place: the filters swing there
+// What no parameters of the model's own terms would imitate: by so much the joint deviates from its model. A stiffness that gravity
+// takes up adds nothing, however large it is
+Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const& torque) {
+  Eigen::MatrixXd const own = stage.comparison.common.columns_themselves().leftCols(
+      static_cast<Eigen::Index>(stage.model().regressor().size()));
+  return torque - own * solve_scaled(own, torque);
+}
+
+// What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it is whatever
+// keeps the joint there and no law of the motion: a joint that stands half of the time would have all its friction there
 ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
   Motion const& motion = stage.comparison.rows.motion;
+  RecordPipeline const& pipeline = *stage.pipeline;
   Eigen::VectorXd const torque = beside_the_level(stage, *effect, stage.model().regressor().columns(motion),
                                                   columns.signals(*effect, shape) * parameters_of(stage, i));
   MotionAxes const axes = motion_axes(stage.model(), motion, stage.parameters());
   Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
   Eigen::Index const n = torque.size();
-  Eigen::VectorXd const kept = stage.pipeline->picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
+  Eigen::VectorXd const kept = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
   auto const from = static_cast<Eigen::Index>(std::lround(kept[0]));
-  Eigen::Index const length = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1 - from;
-  return acting_region(at.segment(from, length), torque.segment(from, length).array().square().matrix());
+  Eigen::Index const end = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1;
+  std::vector<bool> const rests = resting_samples(motion.dq, pipeline.rate_hz(), pipeline.cutoff_hz());
+  bool const opposes_motion = effect->parity() == Parity::odd;
+  std::vector<Eigen::Index> samples;
+  for (Eigen::Index k = from; k < end; ++k)
+    if (!opposes_motion || !rests[static_cast<std::size_t>(k)]) samples.push_back(k);
+  return acting_region(at(samples), torque(samples).array().square().matrix());
 }
 
 // the reading of the map: torque that turns with the direction is counted along the motion
@@ -117,18 +134,26 @@ std::optional<AxisInterval> wave_region(ShapedEffect const& shaped, SignatureAxi
 
 }  // namespace
 
+double peak_in(std::vector<AxisInterval> const& places, Eigen::VectorXd const& at, Eigen::VectorXd const& torque) {
+  double peak = -1.0;
+  for (Eigen::Index k = 0; k < torque.size(); ++k)
+    for (auto const& place : places)
+      if (at[k] >= place.from && at[k] <= place.to) peak = std::max(peak, std::abs(torque[k]));
+  return peak >= 0.0 ? peak : torque.cwiseAbs().maxCoeff();
+}
+
 EffectAccount account_of(ModelStage const& stage, std::size_t i) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
   MismatchRows const rows = in_torque_itself(stage.comparison.rows);
   auto const& shaped = stage.model().effects()[i];
-  Eigen::VectorXd const torque = effect_torque(stage, columns, i);
+  Eigen::VectorXd const whole = whole_torque(stage, columns, i), torque = beside_the_model(stage, whole);
   SignatureAxis const axis = shaped.effect->signature().front();
   EffectAccount account;
   account.rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
-  account.peak = torque.cwiseAbs().maxCoeff();
   if (auto const wave = wave_region(shaped, axis, columns.scales())) {
     account.region = *wave;
     account.places = {*wave};
+    account.peak = torque.cwiseAbs().maxCoeff();
   } else {
     ActingRegion const found = region_in_motion(stage, columns, i);
     auto const on_axis = [&](std::pair<double, double> const& interval) {
@@ -136,9 +161,12 @@ EffectAccount account_of(ModelStage const& stage, std::size_t i) {
     };
     account.region = on_axis(found.interval);
     for (auto const& interval : found.intervals) account.places.push_back(on_axis(interval));
+    account.peak = peak_in(account.places, values_on(axis, rows), torque);
   }
   SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
-  account.curve = curve_on(drawn, rows, torque, rows.residual - rows.twin_mean, columns.joint());
+  Eigen::VectorXd const curved =
+      beside_the_level(stage, *shaped.effect, stage.comparison.common.columns_themselves(), whole);
+  account.curve = curve_on(drawn, rows, curved, rows.residual - rows.twin_mean, columns.joint());
   return account;
 }
 

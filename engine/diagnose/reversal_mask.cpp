@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/contract.hpp"
 
@@ -19,6 +20,19 @@ Eigen::Index reach_of(double rate_hz, double cutoff_hz) {
 }
 
 bool is_still(double dq, double slowest) { return std::abs(dq) < slowest || dq == 0.0; }
+
+// stretches without a faster sample that are longer than `reach`: first sample, one past the last
+std::vector<std::pair<Eigen::Index, Eigen::Index>> rests(Eigen::VectorXd const& dq, Eigen::Index reach) {
+  double const slowest = still_speed(dq);
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> found;
+  for (Eigen::Index k = 0; k < dq.size();) {
+    Eigen::Index end = k;
+    while (end < dq.size() && is_still(dq[end], slowest)) ++end;
+    if (end - k > reach) found.emplace_back(k, end);
+    k = std::max(end, k + 1);
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -42,18 +56,18 @@ std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, doub
 
 std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
   Eigen::Index const n = dq.size(), reach = reach_of(rate_hz, cutoff_hz);
-  double const slowest = still_speed(dq);
-
   std::vector<bool> kept(static_cast<std::size_t>(n), true);
-  for (Eigen::Index k = 0; k < n;) {
-    Eigen::Index end = k;
-    while (end < n && is_still(dq[end], slowest)) ++end;
-    if (end - k > reach)
-      for (Eigen::Index i = std::max<Eigen::Index>(0, k - reach); i < std::min(n, end + reach); ++i)
-        kept[static_cast<std::size_t>(i)] = false;
-    k = std::max(end, k + 1);
-  }
+  for (auto const& [first, end] : rests(dq, reach))
+    for (Eigen::Index i = std::max<Eigen::Index>(0, first - reach); i < std::min(n, end + reach); ++i)
+      kept[static_cast<std::size_t>(i)] = false;
   return kept;
+}
+
+std::vector<bool> resting_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
+  std::vector<bool> rest(static_cast<std::size_t>(dq.size()), false);
+  for (auto const& [first, end] : rests(dq, reach_of(rate_hz, cutoff_hz)))
+    for (Eigen::Index i = first; i < end; ++i) rest[static_cast<std::size_t>(i)] = true;
+  return rest;
 }
 
 }  // namespace torquescope

@@ -26,4 +26,7 @@ std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, doub
 // dropped: every stretch slower than 0.005 max|dq| that lasts longer than 1.6 / cutoff_hz, and as much before and after it
 std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
 
+// such a stretch itself, and nothing round it
+std::vector<bool> resting_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
+
 }  // namespace torquescope

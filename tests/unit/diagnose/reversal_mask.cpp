@@ -9,6 +9,7 @@
 #include <numbers>
 
 using torquescope::moving_samples;
+using torquescope::resting_samples;
 
 namespace {
 
@@ -72,6 +73,15 @@ TEST(ReversalMask, WithReversalsDropsARestAndAsMuchRoundIt) {
   // 1.6 periods of 40 Hz are 40 samples
   auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
   for (std::size_t k = 0; k < kept.size(); ++k) EXPECT_EQ(kept[k], k < 360 || k >= 540) << k;
+}
+
+TEST(RestingSamples, AreTheRestItselfAndNoTurn) {
+  auto dq = std::vector<double>(400, 1.0);
+  std::fill(dq.begin() + 100, dq.begin() + 200, 0.001);
+  std::fill(dq.begin() + 300, dq.end(), -1.0);
+  auto const rest =
+      resting_samples(Eigen::Map<Eigen::VectorXd>(dq.data(), static_cast<Eigen::Index>(dq.size())), 1000.0, 50.0);
+  for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_EQ(rest[k], k >= 100 && k < 200) << k;
 }
 
 TEST(ReversalMask, WithReversalsKeepsARestThatIsShort) {
