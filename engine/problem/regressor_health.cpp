@@ -66,15 +66,16 @@ std::vector<std::string> names_of(RegressionData const& data, std::vector<std::s
   return names;
 }
 
-// of pairs that correlate at least so much
-std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correlation, double least) {
+// of pairs that correlate at least so much; trust: how far their values go, before the motion that would help
+std::string pair_words(RegressionData const& data, Eigen::MatrixXd const& correlation, double least,
+                       std::string const& trust) {
   std::string words;
   for (Eigen::Index i = 0; i < correlation.cols(); ++i) {
     for (Eigen::Index j = i + 1; j < correlation.cols(); ++j) {
       if (std::abs(correlation(i, j)) < least) continue;
       std::vector<std::size_t> const pair{static_cast<std::size_t>(i), static_cast<std::size_t>(j)};
-      words += fmt::format("{}{} correlate {:.{}f}: {}", words.empty() ? "" : "; ", listed(names_of(data, pair)),
-                           correlation(i, j), std::abs(correlation(i, j)) > 0.995 ? 4 : 2, advice(data, pair));
+      words += fmt::format("{}{} correlate {:.{}f}: {}{}", words.empty() ? "" : "; ", listed(names_of(data, pair)),
+                           correlation(i, j), std::abs(correlation(i, j)) > 0.995 ? 4 : 2, trust, advice(data, pair));
     }
   }
   return words;
@@ -108,13 +109,15 @@ RegressorHealth regressor_health(RegressionData const& data, Reductions const& r
   health.condition_number_raw = condition(right_svd(reductions.raw).singularValues());
   health.identifiable = health.condition_number * identifiable_threshold < 1.0;
 
-  health.words = pair_words(data, health.correlation, worth_a_warning);
+  health.words =
+      pair_words(data, health.correlation, worth_a_warning, "trust what both make together, neither value by itself; ");
   if (health.words.empty() && health.condition_number > reported_condition) {
     auto const members = weakest_members(svd.matrixV());
-    health.words = fmt::format("{} are nearly dependent (condition number {:.0f}): {}", listed(names_of(data, members)),
-                               health.condition_number, advice(data, members));
+    health.words = fmt::format(
+        "{} are nearly dependent (condition number {:.0f}): trust what they make together, no value by itself; {}",
+        listed(names_of(data, members)), health.condition_number, advice(data, members));
   }
-  if (health.words.empty()) health.remark = pair_words(data, health.correlation, worth_a_remark);
+  if (health.words.empty()) health.remark = pair_words(data, health.correlation, worth_a_remark, "");
   return health;
 }
 

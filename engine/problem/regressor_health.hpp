@@ -27,7 +27,9 @@ struct RegressorHealth {
   double condition_number_raw = 0.0;  // with units as they are: what limits a search that does not scale
   Eigen::MatrixXd correlation;        // [R][R]
   bool identifiable = true;
-  std::string words;   // "" when healthy: "viscous and offset correlate 0.9971: wider speeds would help"
+  // "" when healthy: "viscous and offset correlate 0.9971: trust what both make together, neither value by itself; wider speeds
+  // would help"
+  std::string words;
   std::string remark;  // of what is healthy: "offset and gravity_cos correlate 0.98: ..."; "" when words say more
 };
 

@@ -134,6 +134,8 @@ std::string Experiment::filter_warning() const {
       parallel_hz, filter.cutoff_hz, 0.5 * filter.cutoff_hz);
 }
 
+bool Experiment::asks_for_values() const { return !parts_->estimators.empty(); }
+
 std::vector<std::string> Experiment::warnings() const {
   std::vector<std::string> lines;
   auto const add = [&](DataSet const& set) {
@@ -143,7 +145,7 @@ std::vector<std::string> Experiment::warnings() const {
   };
   add(parts_->train);
   if (parts_->validate) add(*parts_->validate);
-  if (!parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
+  if (asks_for_values() && !parts_->health.words.empty()) lines.push_back("regressor: " + parts_->health.words);
   if (std::string const words = filter_warning(); !words.empty()) lines.push_back("filter: " + words);
   if (std::string const words = ablation_words(parts_->diagnose); !words.empty()) lines.push_back("diagnose: " + words);
   return lines;
@@ -151,7 +153,10 @@ std::vector<std::string> Experiment::warnings() const {
 
 std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
-  if (!parts_->health.remark.empty()) lines.push_back("regressor: " + parts_->health.remark);
+  // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what costs an interval
+  // nothing but width is in the interval
+  std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;
+  if (!words.empty()) lines.push_back("regressor: " + words);
   return lines;
 }
 

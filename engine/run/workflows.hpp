@@ -62,6 +62,7 @@ class Experiment {
 
  private:
   std::string filter_warning() const;  // empty: the cut-offs go together
+  bool asks_for_values() const;        // of parameters; else the job asks for a verdict alone
 
   explicit Experiment(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;

@@ -57,6 +57,19 @@ TEST(DiagnoseOptions, ARunStillNeedsAnEstimatorAndSaysWhoCanDoWithoutOne) {
   EXPECT_THAT(neither[0].help, HasSubstr("[diagnose]"));
 }
 
+// a verdict does not rest on single values
+TEST(DiagnoseOptions, WhatNoValueCanBeTrustedForIsARemarkWhereNoValueIsAskedFor) {
+  std::string const small = "[model]\nterms = [\"inertia\", \"viscous\", \"coulomb\", \"offset\", \"gravity\"]\n" +
+                            test::simulated_joint + "[simulate.reference]\namplitude = 0.1\n";
+  auto const told = ::testing::Contains(HasSubstr("offset and gravity_cos correlate"));
+  Experiment const diagnosis = test::load_job(small, Purpose::diagnose);
+  EXPECT_THAT(diagnosis.warnings(), ::testing::Not(told));
+  EXPECT_THAT(diagnosis.remarks(), told);
+  Experiment const fit = test::load_job("[[estimator]]\nname = \"ols\"\n" + small, Purpose::identify);
+  EXPECT_THAT(fit.warnings(), told);
+  EXPECT_THAT(fit.remarks(), ::testing::Not(told));
+}
+
 TEST(DiagnoseOptions, AllLeavesOutTheTermsOfTheModelAndWhatTheJointCannotHave) {
   Experiment const experiment = load("", Purpose::diagnose);
   auto const names = names_of(experiment.parts().effects);
