@@ -95,11 +95,14 @@ void mark_equivalent(std::vector<Candidate>& candidates, std::vector<NamedEffect
 }
 
 void withdraw_names(std::vector<Candidate>& candidates, std::string const& reason) {
-  for (auto& candidate : candidates)
-    if (candidate.decision == Decision::named || candidate.decision == Decision::measurement) {
-      candidate.decision = Decision::rejected;
-      candidate.reason = reason;
-    }
+  auto const has_name = [](Candidate const& one) {
+    return one.decision == Decision::named || one.decision == Decision::measurement;
+  };
+  auto const others = std::stable_partition(candidates.begin(), candidates.end(), has_name);
+  for (auto candidate = candidates.begin(); candidate != others; ++candidate) {
+    candidate->decision = Decision::rejected;
+    candidate->reason = reason;
+  }
 }
 
 }  // namespace torquescope

@@ -1,11 +1,19 @@
 #include "engine/diagnose/excitation_advice.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/effects/effect.hpp"
 
 namespace torquescope {
 
+namespace {
+
+constexpr std::size_t enough = 2;  // motions: nobody records twenty
+
+}  // namespace
+
 std::vector<ExcitationAdvice> advice_for(std::vector<NamedEffect> const& effects) {
-  constexpr std::size_t enough = 2;  // motions: nobody records twenty
   std::vector<ExcitationAdvice> advice;
   for (auto const& effect : effects) {
     if (effect.equivalent.empty()) continue;
@@ -24,6 +32,24 @@ std::vector<ExcitationAdvice> advice_for(std::vector<NamedEffect> const& effects
     }
     // terms of the baseline that are one another's sum: no motion tells them apart
     if (!one.lacks.empty()) advice.push_back(std::move(one));
+  }
+  return advice;
+}
+
+std::vector<std::string> closest_of(std::vector<Candidate> const& candidates) {
+  auto const share = [](Candidate const& one) { return std::isfinite(one.cv_gain) ? one.cv_gain : -HUGE_VAL; };
+  auto const closest = std::max_element(candidates.begin(), candidates.end(),
+                                        [&](auto const& a, auto const& b) { return share(a) < share(b); });
+  if (closest == candidates.end() || !(share(*closest) > 0.0)) return {};
+  return {closest->name};
+}
+
+std::vector<ExcitationAdvice> advice_to_confirm(std::vector<std::string> const& names) {
+  std::vector<ExcitationAdvice> advice;
+  for (auto const& name : names) {
+    Effect const* known = find_effect(name);
+    if (known && !known->separated_by().empty() && advice.size() < enough)
+      advice.push_back({known->separated_by(), {name}});
   }
   return advice;
 }

@@ -243,6 +243,9 @@ class JointWork {
       joint_.refutation = too_little_clause(joint_, 1.0 - std::min(1.0, remainder.share));
       why = "it explains less than half";
     }
+    std::vector<std::string> closest;
+    for (auto const& effect : joint_.effects) closest.push_back(effect.name);
+    joint_.excitation = advice_to_confirm(closest.empty() ? closest_of(joint_.candidates) : closest);
     withdraw_names(joint_.candidates, "withdrawn: " + why);
     joint_.budget.unexplained += joint_.budget.missing_physics;
     joint_.budget.missing_physics = 0.0;

@@ -181,7 +181,9 @@ def next_steps(study, joint):
     said = [_capital(study.diagnosis.way_out.rstrip(".")) + "."] if study.diagnosis.way_out else []
     for advice in joint.advice:
         apart = [diagnosed.plain(name) for name in advice.would_separate]
-        to = f" to tell {q.listed(apart)} apart" if len(apart) > 1 else f" for {apart[0]}" if apart else ""
+        to = f" to tell {q.listed(apart)} apart" if len(apart) > 1 else ""
+        if len(apart) == 1:
+            to = f" to tell whether it is {apart[0]}, which came closest"
         said.append(f"{_capital(advice.lacks.rstrip('.'))}{to}.")
     return said
 

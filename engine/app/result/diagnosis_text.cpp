@@ -151,6 +151,9 @@ std::string next_text(JointDiagnosis const& joint) {
   for (auto const& advice : joint.excitation) {
     std::string line = printable(advice.lacks);
     if (advice.would_separate.size() > 1) line += ": would tell " + joined(advice.would_separate) + " apart";
+    // of what may not be named yet
+    if (advice.would_separate.size() == 1)
+      line += ": would tell whether it is " + joined(advice.would_separate) + ", which came closest";
     text += hanging(lead(text.empty() ? "next" : ""), line);
   }
   return text;

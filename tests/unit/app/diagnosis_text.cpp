@@ -172,6 +172,13 @@ TEST(DiagnosisText, WhatIsNamedIsShownHoweverWeakItLooked) {
   EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), HasSubstr("\n       " + diagnosis.joints[0].candidates[20].name));
 }
 
+TEST(DiagnosisText, WhatIsUnexplainedHasANextStepToo) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  diagnosis.joints[0].excitation = {{"full turns", {"backlash"}}};
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()),
+              HasSubstr("\nnext   full turns: would tell whether it is backlash, which came closest\n"));
+}
+
 TEST(DiagnosisText, QuietAxesAreCountedAndUnrecordedPlacesAreBlank) {
   EXPECT_THAT(diagnosis_text(example::invented_none(), {}, Ink()),
               HasSubstr("where  9 axes: nothing beyond the clean twins\n"));

@@ -116,5 +116,22 @@ TEST(CandidateTable, WhatFitsAsWellSaysAsWhat) {
   EXPECT_EQ(table[1].reason, "this motion cannot tell it from stribeck");
 }
 
+// what a verdict speaks of is not below a candidate that it does not mention
+TEST(CandidateTable, WhatWasWithdrawnIsTheFirstLine) {
+  Selection selection = selection_of(true);
+  selection.accepted = {accepted("delay"), accepted("presliding")};
+  auto table = candidate_table(selection, 0.05, 10.0);
+  EXPECT_EQ(table[0].name, "stribeck");
+  withdraw_names(table, "withdrawn: it explains less than half");
+  EXPECT_EQ(table[0].name, "presliding");
+  EXPECT_EQ(table[1].name, "delay");
+  EXPECT_EQ(table[2].name, "stribeck");
+  for (std::size_t i : {0, 1}) {
+    EXPECT_EQ(table[i].decision, Decision::rejected);
+    EXPECT_EQ(table[i].reason, "withdrawn: it explains less than half");
+  }
+  EXPECT_NE(table[2].reason, table[1].reason);
+}
+
 }  // namespace
 }  // namespace torquescope

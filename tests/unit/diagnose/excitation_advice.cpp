@@ -33,6 +33,26 @@ TEST(ExcitationAdvice, NamesTheMotionOfEachUpToTwo) {
 
 TEST(ExcitationAdvice, HasNoneForASingleName) { EXPECT_TRUE(advice_for({named("stribeck", {})}).empty()); }
 
+TEST(ExcitationAdvice, OfNothingNamedIsForWhatCameClosest) {
+  std::vector<torquescope::Candidate> candidates(4);
+  candidates[0].name = "breakaway_dwell";
+  candidates[0].cv_gain = 0.1;
+  candidates[1].name = "backlash";
+  candidates[1].cv_gain = 0.3;
+  candidates[2].name = "cable";
+  candidates[3].name = "payload_change";
+  candidates[3].cv_gain = -3e6;
+  EXPECT_EQ(torquescope::closest_of(candidates), std::vector<std::string>{"backlash"});
+  auto const advice = torquescope::advice_to_confirm({"backlash"});
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_EQ(advice[0].lacks, find_effect("backlash")->separated_by());
+  EXPECT_EQ(advice[0].would_separate, std::vector<std::string>{"backlash"});
+  EXPECT_EQ(torquescope::advice_to_confirm({"backlash", "offset", "cable", "spring"}).size(), 2u);
+  candidates[0].cv_gain = candidates[1].cv_gain = -0.1;
+  EXPECT_TRUE(torquescope::closest_of(candidates).empty());
+  EXPECT_TRUE(torquescope::closest_of({}).empty());
+}
+
 TEST(ExcitationAdvice, IsSilentOfTermsThatNoMotionTellsApart) {
   EXPECT_TRUE(advice_for({named("offset", {"coulomb_negative", "coulomb_positive"})}).empty());
 }
