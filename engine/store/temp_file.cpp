@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t block_bytes = std::size_t{1} << 19;
-constexpr std::size_t most_waiting_blocks = 4;
+// more would be memory that is written for the first time, which costs more than waiting for the disk now and then
+constexpr std::size_t most_waiting_blocks = 2;
 constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache
 constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
