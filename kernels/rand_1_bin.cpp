@@ -41,11 +41,10 @@ HWY_INLINE Index moved_past(Index index, Index taken) {
 struct TwoBlocks {
   PhiloxLanes even, odd;
 
-  HWY_INLINE TwoBlocks(PhiloxStreams const& streams, Keys const& keys, Words stream, std::size_t i)
-      : even{hn::Set(Wide(), 2 * i), stream, hn::Set(Wide(), streams.word_2), hn::Set(Wide(), streams.word_3)},
-        odd(even) {
-    odd.word_0 = hn::Set(Wide(), 2 * i + 1);
-    for (int round = 0; round < 10; ++round) {
+  HWY_INLINE TwoBlocks(PhiloxBlocks const& blocks, Keys const& keys, std::size_t i)
+      : even(blocks.after_three_rounds(static_cast<std::uint32_t>(2 * i))),
+        odd(blocks.after_three_rounds(static_cast<std::uint32_t>(2 * i + 1))) {
+    for (int round = 3; round < 10; ++round) {
       Words const key_0 = hn::Set(Wide(), keys.word_0[round]), key_1 = hn::Set(Wide(), keys.word_1[round]);
       even.round(key_0, key_1);
       odd.round(key_0, key_1);
@@ -107,14 +106,15 @@ HWY_INLINE bool make_parameters(Rand1Bin const& population, Rows const& rows, st
   double const* const draws = rows.draws + Rows::draws_at_once * lane;
   double* const trial = trials + rows.target[lane] + j;
   std::int64_t const j_rand = rows.j_rand[lane] - static_cast<std::int64_t>(j);
+  // Highway 1.0.3 builds Iota through memory
+  static constexpr double places[Rows::draws_at_once] = {0.0, 1.0, 2.0, 3.0};
   bool inside = true;
   std::size_t k = 0;
   for (; k + at_once <= count; k += at_once) {
     auto const difference = hn::Sub(hn::LoadU(few, plus + k), hn::LoadU(few, minus + k));
     auto const mutant = hn::Add(hn::LoadU(few, base + k), hn::Mul(hn::Set(few, population.F), difference));
-    auto const place = hn::Iota(few, static_cast<double>(k));
     auto const from_mutant = hn::Or(hn::Lt(hn::LoadU(few, draws + k), hn::Set(few, population.CR)),
-                                    hn::Eq(place, hn::Set(few, static_cast<double>(j_rand))));
+                                    hn::Eq(hn::LoadU(few, places + k), hn::Set(few, static_cast<double>(j_rand))));
     auto const made = hn::IfThenElse(from_mutant, mutant, hn::LoadU(few, target + k));
     hn::StoreU(made, few, trial + k);
     auto const between = hn::And(hn::Ge(made, hn::LoadU(few, population.lower + j + k)),
@@ -145,10 +145,11 @@ void all_trials(Rand1Bin const& population, PhiloxStreams const& streams, Target
     Index const begin = hn::Set(Indices(), static_cast<std::int64_t>(targets.first + done));
     Index const member = hn::Min(hn::Add(begin, lane), last);
     Words const stream = hn::Add(hn::Set(Wide(), streams.first_word_1), hn::BitCast(Wide(), member));
-    Rows rows(Picked(population, member, TwoBlocks(streams, keys, stream, 0)));
+    PhiloxBlocks const blocks(streams, keys, stream);
+    Rows rows(Picked(population, member, TwoBlocks(blocks, keys, 0)));
     std::size_t const members = std::min(lanes, targets.count - done);
     for (std::size_t j = 0; j < population.dimension; j += Rows::draws_at_once) {
-      TwoBlocks const draws(streams, keys, stream, 1 + j / Rows::draws_at_once);
+      TwoBlocks const draws(blocks, keys, 1 + j / Rows::draws_at_once);
       hn::StoreInterleaved4(uniform(draws.even.word_0, draws.even.word_1),
                             uniform(draws.even.word_2, draws.even.word_3), uniform(draws.odd.word_0, draws.odd.word_1),
                             uniform(draws.odd.word_2, draws.odd.word_3), reals, rows.draws);
