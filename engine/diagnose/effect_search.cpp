@@ -151,6 +151,18 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
   return energy_share(stage(), largest);
 }
 
+// Of the whole that is missing, beyond noise. Weighed rows make little of what goes with friction that may wander
+double EffectSearch::share_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
+  MismatchRows const rows = in_torque_itself(stage().comparison.rows);
+  double const whole = mismatch_energy(in_torque_itself(selection_.baseline->comparison.rows)).excess;
+  Eigen::MatrixXd const& model = stage().comparison.common.columns_themselves();
+  Eigen::VectorXd torque = columns.plain_columns(*refined.effect, refined.shape) * refined.parameters;
+  torque -= model * solve_scaled(model, torque);
+  Eigen::VectorXd const mismatch = rows.residual - rows.twin_mean;
+  double const gain = mismatch.squaredNorm() - (mismatch - torque).squaredNorm();
+  return whole > 0.0 ? gain / whole : 0.0;
+}
+
 // the candidates worth a closer look, best first
 std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                                 std::vector<double> const& q) {
@@ -201,7 +213,11 @@ bool EffectSearch::is_taken(Effect const* effect) const {
 std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns, Trial& trial) const {
   auto const* effect = trial.refined.effect;
   double const gain = trial.refined.gain, whole = selection_.whole();
-  if (gain < least_share_of_rest * remaining_ || gain < least_share_of_whole * whole)
+  bool const explains_enough = gain >= least_share_of_rest * remaining_ && gain >= least_share_of_whole * whole;
+  // asked of the torque itself where weighed rows make little of the effect
+  bool const is_large = effect->is_dry_friction() && effect->family() == EffectFamily::time &&
+                        share_in_torque_itself(columns, trial.refined) >= least_share_of_rest;
+  if (!explains_enough && !is_large)
     return fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_);
   if (!effect->is_plausible(trial.refined.shape, columns.scales())) return "its best shape is none that it could have";
   RegionConsistency const region = region_of(columns, trial.refined);
@@ -211,7 +227,7 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
                        100.0 * region.asked_for);
   // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
   if (effect->is_event() && is_faint_) return "happens once, and is too faint to be told from what twins cannot repeat";
-  if (effect->is_event() && gain < least_share_of_rest * whole)
+  if (effect->is_event() && gain < least_share_of_rest * whole && !is_large)
     return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                        100.0 * gain / whole);
   if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";

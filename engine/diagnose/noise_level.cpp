@@ -76,8 +76,9 @@ NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& rec
       variance = std::clamp((wanted - none.mean) / slope, 0.0, most);
     }
   }
-  // of the recording's own statistic and of the twins' mean
-  result.variance_error = spread_there * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
+  // of the recording's own statistic and of the twins' mean; that it is not more than is plausible is no estimate
+  if (variance < most)
+    result.variance_error = spread_there * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
   result.std = std::sqrt(variance);
   return result;
 }

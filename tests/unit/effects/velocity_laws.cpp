@@ -88,7 +88,7 @@ TEST(ModulatedFriction, IsInProportionToTheCoulombLevelOfItsDirection) {
       {"position_dependent_friction", {1.0, 2.0, 3.0, 4.0}},
       {"load_dependent_friction", {0.1, 0.5}},
       {"thermal_friction", {1.0, 0.0, 9.0}},
-      {"friction_drift", {1.0, 0.0, 2.0, 0.5}}};
+      {"friction_drift", {1.0, 0.0, 2.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.5}}};
   for (auto const& [name, parameters] : modulated)
     EXPECT_NEAR(torque(name, forwards, parameters, unequal) / 0.3, -torque(name, backwards, parameters, unequal) / 0.5,
                 1e-14)
@@ -131,9 +131,36 @@ TEST(ThermalFriction, IsColdAtTheStartAndFadesWithItsTime) {
 }
 
 TEST(FrictionDrift, IsARampAndAStep) {
-  std::vector<double> const parameters{0.01, 0.002, 0.1, 30.0};
+  std::vector<double> const parameters{0.01, 0.002, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 30.0};
   EXPECT_NEAR(torque("friction_drift", {.time_s = 29.0, .dq = -2.0}, parameters), -29.0 * (0.01 + 0.004), 1e-15);
   EXPECT_NEAR(torque("friction_drift", {.time_s = 30.0, .dq = -2.0}, parameters), -30.0 * (0.01 + 0.004) - 0.1, 1e-15);
+}
+
+// the wander says nothing about level and ramp: Legendre's polynomials, by their closed forms and by their products
+TEST(FrictionDrift, WandersBesideLevelAndRamp) {
+  JointScales scales;
+  scales.start_s = 3.0;
+  scales.duration_s = 40.0;
+  auto const wander = [&](int degree, double time_s) {
+    std::vector<double> parameters(9, 0.0);
+    parameters[static_cast<std::size_t>(degree) + 1] = 1.0;
+    return torque("friction_drift", {.time_s = time_s, .dq = 2.0}, parameters, scales);
+  };
+  double const x = 0.3, time_s = 3.0 + 40.0 * 0.5 * (1.0 + x);
+  EXPECT_NEAR(wander(2, time_s), (3.0 * x * x - 1.0) / 2.0, 1e-14);
+  EXPECT_NEAR(wander(3, time_s), (5.0 * x * x * x - 3.0 * x) / 2.0, 1e-14);
+  EXPECT_NEAR(wander(6, time_s), (231.0 * std::pow(x, 6) - 315.0 * std::pow(x, 4) + 105.0 * x * x - 5.0) / 16.0, 1e-14);
+  constexpr int parts = 4000;
+  for (int degree = 2; degree <= 6; ++degree) {
+    double level = 0.0, ramp = 0.0;
+    for (int i = 0; i < parts; ++i) {
+      double const share = (i + 0.5) / parts, value = wander(degree, 3.0 + 40.0 * share);
+      level += value / parts;
+      ramp += value * share / parts;
+    }
+    EXPECT_NEAR(level, 0.0, 1e-5) << degree;
+    EXPECT_NEAR(ramp, 0.0, 1e-5) << degree;
+  }
 }
 
 TEST(Contact, ActsInItsWindowOnlyAndHasHalfItsHeightOnAverage) {
