@@ -1,8 +1,7 @@
 # HDF5, matio, libcrypto and zlib as archives where the system has them all: as shared libraries they bring thirty more (HDF5's
 # reader of web addresses: libcurl, Kerberos, GnuTLS), and the program takes 10 ms to start instead of 2. The targets keep
 # their names; where an archive is missing or they do not link, everything stays shared.
-# So do the compiler's own libraries and fmt: looking up libstdc++'s names takes another 0.7 ms of every process.
-option(TORQUESCOPE_STATIC_LIBRARIES "link HDF5, matio, libcrypto, zlib, fmt and the compiler's libraries statically where there are archives of them" ON)
+option(TORQUESCOPE_STATIC_LIBRARIES "link HDF5, matio, libcrypto and zlib statically where there are archives of them" ON)
 
 function(find_archives)
   set(found TRUE)
@@ -62,45 +61,6 @@ function(link_statically)
     IMPORTED_LOCATION ${TORQUESCOPE_ARCHIVE_crypto} INTERFACE_LINK_LIBRARIES "Threads::Threads;${CMAKE_DL_LIBS}")
 endfunction()
 
-# GCC's libraries and fmt: fmt needs libstdc++, so both or none. Not with a sanitizer, which replaces parts of them.
-# TORQUESCOPE_PROGRAM_OPTIONS is what the program itself links with; tests share libstdc++ with gtest
-function(link_runtime_statically)
-  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-    return()
-  endif()
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libgomp.a OUTPUT_VARIABLE openmp OUTPUT_STRIP_TRAILING_WHITESPACE)
-  if(NOT IS_ABSOLUTE "${openmp}")
-    return()
-  endif()
-  set(options -static-libstdc++ -static-libgcc)
-  set(fmt_source ${PROJECT_SOURCE_DIR}/scripts/cmake/fmt_library.cpp)
-  include(CheckCXXSourceCompiles)
-  get_target_property(CMAKE_REQUIRED_INCLUDES fmt::fmt INTERFACE_INCLUDE_DIRECTORIES)
-  set(CMAKE_REQUIRED_FLAGS "-std=c++20 -fopenmp")
-  set(CMAKE_REQUIRED_LINK_OPTIONS ${options})
-  set(CMAKE_REQUIRED_LIBRARIES ${openmp} Threads::Threads ${CMAKE_DL_LIBS})
-  check_cxx_source_compiles("
-    #include \"${fmt_source}\"
-    #include <fmt/format.h>
-    #include <omp.h>
-    int main() { return static_cast<int>(fmt::format(\"{:.3g} {}\", 0.5, omp_get_max_threads()).size()); }"
-    TORQUESCOPE_RUNTIME_LINKS)
-  if(NOT TORQUESCOPE_RUNTIME_LINKS)
-    return()
-  endif()
-  add_library(torquescope_fmt STATIC ${fmt_source})
-  target_compile_features(torquescope_fmt PRIVATE cxx_std_20)
-  target_include_directories(torquescope_fmt SYSTEM PRIVATE ${CMAKE_REQUIRED_INCLUDES})
-  set_target_properties(torquescope_fmt PROPERTIES
-    POSITION_INDEPENDENT_CODE ON ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fmt)
-  add_dependencies(fmt::fmt torquescope_fmt)
-  set_target_properties(fmt::fmt PROPERTIES
-    IMPORTED_CONFIGURATIONS "" IMPORTED_LOCATION ${CMAKE_BINARY_DIR}/fmt/libtorquescope_fmt.a)
-  set_target_properties(OpenMP::OpenMP_CXX PROPERTIES INTERFACE_LINK_LIBRARIES "${openmp};Threads::Threads")
-  set(TORQUESCOPE_PROGRAM_OPTIONS ${options} PARENT_SCOPE)
-endfunction()
-
 if(TORQUESCOPE_STATIC_LIBRARIES)
-  link_runtime_statically()
   link_statically()
 endif()
