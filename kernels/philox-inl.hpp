@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "kernels/philox.hpp"
 
 #if defined(TORQUESCOPE_KERNELS_PHILOX_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TORQUESCOPE_KERNELS_PHILOX_INL
@@ -59,6 +60,38 @@ struct PhiloxLanes {
     word_1 = product_1;
     word_3 = product_0;
   }
+};
+
+// Blocks of streams that differ in their second word alone: the other three are one number for all lanes, so the first two rounds
+// and half of the third are scalar ones, but for one product that all blocks of a stream share.
+class PhiloxBlocks {
+ public:
+  HWY_INLINE PhiloxBlocks(PhiloxStreams const& streams, Keys const& keys, Words stream)
+      : keys_(keys),
+        word_3_(streams.word_3),
+        first_(std::uint64_t{multiplier_1} * streams.word_2),
+        shared_(product(hn::Set(Wide(), std::uint64_t{multiplier_0}),
+                        hn::Xor(stream, hn::Set(Wide(), (first_ >> 32) ^ keys.word_0[0])))) {}
+
+  // after three rounds; the first word of the counter is `block`
+  HWY_INLINE PhiloxLanes after_three_rounds(std::uint32_t block) const {
+    constexpr Wide wide;
+    std::uint64_t const first_0 = std::uint64_t{multiplier_0} * block;
+    std::uint64_t const second_1 = multiplier_1 * low((first_0 >> 32) ^ word_3_ ^ keys_.word_1[0]);
+    std::uint64_t const third_0 = multiplier_0 * low((second_1 >> 32) ^ first_ ^ keys_.word_0[1]);
+    Words const word_2 = hn::Xor(hn::ShiftRight<32>(shared_), hn::Set(wide, low(first_0) ^ keys_.word_1[1]));
+    Words const third_1 = product(hn::Set(wide, std::uint64_t{multiplier_1}), word_2);
+    return {hn::Xor(hn::ShiftRight<32>(third_1), hn::Set(wide, low(second_1) ^ keys_.word_0[2])), third_1,
+            hn::Xor(shared_, hn::Set(wide, (third_0 >> 32) ^ keys_.word_1[2])), hn::Set(wide, third_0)};
+  }
+
+ private:
+  static constexpr std::uint64_t low(std::uint64_t number) { return number & 0xFFFFFFFFu; }
+  static constexpr std::uint32_t multiplier_0 = 0xD2511F53u, multiplier_1 = 0xCD9E8D57u;
+
+  Keys const& keys_;
+  std::uint64_t word_3_, first_;
+  Words shared_;
 };
 
 HWY_INLINE Words low_half(Words words) { return hn::And(words, hn::Set(Wide(), 0xFFFFFFFFu)); }

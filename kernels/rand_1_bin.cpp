@@ -41,11 +41,10 @@ HWY_INLINE Index moved_past(Index index, Index taken) {
 struct TwoBlocks {
   PhiloxLanes even, odd;
 
-  HWY_INLINE TwoBlocks(PhiloxStreams const& streams, Keys const& keys, Words stream, std::size_t i)
-      : even{hn::Set(Wide(), 2 * i), stream, hn::Set(Wide(), streams.word_2), hn::Set(Wide(), streams.word_3)},
-        odd(even) {
-    odd.word_0 = hn::Set(Wide(), 2 * i + 1);
-    for (int round = 0; round < 10; ++round) {
+  HWY_INLINE TwoBlocks(PhiloxBlocks const& blocks, Keys const& keys, std::size_t i)
+      : even(blocks.after_three_rounds(static_cast<std::uint32_t>(2 * i))),
+        odd(blocks.after_three_rounds(static_cast<std::uint32_t>(2 * i + 1))) {
+    for (int round = 3; round < 10; ++round) {
       Words const key_0 = hn::Set(Wide(), keys.word_0[round]), key_1 = hn::Set(Wide(), keys.word_1[round]);
       even.round(key_0, key_1);
       odd.round(key_0, key_1);
@@ -77,21 +76,57 @@ struct Picked {
   }
 };
 
-// writes parameter j of each lane's trial; returns where it is inside
-HWY_INLINE hn::Mask<Reals> make_parameter(Rand1Bin const& population, Picked const& picked, std::size_t j, Real b,
-                                          double* trials) {
-  constexpr Reals reals;
-  double const* const column = population.members + j;
-  Real const difference =
-      hn::Sub(hn::GatherIndex(reals, column, picked.plus), hn::GatherIndex(reals, column, picked.minus));
-  Real const mutant =
-      hn::Add(hn::GatherIndex(reals, column, picked.base), hn::Mul(hn::Set(reals, population.F), difference));
-  auto const is_j_rand = hn::RebindMask(reals, hn::Eq(picked.j_rand, hn::Set(Indices(), static_cast<std::int64_t>(j))));
-  auto const from_mutant = hn::Or(hn::Lt(b, hn::Set(reals, population.CR)), is_j_rand);
-  Real const trial = hn::IfThenElse(from_mutant, mutant, hn::GatherIndex(reals, column, picked.target));
-  hn::ScatterIndex(trial, reals, trials + j, picked.target);
-  return hn::And(hn::Ge(trial, hn::Set(reals, population.lower[j])),
-                 hn::Le(trial, hn::Set(reals, population.upper[j])));
+// what each lane picked, and a draw per parameter, in the memory of one member after the other
+struct Rows {
+  static constexpr std::size_t lanes = hn::MaxLanes(Reals()), draws_at_once = 4;
+  std::int64_t target[lanes], base[lanes], plus[lanes], minus[lanes], j_rand[lanes];
+  double draws[draws_at_once * lanes];
+
+  explicit HWY_INLINE Rows(Picked const& picked) {
+    constexpr Indices indices;
+    hn::StoreU(picked.target, indices, target);
+    hn::StoreU(picked.base, indices, base);
+    hn::StoreU(picked.plus, indices, plus);
+    hn::StoreU(picked.minus, indices, minus);
+    hn::StoreU(picked.j_rand, indices, j_rand);
+  }
+};
+
+// Writes parameters j .. j + count - 1 of a lane's trial; returns whether all are inside. A member's parameters lie side by
+// side: gathering one of each member costs several times as much
+HWY_INLINE bool make_parameters(Rand1Bin const& population, Rows const& rows, std::size_t lane, std::size_t j,
+                                std::size_t count, double* trials) {
+  using Few = hn::CappedTag<double, Rows::draws_at_once>;
+  constexpr Few few;
+  constexpr std::size_t at_once = hn::MaxLanes(few);
+  double const* const base = population.members + rows.base[lane] + j;
+  double const* const plus = population.members + rows.plus[lane] + j;
+  double const* const minus = population.members + rows.minus[lane] + j;
+  double const* const target = population.members + rows.target[lane] + j;
+  double const* const draws = rows.draws + Rows::draws_at_once * lane;
+  double* const trial = trials + rows.target[lane] + j;
+  std::int64_t const j_rand = rows.j_rand[lane] - static_cast<std::int64_t>(j);
+  // Highway 1.0.3 builds Iota through memory
+  static constexpr double places[Rows::draws_at_once] = {0.0, 1.0, 2.0, 3.0};
+  bool inside = true;
+  std::size_t k = 0;
+  for (; k + at_once <= count; k += at_once) {
+    auto const difference = hn::Sub(hn::LoadU(few, plus + k), hn::LoadU(few, minus + k));
+    auto const mutant = hn::Add(hn::LoadU(few, base + k), hn::Mul(hn::Set(few, population.F), difference));
+    auto const from_mutant = hn::Or(hn::Lt(hn::LoadU(few, draws + k), hn::Set(few, population.CR)),
+                                    hn::Eq(hn::LoadU(few, places + k), hn::Set(few, static_cast<double>(j_rand))));
+    auto const made = hn::IfThenElse(from_mutant, mutant, hn::LoadU(few, target + k));
+    hn::StoreU(made, few, trial + k);
+    auto const between = hn::And(hn::Ge(made, hn::LoadU(few, population.lower + j + k)),
+                                 hn::Le(made, hn::LoadU(few, population.upper + j + k)));
+    inside = inside && hn::AllTrue(few, between);
+  }
+  for (; k < count; ++k) {
+    bool const from_mutant = draws[k] < population.CR || j_rand == static_cast<std::int64_t>(k);
+    trial[k] = from_mutant ? base[k] + population.F * (plus[k] - minus[k]) : target[k];
+    inside = inside && trial[k] >= population.lower[j + k] && trial[k] <= population.upper[j + k];
+  }
+  return inside;
 }
 
 }  // namespace
@@ -99,32 +134,29 @@ HWY_INLINE hn::Mask<Reals> make_parameter(Rand1Bin const& population, Picked con
 void all_trials(Rand1Bin const& population, PhiloxStreams const& streams, Targets targets, double* trials,
                 std::uint8_t* outside) {
   constexpr Reals reals;
-  constexpr std::size_t lanes = hn::MaxLanes(reals);
+  constexpr std::size_t lanes = Rows::lanes;
   Keys const keys(streams.key[0], streams.key[1]);
   // made once: Highway 1.0.3 builds it through memory
   Index const lane = hn::Iota(Indices(), 0);
   Index const last = hn::Set(Indices(), static_cast<std::int64_t>(targets.first + targets.count - 1));
+  std::fill_n(outside, targets.count, std::uint8_t{0});
   for (std::size_t done = 0; done < targets.count; done += lanes) {
-    // lanes without a member repeat the last one, and write the same numbers to the same place
+    // lanes without a member repeat the last one; nobody looks at them
     Index const begin = hn::Set(Indices(), static_cast<std::int64_t>(targets.first + done));
     Index const member = hn::Min(hn::Add(begin, lane), last);
     Words const stream = hn::Add(hn::Set(Wide(), streams.first_word_1), hn::BitCast(Wide(), member));
-    Picked const picked(population, member, TwoBlocks(streams, keys, stream, 0));
-    auto inside = hn::FirstN(reals, lanes);
-    for (std::size_t j = 0; j < population.dimension; j += 4) {
-      TwoBlocks const draws(streams, keys, stream, 1 + j / 4);
-      Real const b[4] = {uniform(draws.even.word_0, draws.even.word_1), uniform(draws.even.word_2, draws.even.word_3),
-                         uniform(draws.odd.word_0, draws.odd.word_1), uniform(draws.odd.word_2, draws.odd.word_3)};
-      std::size_t const count = std::min(std::size_t{4}, population.dimension - j);
-      for (std::size_t k = 0; k < count; ++k)
-        inside = hn::And(inside, make_parameter(population, picked, j + k, b[k], trials));
+    PhiloxBlocks const blocks(streams, keys, stream);
+    Rows rows(Picked(population, member, TwoBlocks(blocks, keys, 0)));
+    std::size_t const members = std::min(lanes, targets.count - done);
+    for (std::size_t j = 0; j < population.dimension; j += Rows::draws_at_once) {
+      TwoBlocks const draws(blocks, keys, 1 + j / Rows::draws_at_once);
+      hn::StoreInterleaved4(uniform(draws.even.word_0, draws.even.word_1),
+                            uniform(draws.even.word_2, draws.even.word_3), uniform(draws.odd.word_0, draws.odd.word_1),
+                            uniform(draws.odd.word_2, draws.odd.word_3), reals, rows.draws);
+      std::size_t const count = std::min(Rows::draws_at_once, population.dimension - j);
+      for (std::size_t i = 0; i < members; ++i)
+        if (!make_parameters(population, rows, i, j, count, trials)) outside[done + i] = 1;
     }
-    std::size_t const count = std::min(lanes, targets.count - done);
-    std::fill_n(outside + done, count, std::uint8_t{0});
-    if (hn::AllTrue(reals, inside)) continue;
-    double is_inside[lanes];
-    hn::StoreU(hn::IfThenElseZero(inside, hn::Set(reals, 1.0)), reals, is_inside);
-    for (std::size_t i = 0; i < count; ++i) outside[done + i] = is_inside[i] == 0.0 ? 1 : 0;
   }
 }
 

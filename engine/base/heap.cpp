@@ -13,7 +13,7 @@ namespace torquescope {
 
 void prepare_heap() {
 #ifdef __GLIBC__
-  constexpr std::size_t growth = std::size_t{6} << 20;
+  constexpr std::size_t growth = std::size_t{12} << 20;
   ::mallopt(M_TRIM_THRESHOLD, 8 << 20);
   // out of the heap, to which it then belongs
   ::mallopt(M_MMAP_THRESHOLD, 2 * growth);
@@ -32,6 +32,13 @@ void prepare_heap() {
   }
 #endif
   std::free(grown);
+#endif
+}
+
+void give_back_holes() {
+#ifdef __GLIBC__
+  constexpr std::size_t long_columns = std::size_t{16} << 20;
+  if (::mallinfo2().hblkhd >= long_columns) ::malloc_trim(0);
 #endif
 }
 

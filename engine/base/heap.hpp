@@ -6,10 +6,14 @@
 // Not for    a diagnosis, which asks for matrices of megabytes thousands of times and would wait for the system each time
 // Measured   pages of 2 MB, and what lies before the first of them at once: 1.4 of 20 ms (n = 1e4). A page of 4 KB costs its
 //            first write as much as two thousand numbers. A part of the heap that is never used is never there, but of what
-//            is freed so much stays: 32 MB saved another 2.5 ms of 41 at 1e5 samples, and took 25 MB more at 1e6
+//            is freed so much stays. 12 MB instead of 6: 1.3 ms of 20 (1e4) and 3.8 of 42 (1e5); with what long columns leave
+//            given back 2 MB more at 1e6, else 4
 
 namespace torquescope {
 
 void prepare_heap();
+
+// where columns are so long that they have memory of their own: what they left in the heap goes back, too
+void give_back_holes();
 
 }  // namespace torquescope

@@ -45,7 +45,7 @@ Motion differentiate(Recording&& recording, FilterOptions const& options, Sectio
   check_cutoff("cutoff_hz", options.cutoff_hz, recording.rate_hz, section);
   check_length(options, recording.position.size(), recording.rate_hz);
   for (Eigen::VectorXd* channel : {&recording.position, &recording.velocity, &recording.acceleration})
-    if (channel->size() > 0) *channel = smooth_positions(*channel, options, recording.rate_hz);
+    if (channel->size() > 0 && options.cutoff_hz > 0) *channel = smooth_positions(*channel, options, recording.rate_hz);
   return differentiate_smooth(std::move(recording));
 }
 

@@ -51,7 +51,7 @@ void GenerationalSearch::tell(MatrixView<double const> asked, std::span<double c
 
 void GenerationalSearch::keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness) {
   // members that a truncated batch left out keep their place, with the worst fitness
-  fill_initial_population(key_, bounds_, population_.members());
+  if (asked.rows() < batch_size()) fill_initial_population(key_, bounds_, population_.members());
   std::copy_n(asked.data(), asked.rows() * asked.columns(), population_.numbers.begin());
   std::transform(fitness.begin(), fitness.end(), population_.fitness.begin(), ranked_fitness);
   forget_generation_before();

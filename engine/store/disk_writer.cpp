@@ -58,8 +58,12 @@ void DiskWriter::write(FilePiece& piece) {
 
 void DiskWriter::put(FilePiece piece) {
   if (error() != 0) return;
-  if (!thread_.joinable()) start();
-  if (!thread_.joinable()) return write(piece);
+  if (!thread_.joinable() && most_waiting_ > 0) start();
+  if (!thread_.joinable()) {
+    write(piece);
+    written_.push_back(std::move(piece.bytes));
+    return;
+  }
   {
     std::unique_lock lock(guard_);
     changed_.wait(lock, [this] { return waiting_.size() < most_waiting_; });

@@ -55,6 +55,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);
   Experiment experiment = Experiment::load(arguments.job);
+  give_back_holes();
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 

@@ -74,6 +74,28 @@ TEST(DiskWriter, WritesInTheOrderOfPuttingAndOneAtATime) {
   EXPECT_EQ(writer.error(), 0);
 }
 
+TEST(DiskWriter, WritesAtOnceWhereNothingShallWait) {
+  std::vector<std::uint64_t> seen;
+  DiskWriter writer(
+      [&, caller = std::this_thread::get_id()](FilePiece const& written) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        seen.push_back(written.offset);
+        return written.offset == 4 ? EIO : 0;
+      },
+      0);
+  FilePiece first = piece(writer, 1);
+  std::byte const* const memory = first.bytes.data();
+  writer.put(std::move(first));
+  EXPECT_EQ(seen, std::vector<std::uint64_t>{1});
+  FilePiece second = piece(writer, 4);
+  EXPECT_EQ(second.bytes.data(), memory);  // used again
+  writer.put(std::move(second));
+  EXPECT_EQ(writer.error(), EIO);
+  writer.put(piece(writer, 5));
+  writer.wait();
+  EXPECT_EQ(seen, (std::vector<std::uint64_t>{1, 4}));
+}
+
 TEST(DiskWriter, LetsTheCallerGoOnUntilTheRoomIsUsedUp) {
   StuckDisk disk;
   DiskWriter writer([&](FilePiece const& written) { return disk(written); }, 3);
