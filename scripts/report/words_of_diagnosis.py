@@ -141,7 +141,7 @@ def _floor_words(error, floor):
     if not math.isfinite(floor):
         return ""
     if diagnosed.is_below_floor(error, floor):
-        return f", below the floor (about {q.percent(floor)}: what clean twins leave on average, with the noise of the training recording)"
+        return f", at the floor (about {q.percent(floor)}: what clean twins leave on average)"
     return f", at the floor (about {q.percent(floor)})" if diagnosed.is_at_floor(error, floor) else f", floor {q.percent(floor)}"
 
 

@@ -132,7 +132,7 @@ class Verdict(unittest.TestCase):
         self.assertIn("4.9 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor))
         below = dataclasses.replace(at_floor, augmented_validation_relerr=0.041)
         self.assertIn(("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"), words_of_diagnosis.big_numbers(below))
-        self.assertIn("4.1 % after, below the floor (about 4.9 %: what clean twins leave on average", words_of_diagnosis.fit_answer(
+        self.assertIn("4.1 % after, at the floor (about 4.9 %: what clean twins leave on average)", words_of_diagnosis.fit_answer(
             support.study("named"), below))
         self.assertEqual(diagnosed.share_closed(at_floor), 1.0)
         self.assertTrue(math.isnan(diagnosed.share_closed(dataclasses.replace(at_floor, validation_relerr=0.048))))
