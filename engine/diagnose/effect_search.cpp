@@ -232,8 +232,10 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
                        100.0 * gain / whole);
   if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
   for (auto const& one : selection_.accepted)
-    if (is_form_of(*one.effect, one.gain * selection_.energy_unit, trial.refined, stage(), columns))
-      return "lies within what another form of " + one.effect->name() + " would explain";
+    for (auto const& shaped : stage().model().effects())
+      if (shaped.effect == one.effect &&
+          is_form_of(shaped, one.gain * selection_.energy_unit, trial.refined, stage(), columns))
+        return "lies within what another form of " + one.effect->name() + " would explain";
   return std::nullopt;
 }
 

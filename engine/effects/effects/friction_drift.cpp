@@ -20,7 +20,8 @@ namespace {
 constexpr int first_wander = 3, lowest_degree = 2, highest_degree = 6;  // column of the lowest degree
 
 EffectParameter wander(int degree) {
-  return {fmt::format("friction_wander_{}", degree), "N m", "N", {-1.0, RelativeTo::coulomb}, {1.0, RelativeTo::coulomb}};
+  return {
+      fmt::format("friction_wander_{}", degree), "N m", "N", {-1.0, RelativeTo::coulomb}, {1.0, RelativeTo::coulomb}};
 }
 
 class FrictionDrift final : public InstantEffect {
@@ -29,7 +30,8 @@ class FrictionDrift final : public InstantEffect {
       : InstantEffect(
             {.name = "friction_drift",
              .title = "friction that wanders or steps in time",
-             .equation = "(t - start) (s d_c + d_v dq) + s d_s [t >= t_c] + s sum w_k P_k(x), k = 2 to 6, x = -1 to 1 over the time",
+             .equation = "(t - start) (s d_c + d_v dq) + s d_s [t >= t_c] + s sum w_k P_k(x), k = 2 to 6, x = -1 to 1 "
+                         "over the time",
              .source = "Bittencourt, Axelsson 2014",
              .separated_by = "the same motion again after a rest",
              .parameters = {{"friction_drift_coulomb",

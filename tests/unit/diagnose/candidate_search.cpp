@@ -94,12 +94,30 @@ TEST_F(CandidateSearch, TellsWhatAnotherFormOfANamedLawWouldExplain) {
   auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
   auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search("de", 1), 2);
   auto const is_form_of_named = [&](char const* named, double times) {
-    return is_form_of(*find_effect(named), times * refined.gain, refined, stage, columns);
+    return is_form_of({find_effect(named), {24.0}}, times * refined.gain, refined, stage, columns);
   };
   EXPECT_TRUE(is_form_of_named("power_law_viscous", 20.0));
   EXPECT_FALSE(is_form_of_named("power_law_viscous", 5.0)) << "too much for a form";
   EXPECT_FALSE(is_form_of_named("gravity", 20.0)) << "another axis";
-  EXPECT_FALSE(is_form_of_named("cogging", 20.0)) << "a wave has no form";
+  EXPECT_FALSE(is_form_of_named("cogging", 20.0)) << "a wave has no form beside its orders";
+}
+
+// whatever the order's law is, the part of the machine is the same
+TEST_F(CandidateSearch, TellsAWaveOfTheSameOrderAsAnotherFormOfTheNamedOne) {
+  RefinedEffect ripple;
+  ripple.effect = find_effect("torque_ripple");
+  ripple.gain = 1.0;
+  double const wave = bound_value({1.0, RelativeTo::lowest_order}, columns.scales());
+  auto const is_form_of_cogging = [&](double order, double named_gain) {
+    ripple.shape = {order};
+    return is_form_of({find_effect("cogging"), {24.0 * wave}}, named_gain, ripple, stage, columns);
+  };
+  EXPECT_TRUE(is_form_of_cogging(24.4 * wave, 5.0));
+  EXPECT_TRUE(is_form_of_cogging(48.2 * wave, 5.0)) << "its second wave";
+  EXPECT_FALSE(is_form_of_cogging(24.4 * wave, 3.0)) << "too much for a form";
+  EXPECT_FALSE(is_form_of_cogging(25.5 * wave, 5.0)) << "an order of its own";
+  EXPECT_FALSE(is_form_of({find_effect("torque_ripple"), {24.0 * wave}}, 5.0, ripple, stage, columns))
+      << "of the same kind: waves of one effect stand each for itself";
 }
 
 }  // namespace

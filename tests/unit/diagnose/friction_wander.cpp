@@ -143,8 +143,9 @@ TEST_F(FrictionWanders, AndIsNeitherADriftNorUnexplained) {
 // a walk is no ramp and no step, and weighed rows spread it over all its frequencies; yet more than any joint does by itself
 TEST_F(FrictionWanders, AndIsADriftWhereItIsThreeTimesWhatIsPlausible) {
   for (std::size_t lane : {0U, 1U}) {
-    Selection const selection = selected_from(wandering_recording(3.0 * most_wander_in_a_minute / std::sqrt(60.0), lane),
-                                              {find_effect("friction_drift"), find_effect("stribeck")}, 200);
+    Selection const selection =
+        selected_from(wandering_recording(3.0 * most_wander_in_a_minute / std::sqrt(60.0), lane),
+                      {find_effect("friction_drift"), find_effect("stribeck")}, 200);
     ASSERT_EQ(selection.accepted.size(), 1U) << lane;
     EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
   }

@@ -122,25 +122,28 @@ TEST(TransmissionError, IsTheFirstOrderOfALoadThatTurnsUnevenly) {
 TEST(EncoderEccentricity, IsTheFirstOrderOfAModelThatBelievesTheReading) {
   auto const joint = known_scales();
   auto const* effect = find_effect("encoder_eccentricity");
-  auto const exact = [&](JointState const& state, double size) {
-    auto const read = waved(state, 0.6 * size, size, 1.0);
-    return smooth_torque(joint, state.q, state.dq, state.ddq) - smooth_torque(joint, read.q, read.dq, read.ddq);
-  };
-  auto const image = [&](JointState const& state, double size) {
-    // what an identification sees: the motion as read
-    auto const read = waved(state, 0.6 * size, size, 1.0);
-    Motion const motion = test::motion_of([&](double) { return read; }, 1, 1.0);
-    Eigen::MatrixXd phi(1, 2);
-    effect->columns({motion, joint}, {}, phi);
-    return (phi * Eigen::Vector2d(size, 0.6 * size))(0);
-  };
-  expect_first_order(exact, image);
+  for (int const wave : {1, 2}) {
+    auto const exact = [&](JointState const& state, double size) {
+      auto const read = waved(state, 0.6 * size, size, wave);
+      return smooth_torque(joint, state.q, state.dq, state.ddq) - smooth_torque(joint, read.q, read.dq, read.ddq);
+    };
+    auto const image = [&](JointState const& state, double size) {
+      // what an identification sees: the motion as read
+      auto const read = waved(state, 0.6 * size, size, wave);
+      Motion const motion = test::motion_of([&](double) { return read; }, 1, 1.0);
+      Eigen::MatrixXd phi(1, 4);
+      effect->columns({motion, joint}, {}, phi);
+      return (phi.middleCols(2 * (wave - 1), 2) * Eigen::Vector2d(size, 0.6 * size))(0);
+    };
+    expect_first_order(exact, image);
+  }
 }
 
 TEST(EncoderEccentricity, AddsToThePositionInSimulation) {
-  auto const runner = find_effect("encoder_eccentricity")->runner(std::vector<double>{2e-3, 1e-3}, plain);
+  auto const runner = find_effect("encoder_eccentricity")->runner(std::vector<double>{2e-3, 1e-3, 4e-4, 3e-4}, plain);
   EXPECT_EQ(find_effect("encoder_eccentricity")->acts_on(), ActsOn::recorded_position);
-  EXPECT_NEAR(runner->torque({.q = 0.7}, 1e-3), 2e-3 * std::sin(0.7) + 1e-3 * std::cos(0.7), 1e-18);
+  EXPECT_NEAR(runner->torque({.q = 0.7}, 1e-3),
+              2e-3 * std::sin(0.7) + 1e-3 * std::cos(0.7) + 4e-4 * std::sin(1.4) + 3e-4 * std::cos(1.4), 1e-18);
 }
 
 }  // namespace

@@ -57,7 +57,9 @@ constexpr double drift = 0.07, jump = -0.4, jump_s = 0.85;
 LaneEffectMaker sensor_drift() { return lane_effect(*find_effect("sensor_drift"), {drift, jump, jump_s}, {}); }
 
 constexpr double sine = 0.004, cosine = -0.003;
-LaneEffectMaker eccentricity() { return lane_effect(*find_effect("encoder_eccentricity"), {sine, cosine}, {}); }
+LaneEffectMaker eccentricity() {
+  return lane_effect(*find_effect("encoder_eccentricity"), {sine, cosine, 0.0, 0.0}, {});
+}
 
 Eigen::VectorXd reading_error(Eigen::VectorXd const& q) {
   return (sine * q.array().sin() + cosine * q.array().cos()).matrix();
