@@ -64,11 +64,11 @@ ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& c
   Eigen::VectorXd const kept = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
   auto const from = static_cast<Eigen::Index>(std::lround(kept[0]));
   Eigen::Index const end = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1;
-  std::vector<bool> const rests = resting_samples(motion.dq, pipeline.rate_hz(), pipeline.cutoff_hz());
+  std::vector<bool> const at_rest = resting_samples(motion.dq, pipeline.rate_hz(), pipeline.cutoff_hz());
   bool const opposes_motion = effect->parity() == Parity::odd;
   std::vector<Eigen::Index> samples;
   for (Eigen::Index k = from; k < end; ++k)
-    if (!opposes_motion || !rests[static_cast<std::size_t>(k)]) samples.push_back(k);
+    if (!opposes_motion || !at_rest[static_cast<std::size_t>(k)]) samples.push_back(k);
   return acting_region(at(samples), torque(samples).array().square().matrix());
 }
 

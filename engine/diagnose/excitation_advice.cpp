@@ -9,7 +9,7 @@ namespace torquescope {
 
 namespace {
 
-constexpr std::size_t enough = 2;  // motions: nobody records twenty
+constexpr std::size_t enough_motions = 2;  // nobody records twenty
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::vector<ExcitationAdvice> advice_for(std::vector<NamedEffect> const& effects
     one.would_separate.insert(one.would_separate.end(), effect.equivalent.begin(), effect.equivalent.end());
     std::size_t said = 0;
     for (auto const& name : one.would_separate) {
-      if (said == enough) break;
+      if (said == enough_motions) break;
       Effect const* known = find_effect(name);
       if (!known || known->separated_by().empty()) continue;
       bool const is_said = one.lacks.find(known->separated_by()) != std::string::npos;
@@ -48,7 +48,7 @@ std::vector<ExcitationAdvice> advice_to_confirm(std::vector<std::string> const& 
   std::vector<ExcitationAdvice> advice;
   for (auto const& name : names) {
     Effect const* known = find_effect(name);
-    if (known && !known->separated_by().empty() && advice.size() < enough)
+    if (known && !known->separated_by().empty() && advice.size() < enough_motions)
       advice.push_back({known->separated_by(), {name}});
   }
   return advice;
