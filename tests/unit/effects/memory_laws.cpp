@@ -156,7 +156,7 @@ TEST(BreakawayDwell, GrowsWithTheRestAndIsRenewedBySliding) {
 
 TEST(FrictionLag, SplitsTheCurveIntoTwoBranches) {
   double const lag_s = 0.02, speed = 0.1;
-  auto const runner = find_effect("friction_lag")->runner(std::vector<double>{1.0, lag_s, speed}, plain);
+  auto const runner = find_effect("friction_lag")->runner(std::vector<double>{1.0, lag_s, speed, 1.0}, plain);
   auto const curve = [&](double v) { return 1.0 / (1.0 + v * v / (speed * speed)); };
   auto const velocity = [](double t) { return 0.3 + 0.25 * std::sin(3.0 * t); };
   for (int i = 0; i < 4000; ++i) {
@@ -166,6 +166,29 @@ TEST(FrictionLag, SplitsTheCurveIntoTwoBranches) {
     ASSERT_NEAR(torque, curve(velocity(t - lag_s)) - curve(velocity(t)), 1e-9);  // the lag is whole samples
     bool const speeds_up = velocity(t) > velocity(t - lag_s);
     ASSERT_EQ(torque > 0.0, speeds_up) << t;
+  }
+}
+
+// a film that relaxes: against its differential equation in tiny steps, through a reversal, with and without dead time
+TEST(FrictionLag, FollowsTheSpeedAsAStateThatRelaxes) {
+  constexpr double lag_s = 0.03, speed = 0.1, step_s = 1e-3;
+  constexpr int finer = 1000;
+  auto const velocity = [](double t) { return t < 0.0 ? 0.3 : 0.3 * std::cos(6.0 * t); };
+  auto const curve = [&](double v) { return 1.0 / (1.0 + v * v / (speed * speed)); };
+  for (double const dead_share : {0.0, 1.0 / 3.0}) {
+    auto const runner = find_effect("friction_lag")->runner(std::vector<double>{1.0, lag_s, speed, dead_share}, plain);
+    double film_speed = 0.3;
+    runner->torque({.time_s = 0.0, .dq = velocity(0.0)}, 0.0);
+    for (int i = 1; i < 2000; ++i) {
+      for (int k = 0; k < finer; ++k) {
+        double const t = step_s * (i - 1 + (k + 0.5) / finer);
+        film_speed +=
+            step_s / finer * (std::abs(velocity(t - dead_share * lag_s)) - film_speed) / ((1.0 - dead_share) * lag_s);
+      }
+      double const t = step_s * i, v = velocity(t);
+      double const expected = std::copysign(1.0, v) * (curve(film_speed) - curve(v));
+      ASSERT_NEAR(runner->torque({.time_s = t, .dq = v}, step_s), expected, 2e-3) << t;
+    }
   }
 }
 
