@@ -1,6 +1,7 @@
 #include "engine/diagnose/octave_energies.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "engine/diagnose/disturbance_level.hpp"
 #include "engine/diagnose/hat_functions.hpp"
@@ -25,14 +26,29 @@ Eigen::MatrixXd smooth_of_motion(Motion const& motion, RecordPipeline const& pip
   return side_by_side(parts);
 }
 
-// squares of second differences, where no row between them is missing
-std::vector<double> bends(Eigen::VectorXd const& values, std::vector<Eigen::Index> const& rows, std::size_t lag) {
+// means over 2 half + 1 rows about each, weighed by Hann's window; those at the ends stay as they are
+Eigen::VectorXd smoothed(Eigen::VectorXd const& values, std::size_t half) {
+  if (half == 0) return values;
+  auto const reach = static_cast<Eigen::Index>(half), n = values.size();
+  Eigen::ArrayXd const places = Eigen::ArrayXd::LinSpaced(2 * reach + 1, -1.0, 1.0);
+  Eigen::VectorXd window =
+      1.0 + (std::numbers::pi * static_cast<double>(reach) / static_cast<double>(reach + 1) * places).cos();
+  window /= window.sum();
+  Eigen::VectorXd means = values;
+  for (Eigen::Index i = reach; i + reach < n; ++i) means[i] = window.dot(values.segment(i - reach, 2 * reach + 1));
+  return means;
+}
+
+// squares of second differences of such means, where no row they use is missing
+std::vector<double> bends(Eigen::VectorXd const& values, std::vector<Eigen::Index> const& rows, Octave const& octave) {
+  std::size_t const lag = octave.lag, reach = lag + octave.half;
+  Eigen::VectorXd const means = smoothed(values, octave.half);
   std::vector<double> squares;
-  for (std::size_t i = lag; i + lag < rows.size(); ++i) {
-    if (rows[i + lag] - rows[i - lag] != static_cast<Eigen::Index>(2 * lag)) continue;
+  for (std::size_t i = reach; i + reach < rows.size(); ++i) {
+    if (rows[i + reach] - rows[i - reach] != static_cast<Eigen::Index>(2 * reach)) continue;
     auto const at = static_cast<Eigen::Index>(i);
     auto const step = static_cast<Eigen::Index>(lag);
-    double const bend = values[at - step] - 2.0 * values[at] + values[at + step];
+    double const bend = means[at - step] - 2.0 * means[at] + means[at + step];
     squares.push_back(bend * bend);
   }
   return squares;
@@ -55,15 +71,20 @@ double median_of_blocks(std::vector<double> const& squares, std::size_t block) {
 
 OctaveEnergies::OctaveEnergies(ProcessedRecord const& recording, RecordPipeline const& pipeline)
     : smooth_(smooth_of_motion(recording.motion, pipeline)), rate_hz_(pipeline.kept_rate_hz()) {
-  constexpr std::size_t most_octaves = 5, fewest_blocks = 8;
+  constexpr std::size_t most_octaves = 8, fewest_blocks = 8;
   Eigen::VectorXd const residual = recording.residual_itself();
-  for (std::size_t lag = fast_lag(pipeline); lags_.size() < most_octaves; lag *= 2) {
-    if (bends(residual, recording.kept_rows, lag).size() < fewest_blocks * steps_per_block * lag) break;
-    lags_.push_back(lag);
+  auto const is_long_enough = [&](Octave const& octave) {
+    return bends(residual, recording.kept_rows, octave).size() >= fewest_blocks * steps_per_block * octave.lag;
+  };
+  for (std::size_t lag = fast_lag(pipeline); octaves_.size() < most_octaves; lag *= 2) {
+    // a motion of short strokes has no room for means: better an octave that hears all above it than none
+    Octave const of_means{lag, lag / 2}, of_rows{lag, 0};
+    if (!is_long_enough(of_rows)) break;
+    octaves_.push_back(is_long_enough(of_means) ? of_means : of_rows);
   }
 }
 
-double OctaveEnergies::lowest_hz() const { return rate_hz_ / (2.0 * static_cast<double>(lags_.back())); }
+double OctaveEnergies::lowest_hz() const { return rate_hz_ / (2.0 * static_cast<double>(octaves_.back().lag)); }
 
 Eigen::VectorXd OctaveEnergies::operator()(ProcessedRecord const& record) const {
   return of(record, record.residual_itself()).col(0);
@@ -77,8 +98,8 @@ Eigen::MatrixXd OctaveEnergies::of(ProcessedRecord const& record, Eigen::MatrixX
   Eigen::MatrixXd energy(count(), signals.cols());
   for (Eigen::Index k = 0; k < signals.cols(); ++k)
     for (Eigen::Index octave = 0; octave < count(); ++octave) {
-      std::size_t const lag = lags_[static_cast<std::size_t>(octave)];
-      energy(octave, k) = median_of_blocks(bends(left.col(k), record.kept_rows, lag), steps_per_block * lag);
+      Octave const& one = octaves_[static_cast<std::size_t>(octave)];
+      energy(octave, k) = median_of_blocks(bends(left.col(k), record.kept_rows, one), steps_per_block * one.lag);
     }
   return energy;
 }

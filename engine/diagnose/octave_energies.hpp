@@ -2,7 +2,8 @@
 // What a record has in each octave below the filter's cut-off, where no missing physics can pose as noise.
 //
 // Statistic  energy of second differences over rows 0.4, 0.8, 1.6 ... periods of the cut-off apart, as long as eight blocks of eight
-//            such steps are left: one per octave. Median over the blocks; every smooth function of position, velocity,
+//            such steps are left: one per octave. Differences of means over half a step either side (Hann): an encoder's noise, differentiated twice,
+//            is a hundred times louder at the cut-off than what may be slow, and bare differences hear it in every octave. Median over the blocks; every smooth function of position, velocity,
 //            acceleration and jerk that the signal holds is taken out first, with and without the motion's sign, and a parabola
 //            of dry friction's level: what is missing lives there, noise does not
 // Shapes     smooth functions are those of the recording's motion; a record's own columns go out beside them
@@ -17,11 +18,16 @@
 
 namespace torquescope {
 
+// in rows: between what is compared, and either side of it what is averaged
+struct Octave {
+  std::size_t lag = 1, half = 0;
+};
+
 class OctaveEnergies {
  public:
   OctaveEnergies(ProcessedRecord const& recording, RecordPipeline const& pipeline);
 
-  Eigen::Index count() const { return static_cast<Eigen::Index>(lags_.size()); }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(octaves_.size()); }
   // where the lowest octave is loudest; count() > 0
   double lowest_hz() const;
 
@@ -32,7 +38,7 @@ class OctaveEnergies {
 
  private:
   Eigen::MatrixXd smooth_;  // kept samples x functions
-  std::vector<std::size_t> lags_;
+  std::vector<Octave> octaves_;
   double rate_hz_ = 0.0;
 };
 

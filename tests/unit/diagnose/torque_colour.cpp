@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "engine/diagnose/octave_energies.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
@@ -79,6 +81,34 @@ TEST(TorqueColour, LeavesWhatIsMissingAlone) {
   double const added = (missing.torque - clean.torque).norm() / std::sqrt(static_cast<double>(n));
   auto const colour = colour_of(missing);
   EXPECT_LT(std::hypot(colour.white_std, colour.slow_std), 0.5 * added);
+}
+
+// differentiated twice, an encoder's noise is loud at the cut-off and silent below: no octave below may hear it
+TEST(OctaveEnergies, HearSlowNoiseUnderThatOfAnEncoder) {
+  auto const recording = recorded(simulate_joint(clean_joint().plan, 12));
+  auto const pipeline = clean_pipeline(recording);
+  ProcessedRecord const record = pipeline.process(recording);
+  OctaveEnergies const energies(record, pipeline);
+  ASSERT_GE(energies.count(), 3);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  Eigen::Index const n = record.residual_itself().size();
+  Eigen::VectorXd encoder(n), slow(n);
+  double here = 0.0, before = 0.0, older = 0.0;
+  double const memory = std::exp(-2.0 * std::numbers::pi * energies.lowest_hz() / pipeline.kept_rate_hz());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    double const now = normal(random);
+    encoder[k] = now - 2.0 * before + older;
+    older = before;
+    before = now;
+    here = memory * here + std::sqrt(1.0 - memory * memory) * normal(random);
+    slow[k] = 0.5 * here;
+  }
+  Eigen::MatrixXd signals(n, 2);
+  signals << encoder, encoder + slow;
+  Eigen::MatrixXd const found = energies.of(record, signals);
+  EXPECT_LT(found(0, 1) / found(0, 0), 1.4) << "a twentieth of the energy";
+  EXPECT_GT(found(2, 1) / found(2, 0), 2.0) << "and most of what is slow";
 }
 
 TEST(TorqueColour, IsNotAskedWhereAControllerTellsIt) {
