@@ -20,7 +20,7 @@ Eigen::MatrixXd forms_of(Effect const& effect, ModelStage const& stage) {
   SignatureAxis const axis = effect.signature().front();
   Eigen::VectorXd const at = values_on(axis, axes);
   // of the speed: a function of the velocity would be of either parity
-  Eigen::MatrixXd const any = hats(axis == SignatureAxis::velocity ? at.cwiseAbs() : at, n_knots_of_form);
+  Eigen::MatrixXd any = hats(axis == SignatureAxis::velocity ? at.cwiseAbs() : at, n_knots_of_form);
   Eigen::MatrixXd along_motion = any;
   along_motion.array().colwise() *= axes.dq.array().sign();
   if (effect.parity() == Parity::even) return any;

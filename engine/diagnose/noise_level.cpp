@@ -77,8 +77,7 @@ NoiseLevel noise_level(NoiseQuestion const& question, ProcessedRecord const& rec
     }
   }
   // of the recording's own statistic and of the twins' mean; that it is not more than is plausible is no estimate
-  if (variance < most)
-    result.variance_error = spread_there * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
+  if (variance < most) result.variance_error = spread_there * std::sqrt(1.0 + 2.0 / static_cast<double>(twins)) / slope;
   result.std = std::sqrt(variance);
   return result;
 }
