@@ -12,8 +12,8 @@
 //            twins that differ by it
 // Model      a random walk: from what the level does beside its parabola follows what chance may do to the parabola, so
 //            that a drift is named only where it is more than that
-// At most    3 % in a minute as an estimate (the twins draw about it): friction that changes by more does so for a reason,
-//            which is for the search to find
+// At most    3 % in a minute as an estimate (twins draw about a lower one, not about this): friction that changes by more
+//            does so for a reason, which is for the search to find
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
 // Level      noise_level.hpp

@@ -20,9 +20,10 @@ namespace torquescope {
 
 struct NoiseLevel {
   double std = 0.0;
-  double variance_error = 0.0;  // standard error of std^2, from the spread of the statistic over twins at this level
-  double ratio = 0.0;           // statistic of the recording over that of twins without the noise
-  double z = 0.0;               // of the recording's among them
+  // standard error of std^2, from the spread of the statistic over twins at this level; 0 at most_std
+  double variance_error = 0.0;
+  double ratio = 0.0;  // statistic of the recording over that of twins without the noise
+  double z = 0.0;      // of the recording's among them
   bool ran_away = false;
 };
 
