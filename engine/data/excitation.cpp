@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "engine/base/contract.hpp"
@@ -39,6 +40,33 @@ struct BetweenEdges {
   Signal q, dq, ddq, torque;
 };
 
+// Time spent at each speed above the threshold, in cells of equal ratio: a recording of any length in one pass
+class TimeAtSpeeds {
+ public:
+  explicit TimeAtSpeeds(double slowest) : slowest_(slowest) {}
+
+  void count(double speed) {
+    double const cells = std::floor(std::log(speed / slowest_) / (same_speed / cells_of_one));
+    ++time_[std::min(static_cast<std::size_t>(std::max(cells, 0.0)), time_.size() - 1)];
+    ++total_;
+  }
+
+  double most_at_one() const {
+    std::size_t most = 0;
+    for (std::size_t from = 0; from + cells_of_one <= time_.size(); ++from)
+      most = std::max(most, std::accumulate(time_.data() + from, time_.data() + from + cells_of_one, std::size_t{0}));
+    return static_cast<double>(most) / static_cast<double>(total_);
+  }
+
+ private:
+  static constexpr std::size_t cells_of_one = 8;
+  static constexpr double same_speed = 0.18232155679395462;  // log 1.2
+  // down to moving_from of the largest
+  std::array<std::size_t, 204> time_{};
+  double slowest_;
+  std::size_t total_ = 0;
+};
+
 // direction, reversals, quadrants, speeds: everything that looks only at moving samples
 void measure_movement(BetweenEdges const& motion, Excitation& facts) {
   double const threshold = moving_from * motion.dq.cwiseAbs().maxCoeff();
@@ -46,6 +74,7 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
   // samples with positive velocity, torque, both
   Eigen::Index forward = 0, positive = 0, both = 0;
   std::size_t n_moving = 0;
+  TimeAtSpeeds time_at_speeds(threshold);
   for (Eigen::Index i = 0; i < motion.dq.size(); ++i) {
     if (std::fabs(motion.dq[i]) <= threshold) continue;
     int const direction = motion.dq[i] > 0 ? 1 : -1;
@@ -55,6 +84,7 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
     positive += motion.torque[i] > 0;
     both += direction > 0 && motion.torque[i] > 0;
     ++n_moving;
+    time_at_speeds.count(std::fabs(motion.dq[i]));
   }
   if (n_moving == 0) return;
   auto const moving = static_cast<double>(n_moving);
@@ -75,6 +105,7 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
     return kth_smallest(for_each_speed, static_cast<std::size_t>(share * static_cast<double>(n_moving - 1)));
   };
   facts.speed_spread = speed_percentile(0.95) / speed_percentile(0.10);
+  facts.one_speed_share = time_at_speeds.most_at_one();
 }
 
 }  // namespace

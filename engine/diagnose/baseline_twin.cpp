@@ -78,8 +78,14 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
   return result;
 }
 
-double fitted_inertia(RecordPipeline const& pipeline, Eigen::VectorXd const& parameters) {
-  return pipeline.model().twin_joint(parameters).lanes.inertia;
+TrackedJoint fitted_joint(RecordPipeline const& pipeline, Eigen::VectorXd const& parameters) {
+  TwinJoint const joint = pipeline.model().twin_joint(parameters);
+  return {joint.lanes.inertia,
+          joint.lanes.viscous,
+          joint.coulomb_forward + joint.offset,
+          joint.coulomb_backward + joint.offset,
+          joint.lanes.gravity_sin,
+          joint.lanes.gravity_cos};
 }
 
 bool is_of_torque_channel(Effect const& effect) { return effect.acts_on() == ActsOn::recorded_torque; }
@@ -104,12 +110,12 @@ Recording without_channel_faults(Recording recording, ProcessedRecord const& rec
   return recording;
 }
 
-RecordedLoop loop_to_try(Recording const& in_loop, double inertia, JointModel const& model, FilterOptions const& filter,
-                         RecordedLoop const* decided) {
-  if (decided == nullptr) return recorded_loop(in_loop, inertia, filter);
+RecordedLoop loop_to_try(Recording const& in_loop, TrackedJoint const& joint, JointModel const& model,
+                         FilterOptions const& filter, RecordedLoop const* decided) {
+  if (decided == nullptr) return recorded_loop(in_loop, joint, filter);
   if (!any_of_torque_channel(model)) return *decided;
-  if (decided->source == LoopSource::tracking) return tracking_loop(in_loop, inertia, filter);
-  return recorded_loop(in_loop, inertia, filter);
+  if (decided->source == LoopSource::tracking) return tracking_loop(in_loop, joint, filter);
+  return recorded_loop(in_loop, joint, filter);
 }
 
 Problem runaway(Recording const& recording) {
@@ -144,7 +150,7 @@ NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made,
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, TwinWorkers const& workers) {
   ProcessedRecord record = pipeline.process(recording);
-  double const inertia = fitted_inertia(pipeline, record.parameters);
+  TrackedJoint const joint = fitted_joint(pipeline, record.parameters);
   Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
   // a controller that is known tells what is noise, even where its law is too poor to be simulated
@@ -152,12 +158,12 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   auto const attempt_in = [&](RecordedLoop loop) {
     return attempt(std::move(loop), reads_colour, record, pipeline, options, workers);
   };
-  Attempt made = attempt_in(loop_to_try(in_loop, inertia, pipeline.model(), filter, options.loop.get()));
+  Attempt made = attempt_in(loop_to_try(in_loop, joint, pipeline.model(), filter, options.loop.get()));
   if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt_in(tracking_loop(in_loop, inertia, filter));
+    made = attempt_in(tracking_loop(in_loop, joint, filter));
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
-    Attempt tracking = attempt_in(tracking_loop(in_loop, inertia, filter));
+    Attempt tracking = attempt_in(tracking_loop(in_loop, joint, filter));
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }

@@ -110,8 +110,8 @@ class JointWork {
   // the recording by itself; may replace its torque by what the user's simulator cannot say
   std::optional<Hopeless> look_first(Recording& recording) {
     Motion const motion = differentiate(recording, input_.filter, input_.filter_section);
-    auto const facts = measure_excitation(recording, motion, input_.filter);
-    if (auto why = check_recording(facts, 0.0)) return why;
+    excitation_ = measure_excitation(recording, motion, input_.filter);
+    if (auto why = check_recording(excitation_, 0.0)) return why;
     RecordPipeline const pipeline(input_.regressor, input_.filter, recording.rate_hz, recording.position.size(),
                                   input_.filter_section);
     // columns that the motion cannot tell apart
@@ -119,7 +119,7 @@ class JointWork {
       ProcessedRecord const record = pipeline.process(recording);
       joint_.train_relerr = relative_error(record);
       auto const wrong_sign = check_sign(record);
-      return wrong_sign ? wrong_sign : check_recording(facts, joint_.train_relerr);
+      return wrong_sign ? wrong_sign : check_recording(excitation_, joint_.train_relerr);
     });
     if (!why && recording.simulated_torque.size() > 0) {
       SimulatorGap gap = gap_to_simulator(recording, pipeline);
@@ -210,6 +210,7 @@ class JointWork {
   void decide(Remainder const& remainder) {
     if (!selection_.is_gate_open) {
       diagnosis_.verdict = Verdict::none;
+      if (auto const why = check_silence(excitation_)) hopeless(*why);
       return;
     }
     if (remainder.is_significant || remainder.is_unexplained) {
@@ -259,6 +260,7 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
+  Excitation excitation_{};         // of the training recording
   std::vector<Recording> unseen_;   // torque in time with that of the training recording
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   double parameter_share_ = 0.0;

@@ -40,6 +40,17 @@ std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) 
   return std::nullopt;
 }
 
+std::optional<Hopeless> check_silence(Excitation const& facts) {
+  constexpr double most_of_the_time = 0.75;
+  if (facts.one_speed_share < most_of_the_time) return std::nullopt;
+  return Hopeless{
+      Verdict::insufficient,
+      fmt::format("{:.0f} % of the moving time have one and the same speed: nothing else is missing, but laws of "
+                  "velocity cannot be told from viscous and Coulomb friction",
+                  100.0 * facts.one_speed_share),
+      "record at least four speeds in both directions"};
+}
+
 std::optional<Hopeless> check_sign(ProcessedRecord const& record) {
   double const work = record.motion.torque.dot(record.motion.dq);
   if (record.held.empty() || work >= 0.0) return std::nullopt;

@@ -2,6 +2,8 @@
 // What makes a diagnosis of a recording hopeless before it begins: no search, no name, a way out.
 //
 // Insufficient   one direction, one speed, hardly more than the encoder's steps, too short
+//                a motion that keeps to one speed and only ramps through the others shows what happens at places, so it is
+//                searched; but when nothing is found, that says nothing of laws of the speed
 // Data fault     the torque channel sits at its limit, has nothing to do with the motion, or its sign is wrong: it takes work
 //                out of a joint that only has friction, and the fit asks for less inertia or friction than none
 // Units          as Excitation
@@ -25,6 +27,9 @@ struct Hopeless {
 
 // relerr: of the baseline on the recording it was fitted to
 std::optional<Hopeless> check_recording(Excitation const& facts, double relerr);
+
+// of a recording where nothing was found to be missing: whether its motion could have shown it
+std::optional<Hopeless> check_silence(Excitation const& facts);
 
 // record: of the baseline, with its motion
 std::optional<Hopeless> check_sign(ProcessedRecord const& record);

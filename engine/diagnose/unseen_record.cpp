@@ -148,7 +148,7 @@ void check_rows(ProcessedRecord const& record, std::string const& name) {
 std::optional<RecordedLoop> loop_of(Recording const& recording, ModelStage const& stage) {
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
-  return recorded_loop(recording, 1.0, {});
+  return recorded_loop(recording, {}, {});
 }
 
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {

@@ -32,9 +32,4 @@ struct LoopLaw {
   double velocity_gain(double rate_hz) const;
 };
 
-// A stiff loop of our own round a given motion, all poles of the frictionless joint at -2 pi bandwidth_hz, with the
-// motion's own acceleration fed forward: for recordings that have no reference.
-// Requires   inertia > 0, bandwidth_hz < 0.05 rate_hz (a faster one rings on the backward difference)
-LoopLaw tracking_law(double inertia, double bandwidth_hz, double rate_hz);
-
 }  // namespace torquescope

@@ -93,7 +93,22 @@ TEST(Excitation, CountsReversalsQuadrantsAndDirections) {
   EXPECT_NEAR(facts.speed_most, 2 * pi, 0.02);
   EXPECT_NEAR(facts.position_most - facts.position_least, 2.0, 0.01);
   EXPECT_NEAR(facts.duration_s, 10.0, 1e-12);
+  // of the speeds of a sine those from 1/1.2 of the largest on: 1 - 2 asin(1/1.2) / pi, over the moving time
+  EXPECT_NEAR(facts.one_speed_share, 1.0 - 2.0 * std::asin(1.0 / 1.2) / pi, 0.03);
   EXPECT_TRUE(excitation_warnings(facts, "rad").empty());
+}
+
+TEST(Excitation, KnowsAMotionThatRampsToOneSpeed) {
+  // strokes there and back: 2 s at one speed, ramps of 0.25 s at either end
+  Eigen::VectorXd position(20000);
+  double q = 0.0;
+  for (Eigen::Index k = 0; k < position.size(); ++k) {
+    double const within = std::fmod(static_cast<double>(k) * 1e-3, 5.0), stroke = std::fmod(within, 2.5);
+    position[k] = q += 1e-3 * (within < 2.5 ? 1.0 : -1.0) * std::min({1.0, stroke / 0.25, (2.5 - stroke) / 0.25});
+  }
+  auto const facts = joint_with(position, position).excitation;
+  // and the part of the ramps above 1/1.2 of it
+  EXPECT_NEAR(facts.one_speed_share, (2.0 + 0.5 * (1.0 - 1.0 / 1.2)) / (2.5 - 0.5 * 0.01), 0.01);
 }
 
 TEST(Excitation, OneDirectionAtOneSpeedIsWarnedOf) {

@@ -150,7 +150,7 @@ TEST(BaselineTwin, FollowsAMotionThatEndsInMidMove) {
   Eigen::Index const n = fast + 1;
   for (Eigen::VectorXd* channel : {&recording.time_s, &recording.position, &recording.torque})
     *channel = channel->head(n).eval();
-  Eigen::VectorXd const r = tracking_loop(recording, 0.036, clean_filter()).track.reference;
+  Eigen::VectorXd const r = tracking_loop(recording, {0.036}, clean_filter()).track.reference;
   ASSERT_EQ(r.size(), n);
   Eigen::ArrayXd const bend = (r.tail(n - 2) - 2.0 * r.segment(1, n - 2) + r.head(n - 2)).array().abs();
   constexpr Eigen::Index end = 20;

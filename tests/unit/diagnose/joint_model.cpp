@@ -141,7 +141,7 @@ struct Fits {
 // as identified from a recording of the same joint without the effect: controller and noise are the same
 TwinLoop const& loop() {
   static TwinLoop const made = [] {
-    RecordedLoop const found = recorded_loop(simulated(0.0, 4), baseline()[0], clean_filter());
+    RecordedLoop const found = recorded_loop(simulated(0.0, 4), {baseline()[0]}, clean_filter());
     EXPECT_EQ(found.source, LoopSource::identified) << found.remark;
     return found.loop;
   }();

@@ -38,7 +38,7 @@ TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   auto const recording = read(path);
   FilterOptions filter;
   filter.cutoff_hz = 100.0;
-  auto const found = recorded_loop(recording, 95.0, filter);
+  auto const found = recorded_loop(recording, {95.0}, filter);
   ASSERT_TRUE(found.controller);
   EXPECT_GT(found.controller->r_squared, 0.99999);
   EXPECT_NEAR(found.loop.law.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
@@ -56,7 +56,7 @@ TEST(RecordedLoop, OfEmpsWithPulsesIsNotTakenForALaw) {
   SKIP_WITHOUT(path);
   FilterOptions filter;
   filter.cutoff_hz = 100.0;
-  auto const found = recorded_loop(read(path), 95.0, filter);
+  auto const found = recorded_loop(read(path), {95.0}, filter);
   EXPECT_EQ(found.source, LoopSource::approximated);
   auto const& acf = found.controller->residual_acf;
   // a tanh of the reference's velocity imitates most of the pulses; five times beyond what white noise could be is left

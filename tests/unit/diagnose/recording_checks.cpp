@@ -74,6 +74,20 @@ INSTANTIATE_TEST_SUITE_P(Cases, HopelessRecording,
                                               "recording.columns"}),
                          [](auto const& one) { return one.param.name; });
 
+TEST(CheckSilence, SaysWhatOneSpeedCannotShow) {
+  Excitation facts = good_recording();
+  facts.one_speed_share = 0.3;
+  EXPECT_FALSE(check_silence(facts).has_value());
+  facts.one_speed_share = 0.86;
+  // it is searched all the same: a ripple shows at one speed
+  EXPECT_FALSE(check_recording(facts, good_relerr).has_value());
+  auto const found = check_silence(facts);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->verdict, Verdict::insufficient);
+  EXPECT_NE(found->finding.find("86 %"), std::string::npos) << found->finding;
+  EXPECT_NE(found->way_out.find("four speeds"), std::string::npos) << found->way_out;
+}
+
 TEST(CheckRecording, HasNothingToSayOfAGoodOne) {
   EXPECT_FALSE(check_recording(good_recording(), good_relerr).has_value());
   // an encoder too fine to be seen says nothing about steps

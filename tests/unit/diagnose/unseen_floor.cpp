@@ -31,7 +31,7 @@ class UnseenFloor : public testing::Test {
   Section section{};
   StageSetting setting{recording, clean_regressor(), filter, section, 32, 1, 1};
   ModelStage stage = make_stage(setting, clean_regressor()).value();
-  RecordedLoop loop = recorded_loop(unseen, 1.0, {});
+  RecordedLoop loop = recorded_loop(unseen, {}, {});
 };
 
 TEST_F(UnseenFloor, IsWhatACleanRecordingLeaves) {

@@ -185,7 +185,7 @@ TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
   TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
   TwinTrack track = track_of(recording);
   track.reference = recording.true_position;
-  CleanTwin const twin(joint, {tracking_law(joint.lanes.inertia, 30.0, 1000.0), encoder_step, white(0.02)}, track,
+  CleanTwin const twin(joint, {tracking_law({joint.lanes.inertia}, 30.0, {1000.0}), encoder_step, white(0.02)}, track,
                        1e-4);
   TwinGroup group;
   twin.simulate({1, 0, 0}, 0, group);

@@ -29,7 +29,7 @@ TwinLoop blind_loop() {
 // stiff, with the position fed back
 TwinLoop closed_loop() {
   TwinLoop loop = blind_loop();
-  loop.law = tracking_law(0.04, 10.0, rate_hz);
+  loop.law = tracking_law({0.04}, 10.0, {rate_hz});
   return loop;
 }
 

@@ -1,0 +1,29 @@
+#include "engine/simulate/tracking_law.hpp"
+
+#include <numbers>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+LoopLaw tracking_law(TrackedJoint const& joint, double bandwidth_hz, TrackedMotion const& motion) {
+  double const rate_hz = motion.rate_hz;
+  TORQUESCOPE_EXPECT(joint.inertia > 0.0 && motion.slow > 0.0);
+  TORQUESCOPE_EXPECT(bandwidth_hz > 0.0 && bandwidth_hz <= 0.05 * rate_hz);
+  double const omega = 2.0 * std::numbers::pi * bandwidth_hz;
+  double const kp = joint.inertia * omega * omega;
+  double const kd = 2.0 * joint.inertia * omega * rate_hz;      // per difference of one sample
+  double const accelerate = joint.inertia * rate_hz * rate_hz;  // per second difference
+  double const move = 0.5 * (kd + joint.viscous * rate_hz);     // per difference of two samples
+  LoopLaw law;
+  law.position = {-kp - kd, kd};
+  law.reference = {accelerate - move, kp - 2.0 * accelerate, accelerate + move};
+  law.constant = 0.5 * (joint.forward + joint.backward);
+  double const dry = 0.5 * (joint.forward - joint.backward);
+  if (dry != 0.0) law.terms.push_back({ReferenceShape::smooth_sign, 1, 2, motion.slow / rate_hz, dry});
+  if (joint.gravity_sin != 0.0) law.terms.push_back({ReferenceShape::sine, 0, 1, 1.0, joint.gravity_sin});
+  if (joint.gravity_cos != 0.0) law.terms.push_back({ReferenceShape::cosine, 0, 1, 1.0, joint.gravity_cos});
+  return law;
+}
+
+}  // namespace torquescope
