@@ -70,6 +70,16 @@ def verdict(board):
             "sentence": sentence, "headlines": [sentence], "evidence": evidence}
 
 
+def left_out(board):
+    """A sentence, empty when every case was judged."""
+    cases = board.suite.get("left_out", [])
+    if not cases:
+        return ""
+    verb = "is" if len(cases) == 1 else "are"
+    return (f"{q.count_word(len(cases)).capitalize()} of {q.count(board.suite['cases'] + len(cases), 'case')} {verb} in no row, because "
+            f"half the step of the plant would have given another recording: {q.listed(one['case'] for one in cases)}.")
+
+
 def head(board):
     seeds = ", ".join(map(str, board.suite["suite_seeds"])) or "none"
     return ["scoreboard", q.count(board.suite["cases"], "case"), f"suite seed {seeds}"]

@@ -18,7 +18,7 @@ def page(board):
     return build.render(board_cases(board), parts=["board.html"], verdict=words.verdict(board), head=words.head(board),
                         numbers=words.big_numbers(board), verdict_json="", legend=[], scoreboard=words.scoreboard(board),
                         tiers=words.tiers_table(board), rivals=words.methods_table(board) if len(board.methods) > 1 else None,
-                        effects=words.effects_table(board), clean=words.clean_table(board),
+                        left_out=words.left_out(board), effects=words.effects_table(board), clean=words.clean_table(board),
                         clean_answer=words.clean_answer(board),
                         circumstances=words.circumstances_table(board), misses=words.misses(board), provenance=words.provenance(board))
 

@@ -1,4 +1,5 @@
 """The scorer of ablations.py: a few counts per ablation, judged like everything else (judge.py)."""
+import contextlib
 import json
 
 import judge
@@ -9,9 +10,9 @@ SIZABLE_SNR = 0.9  # as score.py
 def judged(verdicts, sealed, names):
     judgements = []
     for name in names:
-        verdict = verdicts / f"{name}.json"
-        judgements.append(judge.judge(json.loads((sealed / name / "truth.json").read_text()),
-                                      json.loads(verdict.read_text()) if verdict.exists() else None))
+        truth, verdict = json.loads((sealed / name / "truth.json").read_text()), verdicts / f"{name}.json"
+        with contextlib.suppress(judge.Inexact):  # in no rate, as in gather.py
+            judgements.append(judge.judge(truth, json.loads(verdict.read_text()) if verdict.exists() else None))
     return judgements
 
 

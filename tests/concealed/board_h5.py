@@ -1,6 +1,7 @@
 """board.h5: the scoreboard as HDF5, to be read without this repository.
 
-    /                       attributes: what it is, schema, truths_sha256, programs_sha256, plants_sha256, suite_seeds, cases
+    /                       attributes: what it is, schema, truths_sha256, programs_sha256, plants_sha256, suite_seeds, cases,
+                            left_out (names of cases whose plant was not exact: in no rate)
     /cases                  one entry per case, the same order everywhere: case (folder), drawn (name), tier, seed, seal, concealed,
                             expected, snr_eff, wanted_snr, joint, controller, law, noise, train
     /methods/M/cases        verdict, names, false_names, right, n_named, level and iou of the first effect, parameter_error,
@@ -105,6 +106,7 @@ def write(path, board):
                            "truths_sha256": suite["truths_sha256"], "suite_seeds": np.array(suite["suite_seeds"], dtype=np.int64)})
         for key in ("programs_sha256", "plants_sha256"):
             file.attrs[key] = ", ".join(suite[key])
+        file.attrs["left_out"] = _joined(one["case"] for one in suite["left_out"])
         write_cases(file.create_group("cases"), next(iter(board["methods"].values()))["cases"])
         for name, method in board["methods"].items():
             group = file.create_group(f"methods/{name}")

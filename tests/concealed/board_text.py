@@ -33,7 +33,15 @@ def head_lines(suite):
     mixed = "   MIXED: these cases were not all diagnosed by one program" if len(suite["programs_sha256"]) > 1 else ""
     return [f"{suite['cases']} cases, suite seed {', '.join(map(str, suite['suite_seeds'])) or '-'}; "
             f"sealed truths {suite['truths_sha256']}",
-            f"program {several(suite['programs_sha256'])}, plant {several(suite['plants_sha256'])}{mixed}"]
+            f"program {several(suite['programs_sha256'])}, plant {several(suite['plants_sha256'])}{mixed}", *left_out_lines(suite)]
+
+
+def left_out_lines(suite):
+    """What half a step changes in them, as share of the noise floor: with chaos there is no truth to be judged by."""
+    error = lambda one: "lost" if one["step_error"] is None else f"{one['step_error']:.2g} of the noise"
+    cases = ", ".join(f"{one['case']} ({error(one)})" for one in suite["left_out"])
+    of_all = f"{len(suite['left_out'])} of {suite['cases'] + len(suite['left_out'])}"
+    return [f"cases left out, plant not exact ({of_all}): {cases}"] if cases else []
 
 
 def case_line(j, width):
@@ -93,7 +101,7 @@ def markdown(board):
     methods = board["methods"]
     ours, *rivals = methods
     lines = [f"{board['suite']['cases']} cases, suite seed {', '.join(map(str, board['suite']['suite_seeds'])) or '-'}, "
-             f"sealed truths `{board['suite']['truths_sha256'][:16]}`.", "",
+             f"sealed truths `{board['suite']['truths_sha256'][:16]}`.", *left_out_lines(board["suite"]), "",
              "| | measured | 95 % sure above, below | pass level | holds | stretch level | holds |"
              + "".join(f" {rival} |" for rival in rivals),
              "|---|---|---|---|---|---|---|" + "---|" * len(rivals)]

@@ -28,6 +28,7 @@ struct Case {
   std::string tier, drawn;  // "T1", its name
   std::string expected;
   double wanted_snr = 0.0;  // of each effect alone
+  int plant_draws = 1;      // until its plant was exact
 
   HiddenEffects laws() const;
   // "none", "named", "unexplained"; drawn cases also "insufficient" (or a class), "measurement" (nothing mechanical)

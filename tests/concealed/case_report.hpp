@@ -13,9 +13,12 @@
 
 namespace concealed {
 
+inline constexpr double largest_step_error = 0.01;  // a coarser plant is no truth; judge.py says the same
+
 struct StepError {
   double torque = 0.0;    // of the rms of the torque noise
   double position = 0.0;  // of the rms of the encoder's rounding
+  bool is_exact() const { return torque <= largest_step_error && position <= largest_step_error; }
 };
 
 // relative errors of the low-passed torque at the true motion: the baseline fitted without noise, and the true model; and the

@@ -40,9 +40,9 @@ struct Draw {
 };
 
 // without `to_the_end` the first effect that does not reach its size ends it
-Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::string const& special, int attempt,
-          bool to_the_end) {
-  Random random(name.stream() + static_cast<std::uint64_t>(attempt), "drawn rig");
+Draw draw(DrawnName const& name, std::uint64_t stream, std::vector<std::string> const& effects,
+          std::string const& special, int attempt, bool to_the_end) {
+  Random random(stream + static_cast<std::uint64_t>(attempt), "drawn rig");
   Draw out;
   Case& made = out.drawn;
   made.name = name.folder();
@@ -50,7 +50,7 @@ Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::s
   made.drawn = name.text();
   made.wanted_snr = name.size;
   made.expected = expected_of(name.tier, effects.empty());
-  made.seed = name.stream();
+  made.seed = stream;
   // an error of the disc is a small effect
   bool const small = std::find(effects.begin(), effects.end(), "encoder_eccentricity") != effects.end();
   std::vector<std::string> const noises =
@@ -84,7 +84,8 @@ Draw draw(DrawnName const& name, std::vector<std::string> const& effects, std::s
 
 }  // namespace
 
-Case drawn_case(DrawnName const& name) {
+Case drawn_case(DrawnName const& name, int again) {
+  std::uint64_t const stream = name.stream(again);
   std::vector<std::string> effects = name.words;
   std::string special;
   if (name.tier >= 5) {
@@ -94,13 +95,13 @@ Case drawn_case(DrawnName const& name) {
   int nearest_attempt = 0;
   double nearest = -1.0;
   for (int attempt = 0; attempt < most_draws; ++attempt) {
-    Draw const next = draw(name, effects, special, attempt, false);
+    Draw const next = draw(name, stream, effects, special, attempt, false);
     if (next.nearest >= 1.0) return next.drawn;
     if (next.nearest <= nearest) continue;
     nearest = next.nearest;
     nearest_attempt = attempt;
   }
-  return draw(name, effects, special, nearest_attempt, true).drawn;
+  return draw(name, stream, effects, special, nearest_attempt, true).drawn;
 }
 
 }  // namespace concealed

@@ -12,6 +12,7 @@ namespace concealed {
 
 inline constexpr int most_draws = 6;
 
-Case drawn_case(DrawnName const& name);
+// `again`: the rig, the motions and the noises that the same name has when it is drawn anew (exact_case.hpp)
+Case drawn_case(DrawnName const& name, int again = 0);
 
 }  // namespace concealed

@@ -8,6 +8,7 @@
 #include "concealed/decoys.hpp"
 #include "concealed/drawable_effects.hpp"
 #include "concealed/drawn_case.hpp"
+#include "concealed/exact_case.hpp"
 
 namespace concealed {
 namespace {
@@ -126,6 +127,31 @@ TEST(DrawnCases, SameNameSameBytesAndNoWordOfWhatIsConcealed) {
   std::string job = job_text(named);
   job.replace(job.find(clean.name), clean.name.size(), one.name);
   EXPECT_EQ(job, job_text(one));
+}
+
+// a load that rattles on a staircase: no step is fine enough for it
+TEST(DrawnCases, AreDrawnAnewWhereNoStepIsFineEnough) {
+  DrawnName const name = parse_drawn_name("T1:backlash:2:1300005");
+  auto const [made, report] = exact_case(name);
+  EXPECT_GT(made.plant_draws, 1);
+  EXPECT_LE(made.plant_draws, most_plant_draws);
+  EXPECT_TRUE(report.step_error.is_exact());
+  EXPECT_NEAR(report.together.snr() / made.wanted_snr, 1.0, 0.1);
+  // name and folder stay, everything random is another, and the truth says so
+  EXPECT_EQ(made.drawn, name.text());
+  EXPECT_EQ(made.name, name.folder());
+  EXPECT_EQ(made.seed, name.stream(made.plant_draws - 1));
+  EXPECT_NE(made.seed, name.stream());
+  EXPECT_NE(truth_text(made, report).find("\"plant_draws\": " + std::to_string(made.plant_draws)), std::string::npos);
+}
+
+TEST(DrawnCases, ThatAreExactAtOnceStayWithTheFirstDraw) {
+  DrawnName const name = parse_drawn_name("T0:3");
+  auto const [made, report] = exact_case(name);
+  EXPECT_EQ(made.plant_draws, 1);
+  EXPECT_EQ(made.seed, name.stream());
+  EXPECT_EQ(made.seed, drawn_case(name).seed);
+  EXPECT_EQ(truth_text(made, report).find("plant_draws"), std::string::npos);
 }
 
 TEST(DrawnCases, SayWhatIsExpectedOfThem) {

@@ -116,7 +116,10 @@ std::string DrawnName::text() const {
 
 std::string DrawnName::folder() const { return sha256("folder " + text()).substr(0, 12); }
 
-std::uint64_t DrawnName::stream() const { return std::stoull(sha256("stream " + text()).substr(0, 12), nullptr, 16); }
+std::uint64_t DrawnName::stream(int again) const {
+  std::string const salt = again == 0 ? "" : " again " + std::to_string(again);
+  return std::stoull(sha256("stream " + text() + salt).substr(0, 12), nullptr, 16);
+}
 
 DrawnName parse_drawn_name(std::string const& text) {
   auto const parts = split(text, ':');

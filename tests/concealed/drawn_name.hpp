@@ -26,7 +26,8 @@ struct DrawnName {
 
   std::string text() const;
   std::string folder() const;
-  std::uint64_t stream() const;  // seed of everything random about the case
+  // seed of everything random about the case; `again`: of the same case drawn anew for the first, second, ... time
+  std::uint64_t stream(int again = 0) const;
 };
 
 DrawnName parse_drawn_name(std::string const& text);

@@ -4,11 +4,13 @@
     OUT/rivals/METHOD/NAME.json (verdict_record.py)
 
 A case that lies in two folders must have the same seal and the same verdict, and a truth must still have the seal it was
-made with; Contradiction says which does not.
+made with; Contradiction says which does not. A truth that is not exact (judge.Inexact) is left out for every method,
+whatever they answered, and the board names it.
 """
 import dataclasses
 import hashlib
 import json
+import math
 import pathlib
 
 import judge
@@ -33,6 +35,9 @@ class Source:
     folder: pathlib.Path
     seal: str
     notes: dict
+
+    def truth(self):
+        return json.loads((self.folder / "sealed" / self.name / "truth.json").read_text())
 
     def verdict(self, method):
         if method != OURS:
@@ -89,12 +94,25 @@ def _same(first, second):
 
 
 def _judged(source, method):
-    truth = json.loads((source.folder / "sealed" / source.name / "truth.json").read_text())
-    found = judge.judge(truth, source.verdict(method))
+    found = judge.judge(source.truth(), source.verdict(method))
     found.seal = source.seal
     if method == OURS:
         found.seconds = source.notes.get("diagnosed", {}).get("seconds")
     return found
+
+
+def exact(sources):
+    """-> (those with an exact truth, [{case, folder, step_error}] of the others), by their truths alone."""
+    kept, left_out = [], []
+    for source in sources:
+        truth = source.truth()
+        try:
+            judge.check_truth(truth)
+            kept.append(source)
+        except judge.Inexact as problem:
+            known = problem.step_error if math.isfinite(problem.step_error) else None
+            left_out.append({"case": truth.get("drawn") or truth["case"], "folder": source.name, "step_error": known})
+    return kept, sorted(left_out, key=lambda one: one["case"])
 
 
 def _place(judgement):
@@ -103,19 +121,23 @@ def _place(judgement):
     return words[0] if judgement.drawn else "", int(seed), words
 
 
-def describe(sources, judgements):
-    """Cases, the hash of their truths, suites of their seeds, and the programs that made and diagnosed them."""
+def describe(sources, judgements, left_out):
+    """Cases judged and left out, the hash of all their truths, suites of their seeds, and the programs that made and
+    diagnosed them."""
     seeds = {int(j.drawn.rsplit(":", 1)[1]) // SEEDS_PER_SUITE for j in judgements if j.drawn}
     engines = {s.notes.get("diagnosed", {}).get("engine") for s in sources} - {None}
     plants = {s.notes.get("plant") for s in sources} - {None}
-    return {"cases": len(sources), "truths_sha256": seal_of_all(sources), "suite_seeds": sorted(seeds),
+    return {"cases": len(judgements), "left_out": left_out, "truths_sha256": seal_of_all(sources), "suite_seeds": sorted(seeds),
             "programs_sha256": sorted(engines), "plants_sha256": sorted(plants)}
 
 
 def gather(folders, names=None):
     """-> Gathered; Contradiction, NoTruth, or ValueError of a damaged truth."""
     sources = list(find(folders, names).values())
+    kept, left_out = exact(sources)
+    if not kept:
+        raise NoTruth(f"no exact truth in {', '.join(map(str, folders))}")
     rivals = {path.name for folder in map(pathlib.Path, folders) for path in folder.glob("rivals/*") if path.is_dir()}
-    methods = {method: sorted((_judged(source, method) for source in sources), key=_place)
+    methods = {method: sorted((_judged(source, method) for source in kept), key=_place)
                for method in (OURS, *sorted(rivals - {OURS}))}
-    return Gathered(methods, describe(sources, methods[OURS]))
+    return Gathered(methods, describe(sources, methods[OURS], left_out))

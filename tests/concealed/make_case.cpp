@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "concealed/case_writer.hpp"
-#include "concealed/drawn_case.hpp"
+#include "concealed/exact_case.hpp"
 
 namespace {
 
@@ -44,13 +44,17 @@ int list_drawn(std::string const& tier, std::string const& stretch, std::string 
   return 0;
 }
 
-void make(concealed::Case const& one_case, std::filesystem::path const& out) {
-  auto const report = concealed::report_case(one_case);
+void write(concealed::ReportedCase const& made, std::filesystem::path const& out) {
+  auto const& [one_case, report] = made;
   auto const folder = out / one_case.name;
   std::string const seal = concealed::write_case(one_case, report, folder);
   std::printf("%s  %s  snr_eff %.3f  torque share %.3f %%  step error %.2g of torque noise, %.2g of encoder rounding\n",
               seal.c_str(), (folder / "truth.json").string().c_str(), report.together.snr(),
               100.0 * report.together.torque_share(), report.step_error.torque, report.step_error.position);
+}
+
+void make(concealed::Case const& one_case, std::filesystem::path const& out) {
+  write({one_case, concealed::report_case(one_case)}, out);
 }
 
 int run(std::vector<std::string> const& words) {
@@ -70,7 +74,7 @@ int run(std::vector<std::string> const& words) {
   if ((words.size() == 3 || words.size() == 4) && words[0] == "--list-drawn")
     return list_drawn(words[1], words[2], words.size() == 4 ? words[3] : "0");
   if (words.size() == 3 && words[0] == "--drawn") {
-    make(concealed::drawn_case(concealed::parse_drawn_name(words[1])), words[2]);
+    write(concealed::exact_case(concealed::parse_drawn_name(words[1])), words[2]);
     return 0;
   }
   if (words.size() > 1 && words[0] == "--folders") {

@@ -5,8 +5,9 @@
 OUT is a folder of run_suite.py; several are the shards of one suite. FOLDER (default: the first OUT) takes board.json
 and board.h5 (board_h5.py); scripts/report/build_board.py makes a page of the first. A rival that put its answers into
 OUT/rivals/METHOD (verdict_record.py) is judged by the same functions and stands beside ours in all of them.
-A verdict that is missing or does not follow the schema counts as a failure, not as an absent case.
-Exit code 0 whatever the score, with --all-right 1 unless every case is right; 66 when there is no truth; 65 when a truth is
+A verdict that is missing or does not follow the schema counts as a failure, not as an absent case. A case whose plant was
+not exact is in no rate, and named.
+Exit code 0 whatever the score, with --all-right 1 unless every case is right and none left out; 66 when there is no truth; 65 when a truth is
 damaged, not the one that was sealed, or a case has two seals or two verdicts.
 """
 import argparse
@@ -64,7 +65,7 @@ def score(folders, names=None, board_folder=None, form="text", with_cases=True, 
     (folder / "board.json").write_text(json.dumps(board, indent=1))
     board_h5.write(folder / "board.h5", board)
     print(board_text.markdown(board) if form == "markdown" else board_text.text(board, ours if with_cases else []))
-    wrong = [j.drawn or j.case for j in ours if not j.right]
+    wrong = [j.drawn or j.case for j in ours if not j.right] + [f"{one['case']} (left out)" for one in gathered.suite["left_out"]]
     if all_right and wrong:
         print(f"\nnot right: {', '.join(wrong)}")
         return 1

@@ -82,6 +82,36 @@ class Board(Folders):
             self.put("one", damaged, None, "a")
             self.assertEqual(self.score("one")[0], 65)
 
+    def test_a_plant_that_was_not_exact_is_left_out_of_every_rate_and_named(self):
+        chaotic = drawn(truth(), "T1:backlash:2:300001", 2.0)
+        chaotic["step_error"] = {"torque": 0.28, "position": 0.37}
+        self.put("one", drawn(truth(), "T1:stribeck:2:300001", 2.0), verdict("named", [effect()]))
+        whole = self.score("one")[3]
+        # whatever was answered, right, wrong or nothing, and by whom
+        for answer in (verdict("named", [effect()]), verdict("named", [effect("cogging", "order_locked")]), None):
+            self.put("one", chaotic, answer)
+            code, text, _, board = self.score("one")
+            self.assertEqual((code, board["suite"]["cases"]), (0, 1))
+            self.assertEqual(board["methods"], whole["methods"])
+            self.assertEqual(board["suite"]["left_out"],
+                             [{"case": "T1:backlash:2:300001", "folder": chaotic["case"], "step_error": 0.37}])
+            said = "cases left out, plant not exact (1 of 2): T1:backlash:2:300001 (0.37 of the noise)"
+            self.assertIn(said, text)
+            self.assertIn(said, self.score("one", "--markdown")[1])
+        with h5py.File(self.root / "one" / "board.h5") as file:
+            self.assertEqual(file.attrs["left_out"], "T1:backlash:2:300001")
+            self.assertEqual(list(file["cases/drawn"].asstr()), ["T1:stribeck:2:300001"])
+        # what cannot be judged is not right
+        code, text, _, _ = self.score("one", "--all-right")
+        self.assertEqual(code, 1)
+        self.assertIn("not right: T1:backlash:2:300001 (left out)", text)
+
+    def test_a_suite_without_an_exact_plant_has_no_board(self):
+        self.put("one", {**clean(), "step_error": {"torque": None, "position": 0.0}}, verdict("none"))
+        code, _, error, _ = self.score("one")
+        self.assertEqual(code, 66)
+        self.assertIn("no exact truth", error)
+
     def test_names_of_an_earlier_command_stay_out(self):
         self.put("one", clean(), verdict("none"), "a")
         self.put("one", clean(), verdict("none"), "b")

@@ -122,9 +122,11 @@ class Judge(unittest.TestCase):
 
     def test_refuses_a_coarse_truth(self):
         coarse = clean()
-        coarse["step_error"]["torque"] = 0.02
-        with self.assertRaises(ValueError):
-            judge.judge(coarse, verdict("none"))
+        # null: the loop lost its joint, and JSON knows no infinity
+        for error in (0.02, None):
+            coarse["step_error"]["torque"] = error
+            with self.assertRaises(judge.Inexact):
+                judge.judge(coarse, verdict("none"))
 
 
 class OtherTiers(unittest.TestCase):

@@ -113,6 +113,7 @@ std::string truth_text(Case const& one_case, CaseReport const& report) {
     truth["tier"] = one_case.tier;
     truth["drawn"] = one_case.drawn;
     truth["wanted_snr"] = one_case.wanted_snr;
+    if (one_case.plant_draws > 1) truth["plant_draws"] = one_case.plant_draws;
   }
   if (one_case.expected_verdict() == "measurement") truth["may_name"] = measurement_names();
   for (std::size_t i = 0; i < one_case.effects.size(); ++i) {

@@ -26,6 +26,12 @@ class BoardPage(unittest.TestCase):
         self.assertEqual(table.count("<tr>"), 1 + len(self.board.ours["table"]))
         self.assertIn("1 of 30", text_of(table))  # clean records with a false name
 
+    def test_cases_in_no_row_are_named_above_it(self):
+        above = text_of(self.page.split("<table")[0])
+        self.assertIn(f"One of {self.board.suite['cases'] + 1} cases is in no row", above)
+        self.assertIn("another recording: T1:backlash:2:5.", above)
+        self.assertNotIn("in no row", support.page("board_few").read_text(encoding="utf-8"))
+
     def test_every_figure_module_draws_something(self):
         used = {case.draw.__module__ for case in board_cases(self.board).values()}
         self.assertEqual(used, {f"figures.{module}" for module in BOARD_MODULES})
