@@ -39,7 +39,9 @@ Selection doubt_noise(StageSetting& setting, SelectionOptions const& options, Se
   gate.only_gate = true;
   try {
     Selection among_coloured = select_effects(coloured, gate, progress);
-    if (among_coloured.is_gate_open || motion_echo_p(*among_coloured.baseline) < follows_p) return selection;
+    ModelStage const& coloured_baseline = *among_coloured.baseline;
+    bool const is_no_noise = coloured_baseline.twin->colour && coloured_baseline.twin->colour->misfit_p < follows_p;
+    if (among_coloured.is_gate_open || is_no_noise || motion_echo_p(coloured_baseline) < follows_p) return selection;
     setting.reads_colour = true;
     return among_coloured;
   } catch (Error const&) {

@@ -17,7 +17,8 @@ Selection search_in_time(StageSetting const& setting, Recording& recording, Sele
 
 // What has no name may be noise: what acts from outside with a memory, or comes through a loop that is faster than its log, is louder at
 // a few hertz than the law tells. Where nothing is missing among twins whose noise is read from what the model leaves
-// (torque_colour.hpp), and what is left does not follow the motion (motion_echo.hpp), these are the selection; the setting's reads_colour says so
+// (torque_colour.hpp), noise of that colour has such a spectrum, and what is left does not follow the motion (motion_echo.hpp),
+// these are the selection; the setting's reads_colour says so
 Selection doubt_noise(StageSetting& setting, SelectionOptions const& options, Selection selection,
                       StageSink const& progress);
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/chi_squared.hpp"
 #include "engine/diagnose/octave_energies.hpp"
 #include "engine/simulate/lane_noise.hpp"
 
@@ -132,6 +133,8 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
     corner_hz = corner;
     result.variance_error = slow.relative.maxCoeff();
   }
+  int const fitted = best.slow > 0.0 ? 3 : 1;
+  result.misfit_p = chi_squared_tail(best.deviance, static_cast<int>(energies.count()) - fitted);
   result.white_std = std::sqrt(best.white);
   result.slow_std = std::sqrt(best.slow);
   result.corner_hz = best.slow > 0.0 ? corner_hz : 0.0;

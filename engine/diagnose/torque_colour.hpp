@@ -28,6 +28,9 @@ struct TorqueColour {
   double white_std = 0.0;
   double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
   double variance_error = 0.0;             // standard error of both variances, as a share: of the octave known worst
+  // chance that noise of this colour has energies so unlike its own (deviance, chi squared): a line or a hump in the spectrum
+  // is no memory of an amplifier
+  double misfit_p = 1.0;
   bool ran_away = false;
 };
 

@@ -1,5 +1,5 @@
 // What is left without a name may be noise that the law does not tell. Noise alone ends as nothing missing; a pendulum that
-// hangs on the joint stays something without a name.
+// hangs on the joint stays something without a name, and so does a wave whose frequency hunts.
 
 #include <gtest/gtest.h>
 
@@ -22,6 +22,7 @@ namespace {
 struct Outside {
   double noise_std = 0.0;         // N m, with a memory of 40 ms
   double pendulum_inertia = 0.0;  // kg m^2, swings at 4 Hz behind the joint
+  double hunting_wave = 0.0;      // N m, round 6 Hz
 };
 
 // A joint on a drive that is five times as fast as its log. The log has the torque's mean over each row
@@ -45,7 +46,7 @@ Recording recorded_on_a_fast_drive(Outside const& outside, std::uint32_t index) 
     channel->resize(n);
   recording.rows.encoder_step = encoder_step;
   double q = 0.0, dq = 0.0, swing = 0.0, swing_speed = 0.0, noise = outside.noise_std * random.normal();
-  double last = 0.0, speed = 0.0, torque = 0.0;
+  double last = 0.0, speed = 0.0, torque = 0.0, phase = 0.0;
   for (Eigen::Index tick = 0; tick < n * ticks_per_row; ++tick) {
     // the drive: a proportional and a derivative gain
     double const t = static_cast<double>(tick) * tick_s, ramp = std::min(1.0, t / 0.5);
@@ -64,9 +65,11 @@ Recording recorded_on_a_fast_drive(Outside const& outside, std::uint32_t index) 
     recording.torque[tick / ticks_per_row] += torque / ticks_per_row;
     double const memory = std::exp(-tick_s / memory_s);
     noise = memory * noise + std::sqrt(1.0 - memory * memory) * outside.noise_std * random.normal();
+    phase += tick_s * 2.0 * std::numbers::pi * 6.0 * (1.0 + 0.3 * std::sin(0.6 * t));
+    double const wave = outside.hunting_wave * std::sin(phase);
     for (int step = 0; step < steps_per_tick; ++step) {
       double const pull = stiffness * (swing - q) + drag * (swing_speed - dq);
-      double const free = torque + noise + pull - viscous * dq - offset;
+      double const free = torque + noise + wave + pull - viscous * dq - offset;
       double const sense = dq != 0.0 ? std::copysign(1.0, dq) : std::copysign(1.0, free);
       double const before = dq;
       if (dq != 0.0 || std::abs(free) > coulomb) dq += step_s * (free - sense * coulomb) / inertia;
@@ -123,6 +126,15 @@ TEST_F(DoubtedNoise, WithAPendulumOutsideStaysUnexplained) {
     EXPECT_FALSE(both.reads_colour);
   }
   EXPECT_FALSE(doubted({0.0, pendulum_inertia}, 0).reads_colour);
+}
+
+TEST_F(DoubtedNoise, WithAHumpInItsSpectrumStaysUnexplained) {
+  for (std::uint32_t index : {0, 1, 2}) {
+    // it follows no motion, and no memory of an amplifier has so little below it
+    Doubted const wave = doubted({0.0, 0.0, 0.06}, index);
+    EXPECT_TRUE(wave.was_unexplained);
+    EXPECT_FALSE(wave.reads_colour);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/tracking_law.hpp"
 
 using namespace torquescope;
 
