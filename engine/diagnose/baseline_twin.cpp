@@ -158,12 +158,22 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   auto const attempt_in = [&](RecordedLoop loop) {
     return attempt(std::move(loop), reads_colour, record, pipeline, options, workers);
   };
+  // where the motion cannot tell friction from gravity both may be wrong and large: fed forward they throw the joint
+  auto const led_by_error = [&] { return attempt_in(tracking_loop(in_loop, {joint.inertia}, filter)); };
+  auto const led = [&] {
+    Attempt knowing = attempt_in(tracking_loop(in_loop, joint, filter));
+    return knowing.ran_away() ? led_by_error() : knowing;
+  };
   Attempt made = attempt_in(loop_to_try(in_loop, joint, pipeline.model(), filter, options.loop.get()));
-  if (decides && made.ran_away() && made.loop.source != LoopSource::tracking) {
-    made = attempt_in(tracking_loop(in_loop, joint, filter));
+  if (decides && made.ran_away() && made.loop.source == LoopSource::tracking) {
+    std::string const remark = made.loop.remark;
+    made = led_by_error();
+    made.loop.remark = remark;
+  } else if (decides && made.ran_away()) {
+    made = led();
     made.loop.remark = "the loop found in the recording does not hold the fitted joint; " + made.loop.remark;
   } else if (decides && made.law_is_too_poor()) {
-    Attempt tracking = attempt_in(tracking_loop(in_loop, joint, filter));
+    Attempt tracking = led();
     tracking.loop.remark = "twins in the loop found in the recording are louder than it; " + tracking.loop.remark;
     if (!tracking.ran_away()) made = std::move(tracking);
   }

@@ -52,18 +52,6 @@ double widest_of_encoder(Recording const& recording, double inertia) {
   return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
 }
 
-// Answers to the encoder's noise as loudly as the recording's torque is, at the most: what a loop says at one tick acts half
-// a tick later on average, and near the cut-off that is a mismatch of its own. But no softer than a tenth of the cut-off,
-// where twins would leave the motion
-double quietest_bandwidth(Recording const& recording, double inertia, double torque_noise,
-                          FilterOptions const& filter) {
-  constexpr double share_of_cutoff = 0.1;
-  double const position_noise = white_noise(recording.position);
-  double const per_hz = 4.0 * std::numbers::pi * std::numbers::sqrt2 * inertia * recording.rate_hz * position_noise;
-  double const quiet_hz = per_hz > 0.0 ? torque_noise / per_hz : std::numeric_limits<double>::infinity();
-  return std::max(quiet_hz, share_of_cutoff * filter.cutoff_hz);
-}
-
 // The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as the
 // filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it run away
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
@@ -121,13 +109,11 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
-  double const torque_noise = white_noise(recording.torque);
   double const bandwidth_hz =
-      std::min({bandwidth_share * recording.rate_hz, widest_of_encoder(recording, joint.inertia),
-                quietest_bandwidth(recording, joint.inertia, torque_noise, filter)});
+      std::min(bandwidth_share * recording.rate_hz, widest_of_encoder(recording, joint.inertia));
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);
   result.loop.law = tracking_law(joint, bandwidth_hz, {recording.rate_hz, slow});
-  result.loop.torque_noise = white(torque_noise);
+  result.loop.torque_noise = white(white_noise(recording.torque));
   result.remark = "twins follow the measured motion in a stiff loop of our own";
   return result;
 }

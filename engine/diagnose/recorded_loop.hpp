@@ -3,9 +3,10 @@
 //
 // Sources    identified       reference, position and torque obey one linear law with a white remainder
 //            approximated     they obey it with a remainder that is not white: twins carry the remainder's spectrum
-//            tracking         no reference: a stiff loop of our own (bandwidth 3 % of the rate, less where the encoder
-//                             would shake it more than the recording) follows the smoothed
-//                             measured motion, what the joint needs for it fed forward; good for most names, not calibrated for elasticity, payload and delay
+//            tracking         no reference: a stiff loop of our own (bandwidth 3 % of the rate, less where a step of the
+//                             encoder would ask for more than the recording's torque) follows the smoothed
+//                             measured motion, what the joint needs for it fed forward; good for most names, not
+//                             calibrated for elasticity, payload and delay
 // Noise      tracking: white torque noise from second differences, an upper bound while the torque itself bends; what it
 //            is in the band of the fit, and how slow, is measured with twins (torque_colour.hpp)
 // Ends       the motion that twins follow goes on as its odd reflection while it is smoothed: no accelerations of the filter's
