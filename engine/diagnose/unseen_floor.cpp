@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/diagnose/twin_batch.hpp"
@@ -18,24 +19,62 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
   return loop;
 }
 
-}  // namespace
+struct TwinResidual {
+  Eigen::VectorXd left;  // empty: it ran away
+  double torque = 0.0;   // norm
+};
 
-TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& parameters) {
-  RecordPipeline const pipeline = pipeline_for(setting, recording, stage.model());
+std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
+                                             ModelStage const& stage, RecordedLoop const& loop,
+                                             Eigen::VectorXd const& parameters, std::vector<Eigen::Index> const* rows) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  if (rows != nullptr) pipeline.restrict_to(*rows);
   CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());
-  std::vector<double> relerr(twin_lanes, unknown);
-  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, relerr.size(), setting.threads,
+  std::vector<TwinResidual> twins(twin_lanes);
+  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, twins.size(), setting.threads,
                 [&](VisitedTwin const& visited) {
                   if (visited.ran_away) return;
                   auto const& record = visited.record;
-                  relerr[visited.index] = (record.torque - record.columns * parameters).norm() / record.torque.norm();
+                  twins[visited.index] = {record.torque - record.columns * parameters, record.torque.norm()};
                 });
-  double sum = 0.0;
-  for (double one : relerr) sum += one;
-  if (!std::isfinite(sum)) return {};
-  return {sum / static_cast<double>(relerr.size()), *std::min_element(relerr.begin(), relerr.end())};
+  return twins;
+}
+
+// empty where one ran away
+Eigen::VectorXd mean_of(std::vector<TwinResidual> const& twins) {
+  Eigen::VectorXd sum = twins.front().left;
+  for (std::size_t i = 1; i < twins.size(); ++i) {
+    if (twins[i].left.size() == 0 || sum.size() == 0) return {};
+    sum += twins[i].left;
+  }
+  return sum / static_cast<double>(twins.size());
+}
+
+}  // namespace
+
+TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                              RecordedLoop const& loop, Eigen::VectorXd const& parameters,
+                              std::vector<Eigen::Index> const* rows) {
+  auto twins = residuals_of_twins(recording, setting, stage, loop, parameters, rows);
+  auto const n = static_cast<double>(twins.size());
+  double sum = 0.0, least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd const artefact = rows != nullptr ? mean_of(twins) : Eigen::VectorXd();
+  // a twin is nearer to a mean that it is in than the recording is
+  double const nearer = rows != nullptr ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
+  for (TwinResidual& twin : twins) {
+    if (twin.left.size() == 0) return {};
+    if (rows != nullptr) twin.left -= artefact;
+    double const relerr = nearer * twin.left.norm() / twin.torque;
+    sum += relerr;
+    least = std::min(least, relerr);
+  }
+  return {sum / n, least};
+}
+
+Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                                    RecordedLoop const& loop, std::vector<Eigen::Index> const& rows) {
+  return mean_of(residuals_of_twins(recording, setting, stage, loop, stage.parameters(), &rows));
 }
 
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop) {

@@ -7,8 +7,13 @@
 //            had there
 // No floor   a recording that leaves less than every one of its twins does not have their noise (one in 17 by chance): with neither
 //            law a floor is known
-// Units      1
+// Reversals  where rows at reversals stay in, the filtered velocity misplaces the sign of friction by a few samples, and what that makes
+//            of a complete model outweighs what a law of sticking explains. It is the same in twins, which reverse where the
+//            recording does: their mean residual is the artefact, taken out of the recording's residual and of their own
+// Units      1; artefact: N m or N
 // Threads    spreads twins over `threads`; same bits for any number
+
+#include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model_stage.hpp"
@@ -21,10 +26,16 @@ struct TwinErrors {
   double mean = unknown, least = unknown;
 };
 
-// the twins' own fits are not used: `parameters` predict them.  loop: not tracking
+// the twins' own fits are not used: `parameters` predict them.  loop: not tracking; rows: of the recording, when their artefact is
+// to be taken out; none: each twin's own
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& parameters);
+                              RecordedLoop const& loop, Eigen::VectorXd const& parameters,
+                              std::vector<Eigen::Index> const* rows = nullptr);
+
+// [rows]; empty where a twin ran away
+Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                                    RecordedLoop const& loop, std::vector<Eigen::Index> const& rows);
 
 // the law of training, led by another recording; sampled alike
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop);

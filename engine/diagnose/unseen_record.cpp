@@ -4,136 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
-#include "engine/diagnose/twin_batch.hpp"
 #include "engine/diagnose/unseen_floor.hpp"
-#include "engine/simulate/autoregression.hpp"
+#include "engine/diagnose/unseen_nuisances.hpp"
 
 namespace torquescope {
 namespace {
-
-// the training parameters, those of events taken out
-Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
-  Eigen::VectorXd parameters = stage.parameters();
-  auto const& effects = stage.model().effects();
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!effects[i].effect->is_event()) continue;
-    parameters
-        .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
-                 static_cast<Eigen::Index>(effects[i].effect->n_linear()))
-        .setZero();
-    nuisances.push_back(effects[i].effect->name() + " left out: its instant belongs to the training recording");
-  }
-  return parameters;
-}
-
-// rows of the head on which nuisances are refitted
-Eigen::Index head_rows(Eigen::Index rows) {
-  constexpr Eigen::Index head_share = 20, fewest = 50;
-  return std::min(rows, std::max(fewest, rows / head_share));
-}
-
-// a head that moves one way only cannot tell an offset from what friction is in that direction
-bool moves_both_ways(Eigen::VectorXd const& velocity) {
-  constexpr double fifth = 0.2;
-  Eigen::Index const n = head_rows(velocity.size());
-  auto const forward = (velocity.head(n).array() > 0.0).count();
-  return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
-}
-
-// mean of the head when it is beyond chance, else 0
-double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& velocity) {
-  constexpr double beyond = 3.0;
-  if (!moves_both_ways(velocity)) return 0.0;
-  Eigen::Index const n = head_rows(residual.size());
-  Eigen::VectorXd const head = residual.head(n);
-  double const mean = head.mean();
-  Eigen::VectorXd const apart = head.array() - mean;
-  // neighbours repeat each other: an autoregression of order 1 says how often
-  double const r = std::clamp(autocorrelation(apart, 1), 0.0, 0.99);
-  double const error =
-      std::sqrt(apart.squaredNorm() / static_cast<double>(n - 1) * (1.0 + r) / (1.0 - r) / static_cast<double>(n));
-  return std::abs(mean) > beyond * error ? mean : 0.0;
-}
-
-// whether a refit that leaves `least` of the head is beyond chance: three standard deviations; neighbours repeat each other
-bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double least) {
-  constexpr double beyond = 9.0;
-  double const r = std::clamp(autocorrelation(head, 1), 0.0, 0.99);
-  double const variance = least / static_cast<double>(head.size()) * (1.0 + r) / (1.0 - r);
-  return head.squaredNorm() - least > beyond * variance;
-}
-
-// Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its size
-// and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
-bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
-  constexpr int directions = 360;
-  Eigen::Index const n = head_rows(left.size());
-  Eigen::MatrixXd const head = wave.topRows(n);
-  Eigen::VectorXd const wanted = left.head(n) + head * amplitudes;
-  double const size = amplitudes.norm();
-  Eigen::Vector2d best = amplitudes;
-  double least = left.head(n).squaredNorm();
-  for (int k = 0; k < directions; ++k) {
-    double const angle = 2.0 * std::numbers::pi * k / directions;
-    Eigen::Vector2d const turned(size * std::cos(angle), size * std::sin(angle));
-    double const energy = (wanted - head * turned).squaredNorm();
-    if (energy >= least) continue;
-    least = energy;
-    best = turned;
-  }
-  if (!gains_beyond_chance(left.head(n), least)) return false;
-  amplitudes = best;
-  return true;
-}
-
-// a cosine and a sine, and nothing else
-bool is_plain_wave(Effect const& effect) { return effect.n_linear() == 2 && effect.n_shape() == 1 && effect.is_wave(); }
-
-void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
-                std::vector<std::string>& nuisances) {
-  auto const& effects = stage.model().effects();
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_plain_wave(*effects[i].effect)) continue;
-    auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
-    Eigen::VectorXd const left = record.torque - record.columns * parameters;
-    if (turn_phase(record.columns.middleCols(first, 2), left, parameters.segment(first, 2)))
-      nuisances.push_back("phase of " + effects[i].effect->name() + " refitted on the first 5 %");
-  }
-}
-
-// it runs down from the beginning of a recording, and nobody says how far it had when another one began
-bool is_of_the_clock(Effect const& effect) { return effect.family() == EffectFamily::time && !effect.is_event(); }
-
-// How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is beyond chance
-bool scale_to_head(Eigen::MatrixXd const& columns, Eigen::VectorXd const& left,
-                   Eigen::Ref<Eigen::VectorXd> parameters) {
-  Eigen::Index const n = head_rows(left.size());
-  Eigen::VectorXd const own = columns.topRows(n) * parameters, wanted = left.head(n) + own;
-  if (!(own.squaredNorm() > 0.0)) return false;
-  double const share = std::clamp(own.dot(wanted) / own.squaredNorm(), 0.0, 1.0);
-  double const least = (wanted - share * own).squaredNorm();
-  if (!gains_beyond_chance(left.head(n), least)) return false;
-  parameters *= share;
-  return true;
-}
-
-void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
-                  std::vector<std::string>& nuisances) {
-  auto const& effects = stage.model().effects();
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_of_the_clock(*effects[i].effect)) continue;
-    auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
-    auto const width = static_cast<Eigen::Index>(effects[i].effect->n_linear());
-    Eigen::VectorXd const left = record.torque - record.columns * parameters;
-    if (scale_to_head(record.columns.middleCols(first, width), left, parameters.segment(first, width)))
-      nuisances.push_back("how far " + effects[i].effect->name() + " had gone refitted on the first 5 %");
-  }
-}
 
 void check_rows(ProcessedRecord const& record, std::string const& name) {
   validate(static_cast<Eigen::Index>(record.kept_rows.size()) >= fewest_rows, [&] {
@@ -165,7 +45,8 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                        RecordedLoop const& loop, UnseenResult& result) {
   auto const errors_in = [&](RecordedLoop const& one) {
-    return unseen_twin_errors(recording, setting, stage, one, stage.parameters());
+    return unseen_twin_errors(recording, setting, stage, one, stage.parameters(),
+                              result.rows.empty() ? nullptr : &result.rows);
   };
   TwinErrors const own = errors_in(loop);
   result.promised = own.mean;
@@ -175,6 +56,79 @@ void account_for_twins(Recording const& recording, StageSetting const& setting, 
   RecordedLoop const& trained = stage.twin->loop;
   if (std::isfinite(result.floor) || result.twins_ran_away || trained.track.rate_hz != loop.track.rate_hz) return;
   result.floor = floor_below(relerr, errors_in(with_law_of(trained, loop)));
+}
+
+// what processing alone leaves of a complete model on given rows; empty: not taken out
+using Artefact = std::function<Eigen::VectorXd(ModelStage const& model, std::vector<Eigen::Index> const& rows)>;
+
+void take_out(Eigen::VectorXd const& artefact, Eigen::VectorXd& left) {
+  if (artefact.size() > 0) left -= artefact;
+}
+
+// with the artefact of the final model, which that effect changes little
+UnseenWithout without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
+                             Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
+  auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
+  auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
+  // what the other terms would have been fitted to without it
+  auto const& trained = augmented.comparison.recording;
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
+    if (k < first || k >= first + width) others.push_back(k);
+  Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
+  Eigen::VectorXd const bias = augmented.parameters() - trained.parameters;
+  Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
+  Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
+  take_out(artefact, left);
+  return {left.squaredNorm(), left.squaredNorm() - left_with.squaredNorm(), (left - left_with).squaredNorm()};
+}
+
+UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                         ModelStage const& augmented, Artefact const& artefact) {
+  UnseenPrediction result;
+  RecordPipeline const plain = pipeline_for(setting, recording, baseline.model());
+  RecordPipeline full = pipeline_for(setting, recording, augmented.model());
+  ProcessedRecord const before = plain.prepare(recording);
+  check_rows(before, recording.name);
+  full.restrict_to(before.kept_rows);
+  ProcessedRecord const after = full.prepare(recording);
+  Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
+  refit_on_head(augmented, after, parameters, result.nuisances);
+  Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
+  Eigen::VectorXd left_after = after.torque - after.columns * parameters;
+  Eigen::VectorXd of_before, of_after;
+  if (artefact) {
+    of_before = artefact(baseline, before.kept_rows);
+    of_after = artefact(augmented, before.kept_rows);
+    if (of_before.size() > 0 && of_after.size() > 0) result.rows = before.kept_rows;
+  }
+  if (!result.rows.empty()) {
+    take_out(of_before, left_before);
+    take_out(of_after, left_after);
+    result.nuisances.push_back("what the filters make of reversals, as twins have it, taken out of both residuals");
+  } else {
+    of_after = {};
+  }
+  Eigen::VectorXd const left_with = left_after;
+  Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
+  if (augmented.model().effects().empty()) {
+    left_after = left_before;  // one model: nothing to compare, nothing to refit
+  } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
+    left_after.array() -= offset;
+    result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
+    // the comparison must not gain by it: the baseline takes its own, or none if that is better
+    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
+    if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
+  }
+  result.energy = before.torque.squaredNorm();
+  result.before_energy = left_before.squaredNorm();
+  result.after_energy = left_after.squaredNorm();
+  result.moved_energy = (left_before - left_after).squaredNorm();
+  result.blocks = added_torque(left_before, left_after);
+  for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
+    result.without.push_back(without_effect(augmented, i, after, left_with, of_after));
+  result.trace = torque_trace(recording, plain, before, left_before, left_after);
+  return result;
 }
 
 }  // namespace
@@ -215,61 +169,21 @@ ForwardSimulation simulate_forward(Recording const& recording, std::optional<Rec
   return result;
 }
 
-UnseenPrediction predict_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
+UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented) {
-  Recording const recording = from_zero(given);
-  UnseenPrediction result;
-  RecordPipeline const plain = pipeline_for(setting, recording, baseline.model());
-  RecordPipeline full = pipeline_for(setting, recording, augmented.model());
-  ProcessedRecord const before = plain.prepare(recording);
-  check_rows(before, recording.name);
-  full.restrict_to(before.kept_rows);
-  ProcessedRecord const after = full.prepare(recording);
-  Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
-  turn_waves(augmented, after, parameters, result.nuisances);
-  scale_clocks(augmented, after, parameters, result.nuisances);
-  Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
-  Eigen::VectorXd left_after = after.torque - after.columns * parameters;
-  Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
-  if (augmented.model().effects().empty()) {
-    left_after = left_before;  // one model: nothing to compare, nothing to refit
-  } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
-    left_after.array() -= offset;
-    result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
-    // the comparison must not gain by it: the baseline takes its own, or none if that is better
-    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
-    if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
-  }
-  result.energy = before.torque.squaredNorm();
-  result.before_energy = left_before.squaredNorm();
-  result.after_energy = left_after.squaredNorm();
-  result.moved_energy = (left_before - left_after).squaredNorm();
-  result.blocks = added_torque(left_before, left_after);
-  for (std::size_t i = 0; i < augmented.model().effects().size(); ++i) {
-    auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(i));
-    auto const width = static_cast<Eigen::Index>(augmented.model().effects()[i].effect->n_linear());
-    // what the other terms would have been fitted to without it
-    auto const& trained = augmented.comparison.recording;
-    std::vector<Eigen::Index> others;
-    for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
-      if (k < first || k >= first + width) others.push_back(k);
-    Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
-    Eigen::VectorXd const bias = augmented.parameters() - trained.parameters;
-    Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
-    Eigen::VectorXd const left = after.torque - after.columns(Eigen::all, others) * refitted;
-    Eigen::VectorXd const left_with = after.torque - after.columns * parameters;
-    result.without.push_back(
-        {left.squaredNorm(), left.squaredNorm() - left_with.squaredNorm(), (left - left_with).squaredNorm()});
-  }
-  result.trace = torque_trace(recording, plain, before, left_before, left_after);
-  return result;
+  return predict(from_zero(recording), setting, baseline, augmented, {});
 }
 
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented) {
   Recording const recording = from_zero(given);
-  UnseenResult result{predict_unseen(given, setting, baseline, augmented)};
   auto const loop = loop_of(recording, augmented);
+  Artefact artefact;
+  if (loop && setting.keeps_reversals)
+    artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) {
+      return processing_artefact(recording, setting, model, *loop, rows);
+    };
+  UnseenResult result{predict(recording, setting, baseline, augmented, artefact)};
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {

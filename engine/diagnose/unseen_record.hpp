@@ -12,6 +12,8 @@
 // Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its share is
 //            refitted in the same way, between none and all
 // Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
+// Reversals  where their rows stay in and the recording's loop is known, residuals are those beyond the artefact of processing
+//            (unseen_floor.hpp), for both models
 // Promised   relerr of 16 twins of this recording under the final model, with the same parameters
 // Floor      the same where it is one (unseen_floor.hpp)
 // Units      SI
@@ -38,6 +40,8 @@ struct UnseenPrediction {
   std::vector<UnseenWithout> without{};  // per effect
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
+  // all of them, when what processing makes of a complete model at reversals was taken out of the residuals (unseen_floor.hpp)
+  std::vector<Eigen::Index> rows{};
 };
 
 struct UnseenResult : UnseenPrediction {

@@ -44,6 +44,21 @@ TEST_F(UnseenFloor, IsWhatACleanRecordingLeaves) {
   EXPECT_EQ(floor_below(1.1 * twins.mean, twins), twins.mean);
 }
 
+// at a reversal the filtered velocity has the sign of friction a few rows early or late
+TEST_F(UnseenFloor, WithRowsAtReversalsIsWithoutWhatFiltersMakeOfThem) {
+  setting.keeps_reversals = true;
+  RecordPipeline const pipeline = pipeline_for(setting, unseen, stage.model());
+  ProcessedRecord const record = pipeline.prepare(unseen);
+  Eigen::VectorXd const left = record.torque - record.columns * stage.parameters();
+  Eigen::VectorXd const artefact = processing_artefact(unseen, setting, stage, loop, record.kept_rows);
+  ASSERT_EQ(artefact.size(), left.size());
+  // the joint is complete: half and more of what is left is none of it
+  EXPECT_LT((left - artefact).norm(), 0.7 * left.norm());
+  double const relerr = (left - artefact).norm() / record.torque.norm();
+  TwinErrors const twins = unseen_twin_errors(unseen, setting, stage, loop, stage.parameters(), &record.kept_rows);
+  EXPECT_NEAR(twins.mean / relerr, 1.0, 0.2);
+}
+
 // a law that lacks something leaves a remainder that its twins have for noise
 TEST_F(UnseenFloor, IsThatOfTheTrainingLawWhereTheOwnOneIsTooLoud) {
   double const right = errors_in(loop).mean;
