@@ -104,12 +104,16 @@ Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& 
   Eigen::VectorXd parameters = stage.parameters();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!effects[i].effect->is_event()) continue;
+    Effect const& effect = *effects[i].effect;
+    bool const is_of_channel = is_of_the_clock(effect) && effect.acts_on() == ActsOn::recorded_torque;
+    if (!effect.is_event() && !is_of_channel) continue;
     parameters
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
-                 static_cast<Eigen::Index>(effects[i].effect->n_linear()))
+                 static_cast<Eigen::Index>(effect.n_linear()))
         .setZero();
-    nuisances.push_back(effects[i].effect->name() + " left out: its instant belongs to the training recording");
+    nuisances.push_back(effect.name() + (is_of_channel
+                                             ? " left out: where a channel's zero goes is another in each recording"
+                                             : " left out: its instant belongs to the training recording"));
   }
   return parameters;
 }

@@ -13,7 +13,7 @@
 
 namespace torquescope {
 
-// the parameters a prediction begins with: those of events are zero, and what was done is said in `nuisances`
+// the parameters a prediction begins with: those of events and of a channel that drifts are zero, and what was done is said in `nuisances`
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances);
 
 // phases of waves, and how far what runs with the clock had gone; record: unseen, prepared for that model

@@ -11,7 +11,8 @@
 //            deviations, size and order kept, and said so
 // Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its share is
 //            refitted in the same way, between none and all
-// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one
+// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one; and
+//            so is what the zero of a channel does with time
 // Reversals  where their rows stay in and the recording's loop is known, residuals are those beyond the artefact of processing
 //            (unseen_floor.hpp), for both models
 // Promised   relerr of 16 twins of this recording under the final model, with the same parameters
