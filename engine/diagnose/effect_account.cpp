@@ -47,7 +47,7 @@ Eigen::VectorXd whole_torque(ModelStage const& stage, CandidateColumns const& co
 Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const& torque) {
   Eigen::MatrixXd const own = stage.comparison.common.columns_themselves().leftCols(
       static_cast<Eigen::Index>(stage.model().regressor().size()));
-  return torque - own * solve_scaled(own, torque);
+  return beside_columns(own, torque);
 }
 
 // What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it is whatever

@@ -147,18 +147,18 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
     if (!scans[i].is_testable || q[i] > faint_q || scans[i].gain <= 0.0) continue;
     if (may_be_another_loop(*scans[i].effect, scans[i].gain)) continue;
     Eigen::VectorXd const torque = columns.plain_columns(*scans[i].effect, scans[i].shape) * scans[i].parameters;
-    largest = std::max(largest, (torque - model * solve_scaled(model, torque)).squaredNorm());
+    largest = std::max(largest, beside_columns(model, torque).squaredNorm());
   }
   return energy_share(stage(), largest);
 }
 
 // Of the whole that is missing, beyond noise. Weighed rows make little of what goes with friction that may wander
-double EffectSearch::share_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
+double EffectSearch::gain_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
   MismatchRows const rows = in_torque_itself(stage().comparison.rows);
   double const whole = mismatch_energy(in_torque_itself(selection_.baseline->comparison.rows)).excess;
   Eigen::MatrixXd const& model = stage().comparison.common.columns_themselves();
-  Eigen::VectorXd torque = columns.plain_columns(*refined.effect, refined.shape) * refined.parameters;
-  torque -= model * solve_scaled(model, torque);
+  Eigen::VectorXd const torque =
+      beside_columns(model, columns.plain_columns(*refined.effect, refined.shape) * refined.parameters);
   Eigen::VectorXd const mismatch = rows.residual - rows.twin_mean;
   double const gain = mismatch.squaredNorm() - (mismatch - torque).squaredNorm();
   return whole > 0.0 ? gain / whole : 0.0;
@@ -225,7 +225,7 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   bool const explains_enough = gain >= least_share_of_rest * remaining_ && gain >= least_share_of_whole * whole;
   // asked of the torque itself where weighed rows make little of the effect
   bool const is_large = effect->is_dry_friction() && effect->family() == EffectFamily::time &&
-                        share_in_torque_itself(columns, trial.refined) >= least_share_of_rest;
+                        gain_in_torque_itself(columns, trial.refined) >= least_share_of_rest;
   if (!explains_enough && !is_large)
     return fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_);
   if (may_be_another_loop(*effect, gain))

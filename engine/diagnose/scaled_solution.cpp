@@ -14,4 +14,8 @@ Eigen::MatrixXd solve_scaled(Eigen::MatrixXd columns, Eigen::Ref<Eigen::MatrixXd
   return per_length.asDiagonal() * Eigen::MatrixXd(columns.completeOrthogonalDecomposition().solve(signals));
 }
 
+Eigen::VectorXd beside_columns(Eigen::MatrixXd const& columns, Eigen::VectorXd const& signal) {
+  return signal - columns * solve_scaled(columns, signal);
+}
+
 }  // namespace torquescope

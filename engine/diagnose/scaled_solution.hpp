@@ -13,4 +13,7 @@ namespace torquescope {
 
 Eigen::MatrixXd solve_scaled(Eigen::MatrixXd columns, Eigen::Ref<Eigen::MatrixXd const> const& signals);
 
+// what no such combination imitates
+Eigen::VectorXd beside_columns(Eigen::MatrixXd const& columns, Eigen::VectorXd const& signal);
+
 }  // namespace torquescope
