@@ -1,5 +1,6 @@
 // A load behind a spring whose resonance lies in the band: the motion of a twin without it misleads about its shape, the recording's
-// own motion tells it. The two masses are integrated here, in small steps, by nothing of the engine's.
+// own motion tells it; and a soft loop that rings because its current comes late. Both are integrated here, in small steps, by nothing
+// of the engine's.
 
 #include "engine/diagnose/own_motion.hpp"
 
@@ -19,23 +20,30 @@ namespace {
 
 constexpr double load = 0.02, spring_hz = 9.0, spring_damping = 0.05;
 
-Recording recorded_with_a_soft_gear() {
+struct Machine {
+  double loop_hz = 12.0;
+  bool has_soft_gear = true;
+  double current_lag_s = 0.0;
+};
+
+Recording recorded(Machine const& machine) {
   constexpr double motor = 0.016, viscous = 0.164, coulomb = 0.4, offset = -0.125, rate_hz = 1000.0, seconds = 16.0;
   constexpr int steps = 40;
   constexpr double step_s = 1.0 / (rate_hz * steps), omega = 2.0 * std::numbers::pi * spring_hz;
   constexpr double stiffness = load * omega * omega, damping = 2.0 * spring_damping * load * omega;
-  constexpr double loop = 2.0 * std::numbers::pi * 12.0;
+  double const loop = 2.0 * std::numbers::pi * machine.loop_hz;
+  double const moved = machine.has_soft_gear ? motor : motor + load;
   double const encoder_step = 2.0 * std::numbers::pi / counts_per_revolution;
   RandomStream random({80, 0, RandomDomain::test}, 0, 0);
 
   Recording recording;
-  recording.name = "soft gear";
+  recording.name = "machine";
   recording.rate_hz = rate_hz;
   recording.rows.encoder_step = encoder_step;
   auto const n = static_cast<Eigen::Index>(seconds * rate_hz);
   for (auto* channel : {&recording.time_s, &recording.position, &recording.torque, &recording.reference})
     channel->resize(n);
-  double q = 0.0, dq = 0.0, q_load = 0.0, dq_load = 0.0, last = 0.0, last_wanted = 0.0;
+  double q = 0.0, dq = 0.0, q_load = 0.0, dq_load = 0.0, last = 0.0, last_wanted = 0.0, current = 0.0;
   for (Eigen::Index row = 0; row < n; ++row) {
     double const t = static_cast<double>(row) / rate_hz, ramp = std::min(1.0, t / 0.5);
     double wanted = std::sin(2.0 * t) + 0.4 * std::sin(5.3 * t);
@@ -51,11 +59,12 @@ Recording recorded_with_a_soft_gear() {
     recording.position[row] = measured;
     recording.torque[row] = torque + 0.004 * random.normal();
     for (int step = 0; step < steps; ++step) {
-      double const pull = stiffness * (q_load - q) + damping * (dq_load - dq);
-      double const free = torque + pull - viscous * dq - offset;
+      double const pull = machine.has_soft_gear ? stiffness * (q_load - q) + damping * (dq_load - dq) : 0.0;
+      current = machine.current_lag_s > 0.0 ? current + step_s * (torque - current) / machine.current_lag_s : torque;
+      double const free = current + pull - viscous * dq - offset;
       double const sense = dq != 0.0 ? std::copysign(1.0, dq) : std::copysign(1.0, free);
       double const before = dq;
-      if (dq != 0.0 || std::abs(free) > coulomb) dq += step_s * (free - sense * coulomb) / motor;
+      if (dq != 0.0 || std::abs(free) > coulomb) dq += step_s * (free - sense * coulomb) / moved;
       if (before * dq < 0.0) dq = 0.0;
       q += step_s * dq;
       dq_load -= step_s * pull / load;
@@ -71,7 +80,9 @@ class OwnMotion : public testing::Test {
     return scan_candidates(columns.twin, {find_effect(effect)}, 2).front();
   }
 
-  Recording const recording = recorded_with_a_soft_gear();
+  explicit OwnMotion(Machine const& machine = {}) : recording(recorded(machine)) {}
+
+  Recording const recording;
   FilterOptions const filter = clean_filter();
   Section const section{};
   StageSetting const setting{recording, clean_regressor(), filter, section, 64, 1, 2};
@@ -90,6 +101,22 @@ TEST_F(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
   EXPECT_NEAR(own->shape[1], spring_damping, 0.1 * spring_damping);
   EXPECT_NEAR(own->parameters[0], load, 0.05 * load);
   EXPECT_GT(std::abs(by_twin.shape[0] - spring_hz), 0.05 * spring_hz) << "then nothing was hidden";
+}
+
+constexpr double current_lag_s = 0.012;
+
+class OwnMotionOfALateCurrent : public OwnMotion {
+ protected:
+  OwnMotionOfALateCurrent() : OwnMotion({5.0, false, current_lag_s}) {}
+};
+
+TEST_F(OwnMotionOfALateCurrent, HasTheRingingThatATwinsMotionLacks) {
+  EffectScan const scan = scan_of("actuator_lag");
+  auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
+  ASSERT_TRUE(own);
+  // the law has no shape to look for, and what it explains is looked for all the same
+  EXPECT_GT(own->gain, 1.2 * scan.gain);
+  EXPECT_NEAR(own->parameters[0], current_lag_s, 0.25 * current_lag_s);
 }
 
 TEST_F(OwnMotion, IsNotAskedOfALawWithoutMemory) {
