@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -145,7 +146,7 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
   double largest = 0.0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i].is_testable || q[i] > faint_q || scans[i].gain <= 0.0) continue;
-    if (may_be_another_loop(*scans[i].effect, scans[i].gain)) continue;
+    if (may_be_another_loop(*scans[i].effect, scans[i].gain, scans[i].parameters)) continue;
     Eigen::VectorXd const torque = columns.plain_columns(*scans[i].effect, scans[i].shape) * scans[i].parameters;
     largest = std::max(largest, beside_columns(model, torque).squaredNorm());
   }
@@ -212,11 +213,15 @@ bool EffectSearch::is_taken(Effect const* effect) const {
 }
 
 // Twins that follow a measured motion answer the noise of their encoder in another loop than the recording's, half a tick late
-// as it does, and are led through reversals by it: what is faint there, or follows the acceleration, may be a difference of loops
-bool EffectSearch::may_be_another_loop(Effect const& effect, double gain) const {
-  bool const is_of_loop = effect.family() == EffectFamily::acceleration || effect.family() == EffectFamily::reversal;
-  return is_of_loop && setting_.loop->source == LoopSource::tracking &&
-         energy_share(stage(), gain) <= smallest_mismatch_share;
+// as it does, and are led through reversals by it: what is faint there, or follows the acceleration, may be a difference of loops;
+// so may a time of less than a row, however clear it is
+bool EffectSearch::may_be_another_loop(Effect const& effect, double gain, Eigen::VectorXd const& parameters) const {
+  bool const follows_acceleration = effect.family() == EffectFamily::acceleration;
+  if (setting_.loop->source != LoopSource::tracking) return false;
+  if (follows_acceleration && effect.parameters().front().unit_revolute == "s")
+    return std::abs(parameters[0]) * setting_.recording.rate_hz < 1.0;
+  bool const is_of_loop = follows_acceleration || effect.family() == EffectFamily::reversal;
+  return is_of_loop && energy_share(stage(), gain) <= smallest_mismatch_share;
 }
 
 std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns, Trial& trial) const {
@@ -228,8 +233,8 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
                         gain_in_torque_itself(columns, trial.refined) >= least_share_of_rest;
   if (!explains_enough && !is_large)
     return fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_);
-  if (may_be_another_loop(*effect, gain))
-    return "is too faint to be told, without a reference, from what another loop does";
+  if (may_be_another_loop(*effect, gain, trial.refined.parameters))
+    return "is too small to be told, where twins have no loop of the recording's, from what another loop does";
   if (!effect->is_plausible(trial.refined.shape, columns.scales())) return "its best shape is none that it could have";
   RegionConsistency const region = region_of(columns, trial.refined);
   trial.region_share = region.share;

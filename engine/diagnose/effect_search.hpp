@@ -60,7 +60,7 @@ class EffectSearch {
   void prefer_own_motion(CandidateColumns const& own, Trial& trial);
   std::optional<ModelStage> draft_of(Trial const& trial) const;
   bool is_taken(Effect const* effect) const;
-  bool may_be_another_loop(Effect const& effect, double gain) const;
+  bool may_be_another_loop(Effect const& effect, double gain, Eigen::VectorXd const& parameters) const;
   // why the projection speaks against it; measures the trial's region
   std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;
   RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const;
