@@ -1,6 +1,7 @@
 #include "engine/diagnose/block_jackknife.hpp"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/base/contract.hpp"
@@ -15,13 +16,14 @@ struct Block {
   Eigen::Index from = 0, to = 0;
 };
 
-Eigen::VectorXd fit_without(Block const& block, Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns) {
+Eigen::VectorXd fit_without(Block const& block, Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                            CoefficientBounds const& bounds) {
   Eigen::Index const after = signal.size() - block.to;
   Eigen::MatrixXd rest(block.from + after, columns.cols());
   rest << columns.topRows(block.from), columns.bottomRows(after);
   Eigen::VectorXd left(block.from + after);
   left << signal.head(block.from), signal.tail(after);
-  return solve_scaled(std::move(rest), left);
+  return solve_scaled(rest, left, bounds);
 }
 
 double spread(std::vector<double> const& values) {
@@ -36,12 +38,20 @@ double spread(std::vector<double> const& values) {
 }  // namespace
 
 Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return jackknife_deviations(
+      signal, columns,
+      {Eigen::VectorXd::Constant(columns.cols(), -infinity), Eigen::VectorXd::Constant(columns.cols(), infinity)});
+}
+
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds) {
   TORQUESCOPE_EXPECT(signal.size() >= n_blocks && columns.rows() == signal.size());
   Eigen::RowVectorXd const energy = columns.colwise().squaredNorm();
   std::vector<std::vector<double>> found(static_cast<std::size_t>(columns.cols()));
   for (Eigen::Index b = 0; b < n_blocks; ++b) {
     Block const block{signal.size() * b / n_blocks, signal.size() * (b + 1) / n_blocks};
-    Eigen::VectorXd const fit = fit_without(block, signal, columns);
+    Eigen::VectorXd const fit = fit_without(block, signal, columns, bounds);
     Eigen::RowVectorXd const inside = columns.middleRows(block.from, block.to - block.from).colwise().squaredNorm();
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
       if (inside[k] <= 0.5 * energy[k]) found[static_cast<std::size_t>(k)].push_back(fit[k]);

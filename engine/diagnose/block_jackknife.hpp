@@ -13,11 +13,16 @@
 
 #include <Eigen/Core>
 
+#include "engine/diagnose/scaled_solution.hpp"
+
 namespace torquescope {
 
 // of Student's t with 9 degrees of freedom, two-sided 95 %
 inline constexpr double jackknife_quantile = 2.262;
 
 Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns);
+// of coefficients that stay within bounds
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds);
 
 }  // namespace torquescope

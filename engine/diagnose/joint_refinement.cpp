@@ -31,7 +31,9 @@ ShapeSteps stepped(ModelStage const& stage) {
     for (std::size_t k = 0; k < shaped.shape.size(); ++k, ++at) {
       // a linear step must not leave the neighbourhood it was made in
       double const unit = to_unit(ranges[k], shaped.shape[k]);
-      double const next = to_unit(ranges[k], std::max(shaped.shape[k] + step[at], 1e-3 * shaped.shape[k]));
+      double next = shaped.shape[k] + step[at];
+      if (ranges[k].spacing == Spacing::logarithmic) next = std::max(next, 1e-3 * shaped.shape[k]);  // not below 0
+      next = to_unit(ranges[k], next);
       constexpr double longest = 0.1;  // of the bounds
       double const moved = std::clamp(std::isfinite(next) ? next : unit, unit - longest, unit + longest);
       double const value = from_unit(ranges[k], moved);

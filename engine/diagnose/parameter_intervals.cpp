@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/diagnose/block_jackknife.hpp"
 #include "engine/diagnose/bounded_projection.hpp"
@@ -15,11 +16,42 @@ ParameterEstimate estimate(std::string name, std::string unit, double value, dou
   return {std::move(name), std::move(unit), value, value - half, value + half};
 }
 
+// how far shapes can go inside their bounds from where they are
+CoefficientBounds room_of(ModelStage const& stage, CandidateColumns const& columns) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Eigen::Index at = columns.model_columns().cols();
+  Eigen::Index const n = at + columns.tangents().cols();
+  CoefficientBounds room{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
+  for (auto const& [effect, shape] : stage.model().effects()) {
+    auto const ranges = effect->shape_bounds(columns.scales());
+    for (std::size_t k = 0; k < shape.size(); ++k, ++at) {
+      room.lower[at] = std::min(0.0, ranges[k].lower - shape[k]);
+      room.upper[at] = std::max(0.0, ranges[k].upper - shape[k]);
+    }
+  }
+  return room;
+}
+
+// torque of twins apart from their mean: what the twin's own fit took up is put back, residual + columns (fit - mean fit)
+Eigen::MatrixXd twins_apart(ModelStage const& stage, CandidateColumns const& columns) {
+  auto const& rows = stage.comparison.rows;
+  Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
+  return (rows.twins.colwise() - rows.twin_mean) +
+         columns.model_columns() * (fits.colwise() - fits.rowwise().mean().eval());
+}
+
+Eigen::VectorXd deviations_of(Eigen::MatrixXd const& steps) {
+  auto const m = static_cast<double>(steps.cols());
+  return (steps.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
+}
+
 // half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   constexpr double two_sided = 1.96;
-  Eigen::VectorXd const chance = two_sided * parameter_deviations(stage, columns);
-  Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), columns.with_tangents());
+  CoefficientBounds const room = room_of(stage, columns);
+  Eigen::MatrixXd const all = columns.with_tangents();
+  Eigen::VectorXd const chance = two_sided * deviations_of(solve_scaled(all, twins_apart(stage, columns), room));
+  Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), all, room);
   return chance.cwiseMax(blocks);
 }
 
@@ -67,14 +99,7 @@ void drop_fixed(std::vector<ParameterEstimate>& estimates, Effect const& effect,
 }  // namespace
 
 Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns const& columns) {
-  auto const& rows = stage.comparison.rows;
-  // what the twin's own fit took up is put back: residual + columns (fit - mean fit)
-  Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
-  Eigen::MatrixXd const apart = (rows.twins.colwise() - rows.twin_mean) +
-                                columns.model_columns() * (fits.colwise() - fits.rowwise().mean().eval());
-  Eigen::MatrixXd const moved = solve_scaled(columns.with_tangents(), apart);
-  auto const m = static_cast<double>(rows.n_twins());
-  return (moved.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
+  return deviations_of(solve_scaled(columns.with_tangents(), twins_apart(stage, columns)));
 }
 
 ModelEstimate estimate_parameters(ModelStage const& stage) {

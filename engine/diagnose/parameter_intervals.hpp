@@ -4,6 +4,8 @@
 // Equation   deviation of twin t = [columns | tangents]^+ (its torque - columns * the truth it was simulated with);
 //            interval = value -+ the larger of 1.96 standard deviations over twins * sqrt(1 + 1/M) and 2.26 of the block
 //            jackknife on the recording's own mismatch (block_jackknife.hpp): a law that is not quite the joint's is no chance
+//            Shapes stay inside their bounds, in every twin and without every block, as they do in the fit: what they cannot be
+//            moves no other parameter
 //            Instants and places: as far as their profile goes where that is further (profiled_interval.hpp)
 // Value      corrected for the bias of processing (baseline_correction.hpp); shapes by the last step of joint_refinement.hpp
 // Threads    free function
@@ -21,7 +23,7 @@ struct ModelEstimate {
   std::vector<std::vector<ParameterEstimate>> effects{};  // of each effect: linear ones, then shapes
 };
 
-// standard deviation over twins: columns of the model first, then one per tangent
+// standard deviation over twins, bounds or not: columns of the model first, then one per tangent
 Eigen::VectorXd parameter_deviations(ModelStage const& stage, CandidateColumns const& columns);
 
 ModelEstimate estimate_parameters(ModelStage const& stage);

@@ -16,4 +16,14 @@ Eigen::MatrixXd solve_scaled(Eigen::MatrixXd columns, Eigen::Ref<Eigen::MatrixXd
 // what no such combination imitates
 Eigen::VectorXd beside_columns(Eigen::MatrixXd const& columns, Eigen::VectorXd const& signal);
 
+// coefficients between lower and upper, k each, infinite ones allowed; lower <= 0 <= upper
+struct CoefficientBounds {
+  Eigen::VectorXd lower, upper;
+};
+
+// the same where no coefficient may leave its bounds: those that would are held there, the most misplaced one first, and the
+// others solved again, until none would leave or gain by coming back (active set: Stark, Parker 1995)
+Eigen::MatrixXd solve_scaled(Eigen::MatrixXd const& columns, Eigen::Ref<Eigen::MatrixXd const> const& signals,
+                             CoefficientBounds const& bounds);
+
 }  // namespace torquescope

@@ -35,6 +35,7 @@ class Refinement {
 
   RefinedEffect take() && {
     best_.gain -= noise_at(best_.shape);
+    if (effect_.has_plain_form()) best_.plain_gain = gain_at({}).gain - noise_at({});
     return std::move(best_);
   }
 

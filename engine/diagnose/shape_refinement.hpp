@@ -39,6 +39,7 @@ struct RefinedEffect {
   std::vector<double> shape{};
   Eigen::VectorXd parameters{};  // linear
   double gain = 0.0;             // energy of `mismatch` explained, signs kept, less what noise alone gives there
+  double plain_gain = 0.0;       // the same of its form without shapes, where it has one
   std::int64_t evaluations = 0;
   // whenever a shape explained more: evaluations until then, and what it explains before chance is taken off
   struct Improvement {

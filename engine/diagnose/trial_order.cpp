@@ -18,6 +18,12 @@ void prefer_what_repeats(std::vector<Trial>& trials) {
   }
 }
 
+// of the simplest form that gives `enough`
+std::size_t parameters_of(RefinedEffect const& refined, double enough) {
+  bool const is_plain = refined.effect->has_plain_form() && refined.plain_gain >= enough;
+  return is_plain ? refined.effect->n_linear() : refined.effect->parameters().size();
+}
+
 void prefer_the_simpler(std::vector<Trial>& trials) {
   constexpr double nearly_all = 0.97;
   if (trials.empty()) return;
@@ -25,9 +31,9 @@ void prefer_the_simpler(std::vector<Trial>& trials) {
   auto const last = std::find_if(trials.begin(), trials.end(), [&](Trial const& trial) {
     return trial.refined.gain < enough || is_event(trial) != is_event(trials.front());
   });
-  std::stable_sort(trials.begin(), last, [](Trial const& a, Trial const& b) {
+  std::stable_sort(trials.begin(), last, [enough](Trial const& a, Trial const& b) {
     if (a.is_named != b.is_named) return a.is_named;
-    return a.refined.effect->parameters().size() < b.refined.effect->parameters().size();
+    return parameters_of(a.refined, enough) < parameters_of(b.refined, enough);
   });
 }
 

@@ -3,7 +3,8 @@
 //
 // Order      most gain first. Something that acts all the time and explains, on blocks it was not fitted to, half as much and no less
 //            than what happens once does there comes before that, for it fits any one peak. Among those that give 97 %
-//            of the first one's gain, another wave of what is named already first, then fewer parameters
+//            of the first one's gain, another wave of what is named already first, then fewer parameters,
+//            those of a law's plain form (Effect::has_plain_form) where that gives as much
 // Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so that its
 //            spread says nothing
 // Threads    free functions

@@ -60,7 +60,7 @@ std::vector<ParameterRange> Effect::linear_bounds(JointScales const& scales) con
 }
 
 bool Effect::is_plain_term() const {
-  return n_shape() == 0 && !has_memory() && !needs_baseline() && acts_on() == ActsOn::joint;
+  return takes_shape(0) && !has_memory() && !needs_baseline() && acts_on() == ActsOn::joint;
 }
 
 double Effect::torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const {

@@ -110,6 +110,7 @@ struct EffectDescription {
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
   bool is_level_free =
       false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
+  std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
 };
 
 class Effect {
@@ -131,6 +132,8 @@ class Effect {
   bool needs_baseline() const { return description_.needs_baseline; }
   bool is_dry_friction() const { return description_.is_dry_friction; }
   bool is_level_free() const { return description_.is_level_free; }
+  std::string const& plain_equation() const { return description_.plain_equation; }
+  bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;
   // false: the law can be computed there, but would be something else than its name says; n_shape()
   virtual bool is_plausible(std::span<double const> shape, JointScales const& scales) const;
@@ -142,12 +145,14 @@ class Effect {
   bool is_wave() const;  // of an order or a frequency: several may be there at once, each stands for itself
   std::vector<ParameterRange> shape_bounds(JointScales const&) const;   // n_shape()
   std::vector<ParameterRange> linear_bounds(JointScales const&) const;  // n_linear()
-  // least squares can fit it and a plant can hold it as it is: no shape, no memory, nothing but the motion
+  // n_shape() numbers, or none where that is the plain form
+  bool takes_shape(std::size_t numbers) const { return numbers == n_shape() || (has_plain_form() && numbers == 0); }
+  // least squares can fit it and a plant can hold it as it is: no shape or a plain form, no memory, nothing but the motion
   bool is_plain_term() const;
 
   virtual void columns(EffectInput const& input, std::span<double const> shape,
                        Eigen::Ref<Eigen::MatrixXd> out) const = 0;
-  // all parameters, linear ones first
+  // all parameters, linear ones first; without shapes: the plain form
   virtual std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const = 0;
   // torque at one instant; of an effect with memory, as if it began here; sign(0) = 0
   virtual double torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const;

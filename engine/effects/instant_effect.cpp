@@ -25,7 +25,7 @@ class InstantRunner final : public EffectRunner {
 
 void InstantEffect::columns(EffectInput const& input, std::span<double const> shape,
                             Eigen::Ref<Eigen::MatrixXd> out) const {
-  TORQUESCOPE_EXPECT(shape.size() == n_shape());
+  TORQUESCOPE_EXPECT(takes_shape(shape.size()));
   TORQUESCOPE_EXPECT(out.rows() == input.size() && out.cols() == static_cast<Eigen::Index>(n_linear()));
   static Eigen::ArrayXd const nothing = Eigen::ArrayXd::Zero(states_at_once);
   for (Eigen::Index first = 0; first < input.size(); first += states_at_once) {
@@ -42,7 +42,7 @@ void InstantEffect::columns(EffectInput const& input, std::span<double const> sh
 
 std::unique_ptr<EffectRunner> InstantEffect::runner(std::span<double const> parameters,
                                                     JointScales const& scales) const {
-  TORQUESCOPE_EXPECT(parameters.size() == n_linear() + n_shape());
+  TORQUESCOPE_EXPECT(parameters.size() >= n_linear() && takes_shape(parameters.size() - n_linear()));
   return std::make_unique<InstantRunner>(*this, parameters, scales);
 }
 
@@ -55,7 +55,7 @@ double InstantEffect::torque(JointState const& state, std::span<double const> pa
 
 void InstantEffect::torques(JointStates const& at, std::span<double const> parameters, JointScales const& scales,
                             std::span<double> out) const {
-  TORQUESCOPE_EXPECT(parameters.size() == n_linear() + n_shape());
+  TORQUESCOPE_EXPECT(parameters.size() >= n_linear() && takes_shape(parameters.size() - n_linear()));
   TORQUESCOPE_EXPECT(at.size() <= states_at_once && out.size() == static_cast<std::size_t>(at.size()));
   std::array<double, 8 * states_at_once> values;
   Eigen::Map<Eigen::ArrayXXd> columns(values.data(), at.size(), static_cast<Eigen::Index>(n_linear()));

@@ -54,6 +54,8 @@ double bound_value(Bound const& bound, JointScales const& scales) {
       return f * scales.position_range;
     case RelativeTo::position:
       return scales.position_centre + f * scales.position_range;
+    case RelativeTo::range_inverse2:
+      return f / (scales.position_range * scales.position_range);
     case RelativeTo::resolution:
       return f * scales.resolution();
     case RelativeTo::duration:
@@ -129,6 +131,9 @@ std::string bound_text(Bound const& bound) {
       break;
     case RelativeTo::position:
       scale = " x position range from its centre";
+      break;
+    case RelativeTo::range_inverse2:
+      scale = " / position range^2";
       break;
     case RelativeTo::resolution:
       scale = " x encoder step";

@@ -54,6 +54,7 @@ enum class RelativeTo {
   peak_speed,            // rad/s
   position_range,        // rad
   position,              // a place: centre + factor * range; -0.5 and 0.5 are the ends of the travel
+  range_inverse2,        // 1/rad2
   resolution,            // rad: encoder step
   duration,              // s
   instant,               // a time: start + factor * duration

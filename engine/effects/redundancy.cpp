@@ -38,9 +38,9 @@ std::vector<Column> columns_of(std::vector<Effect const*> const& terms) {
   std::vector<Column> columns;
   for (auto const* effect : terms) {
     auto const& parameters = effect->parameters();
-    Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(parameters.size()));
+    Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(effect->n_linear()));
     effect->columns({motion}, {}, phi);
-    for (std::size_t k = 0; k < parameters.size(); ++k)
+    for (std::size_t k = 0; k < effect->n_linear(); ++k)
       columns.push_back({parameters[k].name, effect->name(), phi.col(static_cast<Eigen::Index>(k))});
   }
   return columns;

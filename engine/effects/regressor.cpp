@@ -65,7 +65,7 @@ Problem needs_an_angle(Section const& model, Effect const& effect) {
 
 // which of q, dq, ddq a column depends on: asked of the effect itself, so that no second table can disagree
 void find_needs(RegressorColumn& column, Effect const& effect, std::size_t index) {
-  std::vector<double> unit(effect.parameters().size(), 0.0);
+  std::vector<double> unit(effect.n_linear(), 0.0);
   unit[index] = 1.0;
   auto const torque = [&](JointState const& state) { return effect.torque(state, unit, {}); };
   JointState const base{0.0, 0.4, -0.7, 0.9};
@@ -116,7 +116,7 @@ Regressor::Regressor(std::vector<std::string> const& terms, JointKind joint, dou
   // effects -> columns
   for (std::size_t term = 0; term < terms_.size(); ++term) {
     auto const& parameters = terms_[term]->parameters();
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
+    for (std::size_t k = 0; k < terms_[term]->n_linear(); ++k) {
       RegressorColumn column{parameters[k].name, parameters[k].unit_for(joint), term};
       find_needs(column, *terms_[term], k);
       columns_.push_back(std::move(column));
@@ -145,7 +145,9 @@ std::vector<std::string> Regressor::units() const {
 
 std::string Regressor::equation() const {
   std::string text = joint_ == JointKind::revolute ? "tau =" : "F =";
-  for (auto const* effect : terms_) text += (effect == terms_.front() ? " " : " + ") + effect->equation();
+  for (auto const* effect : terms_)
+    text += (effect == terms_.front() ? " " : " + ") +
+            (effect->has_plain_form() ? effect->plain_equation() : effect->equation());
   return text;
 }
 
@@ -169,7 +171,7 @@ Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
   in_huge_pages(phi);
   Eigen::Index first = 0;
   for (std::size_t term = 0; term < terms_.size(); ++term) {
-    auto const count = static_cast<Eigen::Index>(terms_[term]->parameters().size());
+    auto const count = static_cast<Eigen::Index>(terms_[term]->n_linear());
     columns_of_term(motion, term, phi.middleCols(first, count));
     first += count;
   }
@@ -181,7 +183,7 @@ double Regressor::torque(JointState const& state, std::span<double const> parame
   double torque = 0.0;
   std::size_t first = 0;
   for (auto const* effect : terms_) {
-    auto const count = effect->parameters().size();
+    auto const count = effect->n_linear();
     auto seen = state;
     seen.dq = seen_velocity(*effect, state.dq);
     torque += effect->torque(seen, parameters.subspan(first, count), {});

@@ -56,7 +56,8 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
         fmt::format("signature  {}; {} in the velocity", joined(effect->signature()),
                     effect->parity() == Parity::neither ? "neither odd nor even" : word(effect->parity())));
     entry.text.push_back(fmt::format("acts on    {}{}", word(effect->acts_on()),
-                                     effect->is_plain_term() ? "; may be a term of [model]" : ""));
+                                     effect->is_plain_term() ? "; may be a term of [model]" : "") +
+                         (effect->has_plain_form() ? fmt::format(", there {}", effect->plain_equation()) : ""));
     if (is_time_of_a_channel(*effect))
       entry.text.push_back(
           "counted    from a drive that holds the torque of a row until the next row; where rows are instants it is "

@@ -147,7 +147,8 @@ class CatalogueEffect final : public LaneEffect {
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneJoint const& baseline) {
-  TORQUESCOPE_EXPECT(parameters.size() == effect.parameters().size());
+  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear());
+  TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
   return [&effect, parameters = std::move(parameters), scales, baseline] {
     return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline);
   };

@@ -27,6 +27,7 @@ std::optional<double> finite_number(Section const& section, Setting const& setti
 void check_shape(Section const& section, Effect const& effect, EffectParameter const& shape, double value,
                  std::vector<Problem>& problems) {
   if (!section.find(shape.name)) {
+    if (effect.has_plain_form()) return;
     problems.push_back(problem_at(
         section, shape.name, fmt::format("effect \"{}\" needs its parameter {}", effect.name(), shape.name),
         fmt::format("a recording is searched from {} to {}", bound_text(shape.lower), bound_text(shape.upper))));

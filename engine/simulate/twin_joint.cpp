@@ -49,7 +49,7 @@ TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& par
   joint.lanes.inertia = 0.0;
   double const* value = parameters.data();
   for (auto const* effect : regressor.terms()) {
-    std::size_t const count = effect->parameters().size();
+    std::size_t const count = effect->n_linear();
     // a term of [model] needs nothing but the motion, so no scales of the data either
     if (!place(joint, effect->name(), value))
       joint.effects.push_back(lane_effect(*effect, {value, value + count}, JointScales{}));

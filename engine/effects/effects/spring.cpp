@@ -1,10 +1,16 @@
 // Spring or counterbalance across the joint.
 //
-// Equation   tau = k q; the torque at q = 0 is the baseline's offset
-// Parameters spring k [N m/rad; N/m]; negative: a counterbalance past its dead centre
-// Signature  position: a straight line, even in the velocity
-// Confused   gravity while the travel is below 60 degrees
-// Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots
+// Equation   tau = k q + k h (q - q_0)^3; the torque at q = 0 is the baseline's offset. As a term of a model: k q
+// Parameters spring k [N m/rad; N/m]: stiffness at rest; negative: a counterbalance past its dead centre
+//            spring_hardening h >= 0 [1/rad2; 1/m2]: at x from rest it is 1 + 3 h x^2 times as stiff; 0: straight, and then no
+//            place is its rest. Seven times at the far end of the travel at most: what is stiffer there is an end_stop
+//            spring_rest q_0 [rad; m]: on the travel
+// Softening  is the sine of `gravity`: a link and a counterbalance soften away from their equilibrium, coils and rubber harden
+// Why        a straight line through a spring that hardens has another stiffness on every travel
+// Signature  position: a line, straight or with a cubic, even in the velocity
+// Confused   gravity while the travel is below 60 degrees; cable, which has a loop
+// Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots; hardening: Duffing 1918; Nayfeh, Mook 1979,
+//            Nonlinear Oscillations, section 1.1
 
 #include "engine/effects/instant_effect.hpp"
 
@@ -14,24 +20,33 @@ namespace {
 class Spring final : public InstantEffect {
  public:
   Spring()
-      : InstantEffect({.name = "spring",
-                       .title = "spring or counterbalance across the joint",
-                       .equation = "k q",
-                       .source = "Khalil, Dombre 2002, Modeling, Identification and Control of Robots",
-                       .separated_by = "slow motion over more than 120 degrees, or two orientations of the base",
-                       .parameters = {{"spring",
-                                       "N m/rad",
-                                       "N/m",
-                                       {-5.0, RelativeTo::torque_per_range},
-                                       {5.0, RelativeTo::torque_per_range}}},
-                       .families = {EffectFamily::static_position},
-                       .signature = {SignatureAxis::position},
-                       .parity = Parity::even,
-                       .is_level_free = true}) {}
+      : InstantEffect(
+            {.name = "spring",
+             .title = "spring or counterbalance across the joint",
+             .equation = "k q + k h (q - q_0)^3",
+             .source = "Khalil, Dombre 2002, Modeling, Identification and Control of Robots; Duffing 1918 (hardening)",
+             .separated_by = "slow motion over more than 120 degrees, or two orientations of the base",
+             .parameters = {{"spring",
+                             "N m/rad",
+                             "N/m",
+                             {-5.0, RelativeTo::torque_per_range},
+                             {5.0, RelativeTo::torque_per_range}},
+                            shape_parameter("spring_hardening", "1/rad2", "1/m2", {0.0},
+                                            {2.0, RelativeTo::range_inverse2}, Spacing::linear),
+                            shape_parameter("spring_rest", "rad", "m", {-0.5, RelativeTo::position},
+                                            {0.5, RelativeTo::position}, Spacing::linear)},
+             .families = {EffectFamily::static_position},
+             .signature = {SignatureAxis::position},
+             .parity = Parity::even,
+             .is_level_free = true,
+             .plain_equation = "k q"}) {}
 
  private:
-  void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {
+  void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
     out.col(0) = at.q;
+    if (shape.empty()) return;
+    Scratch const x = at.q - shape[1];
+    out.col(0) += shape[0] * x * x.square();
   }
 };
 

@@ -55,6 +55,16 @@ TEST(TrialOrder, FewerParametersWinWhenTheyExplainNearlyAsMuch) {
             (Names{"stribeck", "asymmetric_viscous"}));
 }
 
+// a straight spring is one number, whatever one that hardens could be
+TEST(TrialOrder, ALawThatIsPlainHereCountsAsItsPlainForm) {
+  ASSERT_LT(find_effect("gravity")->parameters().size(), find_effect("spring")->parameters().size());
+  Trial spring = trial("spring", 0.98, 0.98);
+  spring.refined.plain_gain = 0.97;
+  EXPECT_EQ(names(in_order_of_trial({trial("gravity", 1.0, 1.0), spring})), (Names{"spring", "gravity"}));
+  spring.refined.plain_gain = 0.96;
+  EXPECT_EQ(names(in_order_of_trial({trial("gravity", 1.0, 1.0), spring})), (Names{"gravity", "spring"}));
+}
+
 TEST(TrialOrder, AnotherWaveOfWhatIsNamedComesBeforeANewNameThatExplainsAsMuch) {
   ASSERT_LT(find_effect("cogging")->parameters().size(),
             find_effect("position_dependent_friction")->parameters().size());

@@ -27,6 +27,18 @@ TEST(Gravity, IsTheSlopeOfAPotential) {
   }
 }
 
+// what a spring between two weights of different stiffness would be: the same about its rest to both sides, stiffer away from it
+TEST(Spring, HardensAwayFromItsRest) {
+  double const k = 2.0, hardening = 0.3, rest = -0.4, step = 1e-5;
+  auto const at = [&](double q) { return torque("spring", {.q = q}, {k, hardening, rest}); };
+  auto const stiffness = [&](double q) { return (at(q + step) - at(q - step)) / (2.0 * step); };
+  EXPECT_NEAR(stiffness(rest), k, 1e-8);  // step^2 and rounding / step
+  EXPECT_NEAR(stiffness(rest + 1.5), k * (1.0 + 3.0 * hardening * 2.25), 1e-7);
+  EXPECT_NEAR(at(rest + 1.1) - at(rest), at(rest) - at(rest - 1.1), 1e-12);
+  EXPECT_EQ(torque("spring", {.q = 0.7}, {k}), k * 0.7);  // plain
+  EXPECT_EQ(torque("spring", {.q = 0.7}, {k, 0.0, rest}), k * 0.7);
+}
+
 TEST(EndStop, PushesBackAtItsOwnEndOnly) {
   JointScales scales;
   scales.position_centre = 1.0;

@@ -80,6 +80,15 @@ TEST(Regressor, RefusesWhatLeastSquaresOnTheMotionCannotFitAndSaysWhy) {
   EXPECT_THAT(what("encoder_eccentricity"), HasSubstr("recorded channel"));
 }
 
+TEST(Regressor, HoldsThePlainFormOfALawThatHasShapes) {
+  Regressor const regressor({"inertia", "spring"}, JointKind::revolute);
+  EXPECT_THAT(regressor.names(), ElementsAre("inertia", "spring"));
+  EXPECT_EQ(regressor.equation(), "tau = J ddq + k q");
+  auto const motion = test::rich_motion(20);
+  EXPECT_EQ(regressor.columns(motion).col(1), motion.q);
+  EXPECT_EQ(regressor.torque({.q = 0.5, .ddq = 2.0}, std::vector<double>{0.1, 0.8}), 0.1 * 2.0 + 0.8 * 0.5);
+}
+
 TEST(Regressor, AcceptsEveryEffectThatIsPlain) {
   for (auto const* effect : effect_choices())
     EXPECT_EQ(problems_of({effect->name()}).empty(), effect->is_plain_term()) << effect->name();

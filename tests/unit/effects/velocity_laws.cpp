@@ -30,7 +30,7 @@ TEST(DryFriction, IsZeroAtRest) {
   JointState const rest{0.0, 0.5, 0.0, 3.0, 0.7, 0.9};
   for (auto const* name : {"coulomb", "coulomb_positive", "coulomb_negative"})
     EXPECT_EQ(torque(name, rest, {1.0}), 0.0) << name;
-  EXPECT_EQ(torque("load_dependent_friction", rest, {1.0, 0.5}), 0.0);
+  EXPECT_EQ(torque("load_dependent_friction", rest, {1.0, 0.5, 0.0}), 0.0);
   EXPECT_EQ(torque("stribeck", rest, {1.0, 0.1, 1.0}), 0.0);
   EXPECT_EQ(torque("position_dependent_friction", rest, {1.0, 1.0, 1.0, 2.0}), 0.0);
 }
@@ -45,7 +45,7 @@ TEST(DissipativeEffects, NeverDriveTheJoint) {
     EXPECT_GE(velocity * torque("stribeck", state, {0.3, 0.01, 1.3}), 0.0);
     EXPECT_GE(velocity * torque("speed_drag", state, {0.3, 0.4}), 0.0);
     EXPECT_GE(velocity * torque("power_law_viscous", state, {0.3, 0.4}), 0.0);
-    EXPECT_GE(velocity * torque("load_dependent_friction", state, {0.2, 0.6}), 0.0);
+    EXPECT_GE(velocity * torque("load_dependent_friction", state, {0.2, 0.6, 0.4}), 0.0);
     EXPECT_GE(velocity * torque("directional_efficiency", state, {0.2, 0.7, 0.6}), 0.0);
   }
 }
@@ -86,7 +86,7 @@ TEST(ModulatedFriction, IsInProportionToTheCoulombLevelOfItsDirection) {
   std::vector<std::pair<char const*, std::vector<double>>> const modulated{
       {"stribeck", {1.0, 0.1, 1.0}},
       {"position_dependent_friction", {1.0, 2.0, 3.0, 4.0}},
-      {"load_dependent_friction", {0.1, 0.5}},
+      {"load_dependent_friction", {0.1, 0.5, 0.3}},
       {"thermal_friction", {1.0, 0.0, 9.0}},
       {"friction_drift", {1.0, 0.0, 2.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.5}}};
   for (auto const& [name, parameters] : modulated)
@@ -96,9 +96,16 @@ TEST(ModulatedFriction, IsInProportionToTheCoulombLevelOfItsDirection) {
 }
 
 TEST(LoadDependentFriction, FollowsTheSizeOfTheLoadAlone) {
-  double const up = torque("load_dependent_friction", {.dq = 1.0, .load_torque = 2.0}, {0.1, 1.0});
+  double const up = torque("load_dependent_friction", {.dq = 1.0, .load_torque = 2.0}, {0.1, 1.0, 0.0});
   EXPECT_NEAR(up, 0.2, 1e-15);
-  EXPECT_EQ(up, torque("load_dependent_friction", {.dq = 1.0, .load_torque = -2.0}, {0.1, 1.0}));
+  EXPECT_EQ(up, torque("load_dependent_friction", {.dq = 1.0, .load_torque = -2.0}, {0.1, 1.0, 0.0}));
+}
+
+// a load of 3 at right angles to a preload of 4 presses with 5; the 4 are in the Coulomb level already
+TEST(LoadDependentFriction, AddsTheLoadToWhatPressesAnyway) {
+  JointState const state{.dq = 1.0, .load_torque = -3.0};
+  EXPECT_NEAR(torque("load_dependent_friction", state, {0.1, 1.0, 4.0}), 0.1 * (5.0 - 4.0), 1e-15);
+  EXPECT_EQ(torque("load_dependent_friction", {.dq = 1.0}, {0.1, 1.0, 4.0}), 0.0);
 }
 
 // a rotor before the gear is half of the inertia: it presses no teeth
@@ -106,7 +113,7 @@ TEST(LoadDependentFriction, FeelsOnlyTheInertiaBehindTheGear) {
   JointScales scales;
   scales.inertia = 0.4;
   JointState const state{.dq = 1.0, .ddq = 5.0, .load_torque = 1.0 + 0.4 * 5.0};
-  EXPECT_NEAR(torque("load_dependent_friction", state, {0.1, 0.5}, scales), 0.1 * (1.0 + 0.2 * 5.0), 1e-15);
+  EXPECT_NEAR(torque("load_dependent_friction", state, {0.1, 0.5, 0.0}, scales), 0.1 * (1.0 + 0.2 * 5.0), 1e-15);
   EXPECT_NEAR(torque("directional_efficiency", {.dq = 1.0, .ddq = 5.0, .load_torque = 3.0, .motor_torque = 3.5},
                      {0.1, 1.0, 0.5}, scales),
               0.1 * (3.5 - 2.0), 1e-15);

@@ -139,6 +139,21 @@ class Shifted final : public LaneEffect {
   double position_, torque_;
 };
 
+TEST(CleanTwin, HoldsThePlainFormOfALawThatHasShapes) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  auto with_spring = std::vector<std::string>(terms.begin(), terms.end());
+  with_spring.emplace_back("spring");
+  Eigen::VectorXd parameters(truth().size() + 1);
+  parameters << truth(), 0.3;
+  TwinJoint apart = make_twin_joint(Regressor(terms, JointKind::revolute), truth());
+  apart.effects.push_back(lane_effect(*find_effect("spring"), {0.3, 0.0, 0.7}, {}));
+  TwinGroup one, two;
+  twin_of(recording, make_twin_joint(Regressor(with_spring, JointKind::revolute), parameters))
+      .simulate({1, 0, 0}, 0, one);
+  twin_of(recording, apart).simulate({1, 0, 0}, 0, two);
+  EXPECT_EQ(one.position[0], two.position[0]);
+}
+
 TEST(CleanTwin, SeesAPositionFaultInTheLoopAndATorqueFaultInTheLogOnly) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   TwinJoint const sound = make_twin_joint(Regressor(terms, JointKind::revolute), truth());

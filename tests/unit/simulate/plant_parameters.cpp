@@ -73,6 +73,13 @@ TEST(PlantParameters, NeedTheShapeOfALawThatHasOne) {
   EXPECT_THAT(negative[0].what, HasSubstr("not above 0"));
 }
 
+TEST(PlantParameters, AreOfThePlainFormWhereNoShapeIsWritten) {
+  auto const terms = torquescope::test::plant({{"inertia", 0.1}, {"spring", 0.8}});
+  ASSERT_EQ(terms.size(), 2u);
+  EXPECT_EQ(terms[1].effect->torque({.q = 0.5}, terms[1].parameters, {}), 0.4);
+  EXPECT_TRUE(problems_of({{"inertia", 0.1}, {"spring", 0.8}, {"spring_hardening", 0.2}}).empty());
+}
+
 TEST(PlantParameters, RefuseEffectsThatThePlantCannotHold) {
   for (auto const* name : {"maxwell_slip_2", "delay", "actuator_lag", "load_dependent_friction", "sensor_drift"}) {
     auto const problems = problems_of({{"inertia", 0.1}, {name, 0.1}});
