@@ -134,7 +134,9 @@ TorqueColour torque_colour(ProcessedRecord const& recording, CleanTwin const& tw
     result.variance_error = slow.relative.maxCoeff();
   }
   int const fitted = best.slow > 0.0 ? 3 : 1;
-  result.misfit_p = chi_squared_tail(best.deviance, static_cast<int>(energies.count()) - fitted);
+  // with no more octaves than parameters a colour that could be would leave nothing at all
+  int const free = std::max(1, static_cast<int>(energies.count()) - fitted);
+  result.misfit_p = chi_squared_tail(best.deviance, free);
   result.white_std = std::sqrt(best.white);
   result.slow_std = std::sqrt(best.slow);
   result.corner_hz = best.slow > 0.0 ? corner_hz : 0.0;

@@ -38,7 +38,7 @@ class BackwardSelection : public testing::Test {
     ModelStage const first = make_stage(setting, clean_regressor()).value();
     CandidateColumns const columns(*first.pipeline, first.comparison, first.reference(), first.parameters());
     std::vector<Effect const*> candidates;
-    for (auto const* name : {"stribeck", "gravity", "spring", "asymmetric_viscous"})
+    for (auto const* name : {"stribeck", "gravity", "end_stop", "asymmetric_viscous"})
       candidates.push_back(find_effect(name));
     selection.first_scan = scan_candidates(columns, candidates, 2);
     selection.first_q.assign(candidates.size(), 0.0);
@@ -89,7 +89,7 @@ TEST_F(BackwardSelection, TakesOutWhatTheOthersExplain) {
 }
 
 TEST_F(BackwardSelection, PutsTheRightRelativeInTheWrongOnesPlace) {
-  accept({"spring", "stribeck"});
+  accept({"end_stop", "stribeck"});
   double const before = selection.final->mismatch().squaredNorm();
   revise_selection(setting, options, selection);
   EXPECT_EQ(names(), (std::vector<std::string>{"gravity", "stribeck"}));
