@@ -58,8 +58,22 @@ void account_for_twins(Recording const& recording, StageSetting const& setting, 
   result.floor = floor_below(relerr, errors_in(with_law_of(trained, loop)));
 }
 
-// what processing alone leaves of a complete model on given rows; empty: not taken out
+// what processing alone leaves of a complete model on given rows; empty: not known
 using Artefact = std::function<Eigen::VectorXd(ModelStage const& model, std::vector<Eigen::Index> const& rows)>;
+
+// of both models, on the same rows; none where that of one is not known
+struct Artefacts {
+  Eigen::VectorXd before{}, after{};
+
+  Artefacts(Artefact const& artefact, ModelStage const& baseline, ModelStage const& augmented,
+            std::vector<Eigen::Index> const& rows) {
+    if (!artefact) return;
+    before = artefact(baseline, rows);
+    after = artefact(augmented, rows);
+    if (before.size() == 0 || after.size() == 0) before = after = {};
+  }
+  bool are_known() const { return after.size() > 0; }
+};
 
 void take_out(Eigen::VectorXd const& artefact, Eigen::VectorXd& left) {
   if (artefact.size() > 0) left -= artefact;
@@ -96,18 +110,12 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   refit_on_head(augmented, after, parameters, result.nuisances);
   Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
-  Eigen::VectorXd of_before, of_after;
-  if (artefact) {
-    of_before = artefact(baseline, before.kept_rows);
-    of_after = artefact(augmented, before.kept_rows);
-    if (of_before.size() > 0 && of_after.size() > 0) result.rows = before.kept_rows;
-  }
-  if (!result.rows.empty()) {
-    take_out(of_before, left_before);
-    take_out(of_after, left_after);
+  Artefacts const artefacts(artefact, baseline, augmented, before.kept_rows);
+  take_out(artefacts.before, left_before);
+  take_out(artefacts.after, left_after);
+  if (artefacts.are_known()) {
+    result.rows = before.kept_rows;
     result.nuisances.push_back("what the filters make of reversals, as twins have it, taken out of both residuals");
-  } else {
-    of_after = {};
   }
   Eigen::VectorXd const left_with = left_after;
   Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
@@ -126,7 +134,7 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   result.moved_energy = (left_before - left_after).squaredNorm();
   result.blocks = added_torque(left_before, left_after);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
-    result.without.push_back(without_effect(augmented, i, after, left_with, of_after));
+    result.without.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
   return result;
 }
@@ -180,8 +188,12 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   auto const loop = loop_of(recording, augmented);
   Artefact artefact;
   if (loop && setting.keeps_reversals)
-    artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) {
-      return processing_artefact(recording, setting, model, *loop, rows);
+    artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) -> Eigen::VectorXd {
+      try {
+        return processing_artefact(recording, setting, model, *loop, rows);
+      } catch (Error const&) {
+        return {};  // as below
+      }
     };
   UnseenResult result{predict(recording, setting, baseline, augmented, artefact)};
   result.forward = simulate_forward(recording, loop, baseline, augmented);
