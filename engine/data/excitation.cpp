@@ -74,7 +74,6 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
   // samples with positive velocity, torque, both
   Eigen::Index forward = 0, positive = 0, both = 0;
   std::size_t n_moving = 0;
-  TimeAtSpeeds time_at_speeds(threshold);
   for (Eigen::Index i = 0; i < motion.dq.size(); ++i) {
     if (std::fabs(motion.dq[i]) <= threshold) continue;
     int const direction = motion.dq[i] > 0 ? 1 : -1;
@@ -84,7 +83,6 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
     positive += motion.torque[i] > 0;
     both += direction > 0 && motion.torque[i] > 0;
     ++n_moving;
-    time_at_speeds.count(std::fabs(motion.dq[i]));
   }
   if (n_moving == 0) return;
   auto const moving = static_cast<double>(n_moving);
@@ -105,7 +103,16 @@ void measure_movement(BetweenEdges const& motion, Excitation& facts) {
     return kth_smallest(for_each_speed, static_cast<std::size_t>(share * static_cast<double>(n_moving - 1)));
   };
   facts.speed_spread = speed_percentile(0.95) / speed_percentile(0.10);
-  facts.one_speed_share = time_at_speeds.most_at_one();
+}
+
+// nothing that moves: 0. A logarithm for each sample: not for those who only fit
+double one_speed_share(BetweenEdges const& motion) {
+  double const threshold = moving_from * motion.dq.cwiseAbs().maxCoeff();
+  if (!(threshold > 0.0)) return 0.0;
+  TimeAtSpeeds time(threshold);
+  for (double const velocity : motion.dq)
+    if (!(std::fabs(velocity) <= threshold)) time.count(std::fabs(velocity));
+  return time.most_at_one();
 }
 
 }  // namespace
@@ -137,6 +144,7 @@ void measure_motion(Motion const& whole, FilterOptions const& options, Excitatio
 Excitation measure_excitation(Recording const& recording, Motion const& motion, FilterOptions const& options) {
   Excitation facts = measure_channels(recording);
   measure_motion(motion, options, facts);
+  facts.one_speed_share = one_speed_share(BetweenEdges(motion, edge_samples(options, motion.rate_hz)));
   return facts;
 }
 

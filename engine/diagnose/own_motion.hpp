@@ -20,7 +20,8 @@ struct BothMotions {
   CandidateColumns const& of(DrivenBy motion) const { return motion == DrivenBy::twin ? twin : recording; }
 };
 
-// own: columns on the recording's motion; scan: of the effect, with its grid. Nothing for an effect without memory, or one that explains nothing there
+// own: columns on the recording's motion; scan: of the effect, with its grid. Nothing for an effect without memory, or one that
+// explains nothing there
 std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
                                                   Eigen::VectorXd const& mismatch, ShapeSearch search, int threads);
 
