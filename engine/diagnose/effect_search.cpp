@@ -195,8 +195,9 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
 
 // where the shape of the recording's own motion explains a good part more than that of the common motion
 void EffectSearch::prefer_own_motion(CandidateColumns const& own, Trial& trial) {
+  bool const leaves_much = trial.refined.gain < (1.0 - least_share_of_rest) * remaining_;
   auto found = refine_on_own_motion(own, trial.scan, stage().mismatch(),
-                                    shape_search(options_->shape_optimiser, setting_.seed), setting_.threads);
+                                    {options_->shape_optimiser, setting_.seed, leaves_much}, setting_.threads);
   if (!found) return;
   selection_.evaluations += found->evaluations;
   if (found->gain >= trial.refined.gain + least_share_of_rest * remaining_) {

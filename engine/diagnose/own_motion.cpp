@@ -1,5 +1,7 @@
 #include "engine/diagnose/own_motion.hpp"
 
+#include <vector>
+
 namespace torquescope {
 
 BothMotions::BothMotions(ModelStage const& stage)
@@ -8,11 +10,22 @@ BothMotions::BothMotions(ModelStage const& stage)
                 DrivenBy::recording) {}
 
 std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
-                                                  Eigen::VectorXd const& mismatch, ShapeSearch search, int threads) {
-  constexpr int times_longer = 3;  // parts that ring or knock have many shapes that are nearly right
+                                                  Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
+                                                  int threads) {
   if (!scan.effect->has_memory()) return std::nullopt;
-  if (scan.effect->n_shape() > 2) search.generations *= times_longer;
-  return refine_plausible(own, scan, mismatch, search, threads);
+  std::vector<ShapeSearch> searches{shape_search(how.optimiser, how.seed)};
+  if (scan.effect->n_shape() > 2) {
+    // parts that ring or knock have many shapes that are nearly right
+    constexpr int times_longer = 3;
+    searches.front().generations *= times_longer;
+    if (how.everywhere) {
+      constexpr std::int64_t members = 20;
+      searches.push_back(shape_search(how.optimiser, how.seed, members));
+      searches.back().generations = 40;
+      searches.back().everywhere = true;
+    }
+  }
+  return refine_plausible(own, scan, mismatch, searches, threads);
 }
 
 }  // namespace torquescope

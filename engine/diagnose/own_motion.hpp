@@ -7,7 +7,9 @@
 //            noise of its encoder, which biases a shape a little: good enough to make twins with, no statistic
 // Threads    spreads grid and populations over `threads`; same bits for any number
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/diagnose/model_stage.hpp"
 #include "engine/diagnose/shape_refinement.hpp"
@@ -20,9 +22,18 @@ struct BothMotions {
   CandidateColumns const& of(DrivenBy motion) const { return motion == DrivenBy::twin ? twin : recording; }
 };
 
+struct OwnMotionSearch {
+  std::string optimiser = "de";
+  std::uint64_t seed = 0;
+  // Not next to the grid's best point alone: what rings has a maximum of its own for every cycle that two shapes have in common, and
+  // the grid is too coarse to tell which is the highest (1400 evaluations of an effect with three shapes, 300 without)
+  bool everywhere = false;
+};
+
 // own: columns on the recording's motion; scan: of the effect, with its grid. Nothing for an effect without memory, or one that
 // explains nothing there
 std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
-                                                  Eigen::VectorXd const& mismatch, ShapeSearch search, int threads);
+                                                  Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
+                                                  int threads);
 
 }  // namespace torquescope

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -38,6 +39,9 @@ class Refinement {
     if (effect_.has_plain_form()) best_.plain_gain = gain_at({}).gain - noise_at({});
     return std::move(best_);
   }
+
+  // what a search finds is polished, even if the start explains more than that does before
+  void forget_start() { best_.gain = -std::numeric_limits<double>::infinity(); }
 
   void search_in(Bounds const& box, ShapeSearch const& search, std::uint32_t run, int threads) {
     auto const optimiser = search.make(box, {search.seed, run, RandomDomain::optimiser});
@@ -146,8 +150,11 @@ class Refinement {
 
 RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::size_t point, ShapeSearch const& search,
                            int threads) {
-  if (scan.effect->n_shape() > 0) {
-    refinement.search_in(scan.grid.box(point), search, static_cast<std::uint32_t>(point), threads);
+  if (std::size_t const n = scan.effect->n_shape(); n > 0) {
+    Bounds const whole{std::vector<double>(n, 0.0), std::vector<double>(n, 1.0)};
+    if (search.everywhere) refinement.forget_start();
+    refinement.search_in(search.everywhere ? whole : scan.grid.box(point), search, static_cast<std::uint32_t>(point),
+                         threads);
     refinement.polish();
   }
   return std::move(refinement).take();
@@ -170,11 +177,10 @@ std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns,
 
 }  // namespace
 
-ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
+ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::int64_t members) {
   auto const* choice = find_optimiser(optimiser);
   TORQUESCOPE_EXPECT(choice != nullptr);
   Section section;
-  constexpr std::int64_t members = 10;
   section.settings.push_back({"population", OptionValue{members}});
   std::vector<Problem> problems;
   ShapeSearch search;
@@ -185,17 +191,26 @@ ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed) {
 }
 
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
-                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
+                                              Eigen::VectorXd const& mismatch, std::span<ShapeSearch const> searches,
+                                              int threads) {
   auto const point = best_plausible_point(columns, scan, mismatch, threads);
   if (!point) return std::nullopt;
-  return refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
+  std::optional<RefinedEffect> best;
+  std::int64_t evaluations = 0;
+  for (ShapeSearch const& search : searches) {
+    auto found = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
+    evaluations += found.evaluations;
+    if (!best || found.gain > best->gain) best = std::move(found);
+  }
+  best->evaluations = evaluations;
+  return best;
 }
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
-  auto plausible = refine_plausible(columns, scan, mismatch, search, threads);
+  auto plausible = refine_plausible(columns, scan, mismatch, {&search, 1}, threads);
   if (!plausible || plausible->gain < nearly_as_good * best.gain) return best;
   plausible->evaluations += best.evaluations;
   return std::move(*plausible);

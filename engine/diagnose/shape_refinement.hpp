@@ -2,7 +2,8 @@
 // The shape of one effect that explains most of the mismatch: a population search in the shapes alone, the linear
 // parameters solved inside (variable projection), then Levenberg-Marquardt from the best.
 //
-// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter too
+// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter too. Where parts
+//            ring, the grid is too coarse to point anywhere, and the whole of the bounds is searched (ShapeSearch::everywhere)
 // Polish     steps of the mismatch on [columns | tangents of the shapes], damped, inside the bounds of the effect
 // Evaluation one evaluation = columns of the effect at one shape through the filter
 // Same bits  for any number of threads: members of a population are independent, random numbers addressed
@@ -13,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/diagnose/candidate_scan.hpp"
@@ -29,10 +31,11 @@ struct ShapeSearch {
   MakeShapeSearch make{};
   int generations = 8;
   std::uint64_t seed = 0;
+  bool everywhere = false;  // within the bounds, and not next to the grid's best point
 };
 
-// the registry's optimiser of that name with a population for few dimensions
-ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed);
+// the registry's optimiser of that name; members: of its population, for few dimensions
+ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::int64_t members = 10);
 
 struct RefinedEffect {
   Effect const* effect = nullptr;
@@ -54,9 +57,10 @@ struct RefinedEffect {
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads);
 
-// the best that it could have, begun at the grid's point that explains most of the mismatch on these columns' motion; nothing where none
-// explains any
+// the best that it could have and that any of the searches finds, begun at the grid's point that explains most of the mismatch on these
+// columns' motion; nothing where none explains any
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
-                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads);
+                                              Eigen::VectorXd const& mismatch, std::span<ShapeSearch const> searches,
+                                              int threads);
 
 }  // namespace torquescope

@@ -5,10 +5,12 @@
 //            the rigid part J_l ddq is in the baseline's inertia
 // Memory     y and y', for c = 0 exact for an acceleration that runs straight between two samples; what stiffens is a kick before
 //            and after each step (Strang), of second order
-// Stiffening gears of thin steel are softest when they are not loaded; without c a gap would be the better fit, and its name wrong
+// Stiffening gears of thin steel are softest when they are not loaded; without c a gap would be the better fit, and its name wrong.
+//            Its bounds are far apart: a soft spring that stiffens much passes for a stiffer one that stiffens little, and each cycle
+//            that both ring alike is a maximum of its own
 // Why        an operator, not jerk and snap: a series of derivatives fails once the resonance lies in the band
 // Parameters load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia, in which a load that stays behind has little part; elasticity_frequency f [Hz]: of the load with the
-//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c >= 0 [1]
+//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c [1]: 0.02 is none
 // Signature  frequency: a narrow band fixed in time, rung by jerk
 // Confused   delay, actuator_lag far below f
 // Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
@@ -117,7 +119,7 @@ class JointElasticity final : public MemoryEffect {
                             shape_parameter("elasticity_frequency", "Hz", "Hz", {0.05, RelativeTo::cutoff_frequency},
                                             {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
                             shape_parameter("elasticity_damping", "1", "1", {0.005}, {0.2}, Spacing::logarithmic),
-                            shape_parameter("elasticity_hardening", "1", "1", {0.0}, {8.0}, Spacing::linear)},
+                            shape_parameter("elasticity_hardening", "1", "1", {0.02}, {8.0}, Spacing::logarithmic)},
              .families = {EffectFamily::acceleration},
              .signature = {SignatureAxis::frequency, SignatureAxis::acceleration},
              .parity = Parity::even}) {}

@@ -24,6 +24,7 @@ struct Machine {
   double loop_hz = 12.0;
   bool has_soft_gear = true;
   double current_lag_s = 0.0;
+  double knee = 0.0;  // wind-up that makes the gear twice as stiff; 0: it stays as it is
 };
 
 Recording recorded(Machine const& machine) {
@@ -59,7 +60,8 @@ Recording recorded(Machine const& machine) {
     recording.position[row] = measured;
     recording.torque[row] = torque + 0.004 * random.normal();
     for (int step = 0; step < steps; ++step) {
-      double const pull = machine.has_soft_gear ? stiffness * (q_load - q) + damping * (dq_load - dq) : 0.0;
+      double const wound = q_load - q, stiffer = machine.knee > 0.0 ? std::pow(wound / machine.knee, 2) : 0.0;
+      double const pull = machine.has_soft_gear ? stiffness * wound * (1.0 + stiffer) + damping * (dq_load - dq) : 0.0;
       current = machine.current_lag_s > 0.0 ? current + step_s * (torque - current) / machine.current_lag_s : torque;
       double const free = current + pull - viscous * dq - offset;
       double const sense = dq != 0.0 ? std::copysign(1.0, dq) : std::copysign(1.0, free);
@@ -88,12 +90,12 @@ class OwnMotion : public testing::Test {
   StageSetting const setting{recording, clean_regressor(), filter, section, 64, 1, 2};
   ModelStage const stage = make_stage(setting, clean_regressor()).value();
   BothMotions const columns{stage};
-  ShapeSearch const search = shape_search("de", 1);
+  OwnMotionSearch const search{"de", 1};
 };
 
 TEST_F(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
   EffectScan const scan = scan_of("joint_elasticity");
-  RefinedEffect const by_twin = refine_shape(columns.twin, scan, stage.mismatch(), search, 2);
+  RefinedEffect const by_twin = refine_shape(columns.twin, scan, stage.mismatch(), shape_search("de", 1), 2);
   auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
   ASSERT_TRUE(own);
   EXPECT_GT(own->gain, by_twin.gain);
@@ -101,6 +103,20 @@ TEST_F(OwnMotion, TellsTheResonanceThatATwinsMotionHides) {
   EXPECT_NEAR(own->shape[1], spring_damping, 0.1 * spring_damping);
   EXPECT_NEAR(own->parameters[0], load, 0.05 * load);
   EXPECT_GT(std::abs(by_twin.shape[0] - spring_hz), 0.05 * spring_hz) << "then nothing was hidden";
+}
+
+class OwnMotionOfAStiffeningGear : public OwnMotion {
+ protected:
+  OwnMotionOfAStiffeningGear() : OwnMotion({12.0, true, 0.0, 0.006}) {}
+};
+
+TEST_F(OwnMotionOfAStiffeningGear, IsSearchedEverywhere) {
+  EffectScan const scan = scan_of("joint_elasticity");
+  auto const near = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
+  auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), {"de", 1, true}, 2);
+  ASSERT_TRUE(own && near);
+  EXPECT_GT(own->gain, 1.4 * near->gain) << "a soft gear that stiffens much, next to the grid's best point";
+  EXPECT_LT(own->shape[2], 0.2 * near->shape[2]);
 }
 
 constexpr double current_lag_s = 0.012;
