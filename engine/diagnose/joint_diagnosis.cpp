@@ -145,6 +145,7 @@ class JointWork {
     UnseenEnergies sum;
     double torque = 0.0, floor = 0.0;
     bool has_twins = false;
+    std::vector<std::vector<TwinPrediction>> twins;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : unseen_) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
@@ -157,6 +158,7 @@ class JointWork {
       has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
       sum.moved += result.moved_energy;
+      twins.push_back(std::move(result.twins));
       sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.without[i].energy - result.after_energy;
       joint_.forward.push_back(result.forward);
@@ -172,6 +174,7 @@ class JointWork {
     joint_.validation_relerr = std::sqrt(sum.before / torque);
     joint_.augmented_validation_relerr = std::sqrt(sum.after / torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
+    sum.twins = over_recordings(twins);
     is_refuted_ = must_carry_over(selection_.accepted) && speak_against(sum);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;

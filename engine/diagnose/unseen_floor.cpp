@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "engine/diagnose/twin_batch.hpp"
@@ -20,13 +21,20 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
 }
 
 struct TwinResidual {
-  Eigen::VectorXd left;  // empty: it ran away
-  double torque = 0.0;   // norm
+  Eigen::VectorXd left;        // empty: it ran away
+  double torque = 0.0;         // norm
+  TwinPrediction predicted{};  // artefacts and all
 };
+
+TwinPrediction prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
+                             Eigen::VectorXd const& baseline) {
+  Eigen::VectorXd const before = twin.torque - twin.columns.leftCols(baseline.size()) * baseline;
+  return {before.squaredNorm(), left.squaredNorm(), (before - left).squaredNorm()};
+}
 
 std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
                                              ModelStage const& stage, RecordedLoop const& loop,
-                                             Eigen::VectorXd const& parameters, std::vector<Eigen::Index> const* rows) {
+                                             Eigen::VectorXd const& baseline, std::vector<Eigen::Index> const* rows) {
   RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
   if (rows != nullptr) pipeline.restrict_to(*rows);
   CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
@@ -36,7 +44,9 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
                 [&](VisitedTwin const& visited) {
                   if (visited.ran_away) return;
                   auto const& record = visited.record;
-                  twins[visited.index] = {record.torque - record.columns * parameters, record.torque.norm()};
+                  Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
+                  TwinPrediction const predicted = prediction_of(record, left, baseline);
+                  twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
                 });
   return twins;
 }
@@ -54,27 +64,29 @@ Eigen::VectorXd mean_of(std::vector<TwinResidual> const& twins) {
 }  // namespace
 
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& parameters,
+                              RecordedLoop const& loop, Eigen::VectorXd const& baseline,
                               std::vector<Eigen::Index> const* rows) {
-  auto twins = residuals_of_twins(recording, setting, stage, loop, parameters, rows);
+  auto twins = residuals_of_twins(recording, setting, stage, loop, baseline, rows);
   auto const n = static_cast<double>(twins.size());
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd const artefact = rows != nullptr ? mean_of(twins) : Eigen::VectorXd();
   // a twin is nearer to a mean that it is in than the recording is
   double const nearer = rows != nullptr ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
+  std::vector<TwinPrediction> predicted;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
+    if (rows == nullptr) predicted.push_back(twin.predicted);
     if (rows != nullptr) twin.left -= artefact;
     double const relerr = nearer * twin.left.norm() / twin.torque;
     sum += relerr;
     least = std::min(least, relerr);
   }
-  return {sum / n, least};
+  return {sum / n, least, std::move(predicted)};
 }
 
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                                     RecordedLoop const& loop, std::vector<Eigen::Index> const& rows) {
-  return mean_of(residuals_of_twins(recording, setting, stage, loop, stage.parameters(), &rows));
+  return mean_of(residuals_of_twins(recording, setting, stage, loop, {}, &rows));
 }
 
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop) {

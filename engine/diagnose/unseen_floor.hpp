@@ -18,19 +18,22 @@
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model_stage.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
+#include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
 
 // relerr of twins; unknown where one ran away
 struct TwinErrors {
   double mean = unknown, least = unknown;
+  std::vector<TwinPrediction>
+      predicted{};  // one each; empty where an artefact was taken out, which is another for the baseline
 };
 
-// the twins' own fits are not used: `parameters` predict them.  loop: not tracking; rows: of the recording, when their artefact is
-// to be taken out; none: each twin's own
+// the twins' own fits are not used: the parameters of `stage` predict them, and those of the baseline, `baseline`, without its effects.
+// loop: not tracking; rows: of the recording, when their artefact is to be taken out; none: each twin's own
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& parameters,
+                              RecordedLoop const& loop, Eigen::VectorXd const& baseline,
                               std::vector<Eigen::Index> const* rows = nullptr);
 
 // [rows]; empty where a twin ran away

@@ -42,14 +42,15 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 }
 
 // what its twins leave, and whether that is a floor of it
-void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                       RecordedLoop const& loop, UnseenResult& result) {
+void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                       ModelStage const& stage, RecordedLoop const& loop, UnseenResult& result) {
   auto const errors_in = [&](RecordedLoop const& one) {
-    return unseen_twin_errors(recording, setting, stage, one, stage.parameters(),
+    return unseen_twin_errors(recording, setting, stage, one, baseline.parameters(),
                               result.rows.empty() ? nullptr : &result.rows);
   };
   TwinErrors const own = errors_in(loop);
   result.promised = own.mean;
+  result.twins = own.predicted;
   result.twins_ran_away = !std::isfinite(own.mean);
   double const relerr = std::sqrt(result.after_energy / result.energy);
   result.floor = floor_below(relerr, own);
@@ -199,7 +200,7 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
-    account_for_twins(recording, setting, augmented, *loop, result);
+    account_for_twins(recording, setting, baseline, augmented, *loop, result);
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }

@@ -48,6 +48,7 @@ struct UnseenPrediction {
 struct UnseenResult : UnseenPrediction {
   double promised = unknown, floor = unknown;  // relerr
   bool twins_ran_away = false;                 // of this recording, under the final model: no floor
+  std::vector<TwinPrediction> twins{};         // one each
   ForwardSimulation forward{};
 };
 

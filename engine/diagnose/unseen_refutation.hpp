@@ -7,8 +7,10 @@
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
 //            spares a right law on a recording that has something else wrong with it. Refuted too where less than a quarter of the
 //            torque that the names add is found there, if they add a tenth of the residual's energy, or if twenty blocks of each
-//            recording agree on it to two standard errors. Where nobody knows what twins promise (a
-//            loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
+//            recording agree on it to two standard errors; and if that is less, by three standard deviations, than in twins that have
+//            the names: an attenuated column moves the other terms, and where parts knock against each other an encoder's noise turns
+//            the next knock, so that even of a right law little or nothing may be found. Where nobody knows
+//            what twins promise (a loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
 // Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
 //            that are printed with names are those of a model nothing was fitted to
@@ -25,12 +27,19 @@ struct AddedTorque {
   double energy = 0.0, found = 0.0;
 };
 
+// a twin of an unseen recording that has the names, predicted without and with them, as the recording is: energies of residuals and of
+// the difference between both predictions
+struct TwinPrediction {
+  double before = 0.0, after = 0.0, moved = 0.0;
+};
+
 struct UnseenEnergies {
   double before = 0.0, after = 0.0;
   // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
   double floor = 0.0;
-  double moved = 0.0;                 // of the difference between both predictions
-  std::vector<AddedTorque> blocks{};  // of all recordings
+  double moved = 0.0;                   // of the difference between both predictions
+  std::vector<AddedTorque> blocks{};    // of all recordings
+  std::vector<TwinPrediction> twins{};  // over all recordings; empty: not known
 };
 
 inline constexpr double enough_moved = 0.1;  // of the residual: less says nothing
@@ -39,6 +48,9 @@ bool speak_against(UnseenEnergies const& energies);
 
 // of the residuals without and with the names, in equal stretches
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after);
+
+// the sums, twin by twin; empty where those of one recording are
+std::vector<TwinPrediction> over_recordings(std::vector<std::vector<TwinPrediction>> const& twins);
 
 // whether a law, or all that was accepted, must hold in another recording too
 bool must_carry_over(Effect const& effect);

@@ -42,6 +42,8 @@ TEST_F(UnseenFloor, IsWhatACleanRecordingLeaves) {
   EXPECT_LT(twins.least, twins.mean);
   EXPECT_NEAR(twins.mean / relerr, 1.0, 0.2);
   EXPECT_EQ(floor_below(1.1 * twins.mean, twins), twins.mean);
+  ASSERT_FALSE(twins.predicted.empty());
+  EXPECT_EQ(twins.predicted.front().moved, 0.0) << "nothing is named";
 }
 
 // at a reversal the filtered velocity has the sign of friction a few rows early or late

@@ -12,6 +12,7 @@ using torquescope::AcceptedEffect;
 using torquescope::added_torque;
 using torquescope::find_effect;
 using torquescope::must_carry_over;
+using torquescope::over_recordings;
 using torquescope::speak_against;
 using torquescope::UnseenEnergies;
 
@@ -61,6 +62,23 @@ TEST(UnseenRefutation, IsSureOfLittleWhereAllStretchesAgree) {
   auto doubtful = energies(-0.5);
   doubtful.blocks.clear();
   EXPECT_FALSE(speak_against(doubtful));
+}
+
+// of a law whose knocks are turned by noise, or whose columns move other terms, its own twins have little as well
+TEST(UnseenRefutation, AsksForNoMoreThanTwinsThatHaveTheNames) {
+  auto const with_twins = [](double share) {
+    UnseenEnergies energies{.before = 4.0, .after = 4.5, .floor = 4.2, .moved = 0.6};
+    for (double off : {-0.02, -0.01, 0.0, 0.01, 0.02})
+      energies.twins.push_back({4.0, 4.0 - (2.0 * (share + off) - 1.0) * 0.6, 0.6});
+    return energies;
+  };
+  EXPECT_TRUE(speak_against(with_twins(1.0)));
+  EXPECT_FALSE(speak_against(with_twins(0.1)));
+  auto const none = over_recordings({with_twins(0.1).twins, {}});
+  EXPECT_TRUE(none.empty()) << "of one recording nothing is known";
+  auto const both = over_recordings({with_twins(0.1).twins, with_twins(1.0).twins});
+  EXPECT_DOUBLE_EQ(both[2].before, 8.0);
+  EXPECT_DOUBLE_EQ(both[2].after, 4.0 + 0.48 + 4.0 - 0.6);
 }
 
 TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {
