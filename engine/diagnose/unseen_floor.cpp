@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/twin_batch.hpp"
-
 namespace torquescope {
 namespace {
 
@@ -35,19 +33,13 @@ TwinPrediction prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const&
 std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
                                              ModelStage const& stage, RecordedLoop const& loop,
                                              Eigen::VectorXd const& baseline, std::vector<Eigen::Index> const* rows) {
-  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
-  if (rows != nullptr) pipeline.restrict_to(*rows);
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
-                       stage.twin->twin.step_s());
-  std::vector<TwinResidual> twins(twin_lanes);
-  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, twins.size(), setting.threads,
-                [&](VisitedTwin const& visited) {
-                  if (visited.ran_away) return;
-                  auto const& record = visited.record;
-                  Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
-                  TwinPrediction const predicted = prediction_of(record, left, baseline);
-                  twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
-                });
+  std::vector<TwinResidual> twins(unseen_twins);
+  for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
+    auto const& record = visited.record;
+    Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
+    TwinPrediction const predicted = prediction_of(record, left, baseline);
+    twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
+  });
   return twins;
 }
 
@@ -62,6 +54,19 @@ Eigen::VectorXd mean_of(std::vector<TwinResidual> const& twins) {
 }
 
 }  // namespace
+
+void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                          RecordedLoop const& loop, std::vector<Eigen::Index> const* rows,
+                          std::function<void(VisitedTwin const&)> const& visit) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  if (rows != nullptr) pipeline.restrict_to(*rows);
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
+                       stage.twin->twin.step_s());
+  for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, unseen_twins, setting.threads,
+                [&](VisitedTwin const& visited) {
+                  if (!visited.ran_away) visit(visited);
+                });
+}
 
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                               RecordedLoop const& loop, Eigen::VectorXd const& baseline,

@@ -13,14 +13,23 @@
 // Units      1; artefact: N m or N
 // Threads    spreads twins over `threads`; same bits for any number
 
+#include <functional>
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model_stage.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
+#include "engine/diagnose/twin_batch.hpp"
 #include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
+
+inline constexpr std::size_t unseen_twins = twin_lanes;
+
+// each once, from any thread; not one that ran away. Records are prepared and not fitted; rows: as below
+void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                          RecordedLoop const& loop, std::vector<Eigen::Index> const* rows,
+                          std::function<void(VisitedTwin const&)> const& visit);
 
 // relerr of twins; unknown where one ran away
 struct TwinErrors {

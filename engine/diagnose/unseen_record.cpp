@@ -183,6 +183,30 @@ UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& 
   return predict(from_zero(recording), setting, baseline, augmented, {});
 }
 
+std::vector<TwinPrediction> twins_without(Recording const& given, StageSetting const& setting,
+                                          ModelStage const& augmented, std::size_t effect) {
+  Recording const recording = from_zero(given);
+  auto const loop = loop_of(recording, augmented);
+  if (!loop) return {};
+  std::vector<TwinPrediction> twins(unseen_twins);
+  std::vector<char> is_there(twins.size(), 0);
+  try {
+    for_each_unseen_twin(recording, setting, augmented, *loop, nullptr, [&](VisitedTwin const& visited) {
+      std::vector<std::string> unsaid;
+      Eigen::VectorXd parameters = transferable(augmented, unsaid);
+      refit_on_head(augmented, visited.record, parameters, unsaid);
+      Eigen::VectorXd const left = visited.record.torque - visited.record.columns * parameters;
+      UnseenWithout const without = without_effect(augmented, effect, visited.record, left, {});
+      twins[visited.index] = {without.energy, without.energy - without.gain, without.moved};
+      is_there[visited.index] = 1;
+    });
+  } catch (Error const&) {
+    return {};  // as in check_unseen()
+  }
+  bool const are_there = std::all_of(is_there.begin(), is_there.end(), [](char there) { return there == 1; });
+  return are_there ? twins : std::vector<TwinPrediction>{};
+}
+
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented) {
   Recording const recording = from_zero(given);

@@ -56,6 +56,11 @@ struct UnseenResult : UnseenPrediction {
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented);
 
+// Twins of the recording that have all effects, without and with that one in the prediction, what belongs to the training recording
+// left out in both; empty where the recording's loop is not known, or where one ran away
+std::vector<TwinPrediction> twins_without(Recording const& recording, StageSetting const& setting,
+                                          ModelStage const& augmented, std::size_t effect);
+
 // the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented);

@@ -7,24 +7,6 @@
 namespace torquescope {
 namespace {
 
-// how much of the torque that the names add is there: 1 of a right law, 0 of one that has nothing to do with the recording
-double share_of(double before, double after, double moved) { return 0.5 * (1.0 + (before - after) / moved); }
-
-// less than chance leaves of it in twins: three standard deviations below their mean
-double surely_less_than(std::vector<TwinPrediction> const& twins) {
-  double sum = 0.0, squares = 0.0, n = 0.0;
-  for (auto const& twin : twins) {
-    if (!(twin.moved > 0.0)) continue;
-    double const share = share_of(twin.before, twin.after, twin.moved);
-    sum += share;
-    squares += share * share;
-    ++n;
-  }
-  if (n < 2.0) return std::numeric_limits<double>::infinity();
-  double const mean = sum / n;
-  return mean - 3.0 * std::sqrt(std::max(0.0, squares / n - mean * mean) * n / (n - 1.0));
-}
-
 struct ShareFound {
   double share = 0.0, error = std::numeric_limits<double>::infinity();
 };
@@ -55,6 +37,22 @@ std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen:
   return blocks;
 }
 
+double share_of(double before, double after, double moved) { return 0.5 * (1.0 + (before - after) / moved); }
+
+double least_by_chance(std::vector<TwinPrediction> const& twins) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  for (auto const& twin : twins) {
+    if (!(twin.moved > 0.0)) continue;
+    double const share = share_of(twin.before, twin.after, twin.moved);
+    sum += share;
+    squares += share * share;
+    ++n;
+  }
+  if (n < 2.0) return std::numeric_limits<double>::infinity();
+  double const mean = sum / n;
+  return mean - 3.0 * std::sqrt(std::max(0.0, squares / n - mean * mean) * n / (n - 1.0));
+}
+
 std::vector<TwinPrediction> over_recordings(std::vector<std::vector<TwinPrediction>> const& twins) {
   if (twins.empty()) return {};
   std::vector<TwinPrediction> sum = twins.front();
@@ -75,7 +73,7 @@ bool speak_against(UnseenEnergies const& energies) {
   constexpr double sure = 2.0;  // standard errors
   bool const is_short = (energies.moved >= enough_moved * energies.before && there.share < quarter) ||
                         there.share + sure * there.error < quarter;
-  if (is_short && there.share < surely_less_than(energies.twins)) return true;
+  if (is_short && there.share < least_by_chance(energies.twins)) return true;
   if (!std::isfinite(energies.floor))
     return energies.after > energies.before && energies.moved >= quarter * energies.before;
   double const enough = quarter * energies.before, promised = energies.before - energies.floor;

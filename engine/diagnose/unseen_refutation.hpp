@@ -44,6 +44,13 @@ struct UnseenEnergies {
 
 inline constexpr double enough_moved = 0.1;  // of the residual: less says nothing
 
+// How much of the torque that a law adds is there: 1 of a right law, 0 of one that has nothing to do with the recording. Energies of
+// residuals without and with it, and of the difference
+double share_of(double before, double after, double moved);
+
+// of it in twins that have the law: three standard deviations below their mean; infinite where there are none
+double least_by_chance(std::vector<TwinPrediction> const& twins);
+
 bool speak_against(UnseenEnergies const& energies);
 
 // of the residuals without and with the names, in equal stretches

@@ -10,25 +10,45 @@
 namespace torquescope {
 namespace {
 
+// no more than it does in twins that have it
+bool is_as_in_twins(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection,
+                    std::size_t effect, UnseenWithout const& found) {
+  std::vector<std::vector<TwinPrediction>> twins;
+  for (auto const& recording : unseen) twins.push_back(twins_without(recording, setting, *selection.final, effect));
+  return share_of(found.energy, found.energy - found.gain, found.moved) >= least_by_chance(over_recordings(twins));
+}
+
+// over all recordings, one per effect
+struct Without {
+  std::vector<UnseenWithout> effects;
+  double residual = 0.0;  // of the whole model
+};
+
+Without without_each(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection) {
+  Without sum{std::vector<UnseenWithout>(selection.accepted.size())};
+  for (auto const& recording : unseen) {
+    auto const prediction = predict_unseen(recording, setting, *selection.baseline, *selection.final);
+    sum.residual += prediction.after_energy;
+    for (std::size_t i = 0; i < sum.effects.size(); ++i) {
+      sum.effects[i].energy += prediction.without[i].energy;
+      sum.effects[i].gain += prediction.without[i].gain;
+      sum.effects[i].moved += prediction.without[i].moved;
+    }
+  }
+  return sum;
+}
+
 // the effect that spoils most, by what it gains for each unit of energy it moves
 std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<Recording const> unseen,
                                          Selection const& selection) {
-  std::vector<UnseenWithout> sum(selection.accepted.size());
-  double residual = 0.0;
-  for (auto const& recording : unseen) {
-    auto const prediction = predict_unseen(recording, setting, *selection.baseline, *selection.final);
-    residual += prediction.after_energy;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i].gain += prediction.without[i].gain;
-      sum[i].moved += prediction.without[i].moved;
-    }
-  }
+  Without const sum = without_each(setting, unseen, selection);
   std::optional<std::size_t> worst;
   double least = 0.0;
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (!must_carry_over(*selection.accepted[i].effect) || sum[i].moved < enough_moved * residual) continue;
-    if (sum[i].gain >= least * sum[i].moved) continue;
-    least = sum[i].gain / sum[i].moved;
+  for (std::size_t i = 0; i < sum.effects.size(); ++i) {
+    auto const& [energy, gain, moved] = sum.effects[i];
+    if (!must_carry_over(*selection.accepted[i].effect) || moved < enough_moved * sum.residual) continue;
+    if (gain >= least * moved || is_as_in_twins(setting, unseen, selection, i, sum.effects[i])) continue;
+    least = gain / moved;
     worst = i;
   }
   return worst;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/diagnose/joint_refinement.hpp"
+#include "engine/diagnose/unseen_floor.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
@@ -78,6 +79,16 @@ TEST_F(UnseenSelection, DropsTheNameThatSpoilsThePrediction) {
 
 TEST_F(UnseenSelection, KeepsWhatHoldsThereToo) {
   EXPECT_EQ(names_with(with_teeth(size, 2)), (std::vector<std::string>{"stribeck", "cogging"}));
+}
+
+// all of a law is there in twins that have it: less is a reason to drop a name
+TEST_F(UnseenSelection, AsksTwinsHowMuchOfALawIsFoundWhereItIs) {
+  Recording const unseen = with_teeth(0.0, 2);
+  auto const twins = twins_without(unseen, setting, *selection.final, 1);
+  ASSERT_EQ(twins.size(), unseen_twins);
+  for (auto const& twin : twins) EXPECT_NEAR(share_of(twin.before, twin.after, twin.moved), 1.0, 0.3);
+  auto const found = predict_unseen(unseen, setting, *selection.baseline, *selection.final).without[1];
+  EXPECT_LT(share_of(found.energy, found.energy - found.gain, found.moved), least_by_chance(twins));
 }
 
 }  // namespace
