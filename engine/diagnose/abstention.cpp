@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/diagnose/torque_itself.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -21,14 +23,10 @@ bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
   });
 }
 
-// Of the first excess, in the torque itself. Weighed rows make little of what goes with friction that may wander: a level of friction
-// that falls once and for all is found and removed, and the weighed rest is still most of it
+// of the first excess: a level of friction that falls once and for all is found and removed, and the weighed rest is still most of it
 double share_in_torque_itself(ModelStage const& baseline, ModelStage const& final) {
-  auto const excess_of = [](ModelStage const& stage) {
-    return mismatch_energy(in_torque_itself(stage.comparison.rows)).excess;
-  };
-  double const first = excess_of(baseline);
-  return first > 0.0 ? std::max(0.0, excess_of(final)) / first : 1.0;
+  double const first = excess_in_torque_itself(baseline);
+  return first > 0.0 ? std::max(0.0, excess_in_torque_itself(final)) / first : 1.0;
 }
 
 // What it tells that a share of the energy lies within a share of the axis: the information (Kullback, Leibler) against energy that is

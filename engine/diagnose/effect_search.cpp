@@ -11,7 +11,7 @@
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/form_freedom.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
-#include "engine/diagnose/scaled_solution.hpp"
+#include "engine/diagnose/torque_itself.hpp"
 
 namespace torquescope {
 namespace {
@@ -137,32 +137,25 @@ bool EffectSearch::opens(CandidateColumns const& columns, std::vector<EffectScan
   return is_open;
 }
 
-// Of the candidates that are certain, the largest torque beside the model's own, as a share of the whole torque. Of the
-// torque itself, not of its weighed energy: a change of friction over time counts for little there, because friction may
-// wander, and can be large
+// of the candidates that are certain, the largest torque beside the model's own, as a share of the whole torque
 double EffectSearch::largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                                            std::vector<double> const& q) const {
-  Eigen::MatrixXd const& model = stage().comparison.common.columns_themselves();
   double largest = 0.0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i].is_testable || q[i] > faint_q || scans[i].gain <= 0.0) continue;
     if (may_be_another_loop(*scans[i].effect, scans[i].gain, scans[i].parameters)) continue;
-    Eigen::VectorXd const torque = columns.plain_columns(*scans[i].effect, scans[i].shape) * scans[i].parameters;
-    largest = std::max(largest, beside_columns(model, torque).squaredNorm());
+    SizedEffect const found{*scans[i].effect, scans[i].shape, scans[i].parameters};
+    largest = std::max(largest, energy_beside(stage(), columns, found));
   }
   return energy_share(stage(), largest);
 }
 
-// Of the whole that is missing, beyond noise. Weighed rows make little of what goes with friction that may wander
-double EffectSearch::gain_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
-  MismatchRows const rows = in_torque_itself(stage().comparison.rows);
-  double const whole = mismatch_energy(in_torque_itself(selection_.baseline->comparison.rows)).excess;
-  Eigen::MatrixXd const& model = stage().comparison.common.columns_themselves();
-  Eigen::VectorXd const torque =
-      beside_columns(model, columns.plain_columns(*refined.effect, refined.shape) * refined.parameters);
-  Eigen::VectorXd const mismatch = rows.residual - rows.twin_mean;
-  double const gain = mismatch.squaredNorm() - (mismatch - torque).squaredNorm();
-  return whole > 0.0 ? gain / whole : 0.0;
+// of a change of dry friction over time, of which weighed rows make little
+bool EffectSearch::is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
+  if (!refined.effect->is_dry_friction() || refined.effect->family() != EffectFamily::time) return false;
+  double const whole = excess_in_torque_itself(*selection_.baseline);
+  double const gain = gain_in_torque_itself(stage(), columns, {*refined.effect, refined.shape, refined.parameters});
+  return whole > 0.0 && gain >= least_share_of_rest * whole;
 }
 
 // the candidates worth a closer look, best first
@@ -229,9 +222,7 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   auto const* effect = trial.refined.effect;
   double const gain = trial.refined.gain, whole = selection_.whole();
   bool const explains_enough = gain >= least_share_of_rest * remaining_ && gain >= least_share_of_whole * whole;
-  // asked of the torque itself where weighed rows make little of the effect
-  bool const is_large = effect->is_dry_friction() && effect->family() == EffectFamily::time &&
-                        gain_in_torque_itself(columns, trial.refined) >= least_share_of_rest;
+  bool const is_large = is_large_in_torque_itself(columns, trial.refined);
   if (!explains_enough && !is_large)
     return fmt::format("explains {:.0f} % of what is left (a quarter is asked for)", 100.0 * gain / remaining_);
   if (may_be_another_loop(*effect, gain, trial.refined.parameters))

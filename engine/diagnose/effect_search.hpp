@@ -54,7 +54,7 @@ class EffectSearch {
   bool opens(CandidateColumns const& columns, std::vector<EffectScan> const& scans, std::vector<double> const& q);
   double largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                                std::vector<double> const& q) const;
-  double gain_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const;
+  bool is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const;
   std::vector<Trial> refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                     std::vector<double> const& q);
   void prefer_own_motion(CandidateColumns const& own, Trial& trial);
