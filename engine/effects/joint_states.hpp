@@ -69,7 +69,7 @@ inline void power_of_size(LawColumn x, double exponent) {
 }
 
 // cos(factor x), sin(factor x)
-inline void cosine_sine(double factor, Eigen::Ref<Eigen::ArrayXd const> x, LawColumn cosine, LawColumn sine) {
+inline void cosine_sine(double factor, Eigen::Ref<Eigen::ArrayXd const> const& x, LawColumn cosine, LawColumn sine) {
   kernels::cosine_sine_of_multiple(factor, x.data(), static_cast<std::size_t>(x.size()), cosine.data(), sine.data());
 }
 
