@@ -21,7 +21,7 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
 struct TwinResidual {
   Eigen::VectorXd left;        // empty: it ran away
   double torque = 0.0;         // norm
-  TwinPrediction predicted{};  // artefacts and all
+  TwinPrediction predicted{};  // where no artefact is to be taken out
 };
 
 TwinPrediction prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
@@ -37,7 +37,7 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
   for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
-    TwinPrediction const predicted = prediction_of(record, left, baseline);
+    TwinPrediction const predicted = rows == nullptr ? prediction_of(record, left, baseline) : TwinPrediction{};
     twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
   });
   return twins;
@@ -80,8 +80,10 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
   std::vector<TwinPrediction> predicted;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
-    if (rows == nullptr) predicted.push_back(twin.predicted);
-    if (rows != nullptr) twin.left -= artefact;
+    if (rows == nullptr)
+      predicted.push_back(twin.predicted);
+    else
+      twin.left -= artefact;
     double const relerr = nearer * twin.left.norm() / twin.torque;
     sum += relerr;
     least = std::min(least, relerr);

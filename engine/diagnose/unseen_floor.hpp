@@ -34,8 +34,8 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
 // relerr of twins; unknown where one ran away
 struct TwinErrors {
   double mean = unknown, least = unknown;
-  std::vector<TwinPrediction>
-      predicted{};  // one each; empty where an artefact was taken out, which is another for the baseline
+  // one each; empty where an artefact was taken out, which is another for the baseline
+  std::vector<TwinPrediction> predicted{};
 };
 
 // the twins' own fits are not used: the parameters of `stage` predict them, and those of the baseline, `baseline`, without its effects.
