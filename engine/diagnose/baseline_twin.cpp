@@ -99,7 +99,7 @@ bool any_of_torque_channel(JointModel const& model) {
 // a fault of the torque's measurement (LESSONS item 16)
 Recording without_channel_faults(Recording recording, ProcessedRecord const& record, JointModel const& model) {
   if (!any_of_torque_channel(model)) return recording;
-  Eigen::MatrixXd const columns = model.columns(record.motion);
+  Eigen::MatrixXd const columns = model.columns(record.motion, record.drive);
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     auto const& effect = *model.effects()[i].effect;
     if (!is_of_torque_channel(effect)) continue;

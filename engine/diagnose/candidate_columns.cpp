@@ -67,6 +67,10 @@ Eigen::MatrixXd CandidateColumns::with_tangents() const {
   return all;
 }
 
+EffectInput CandidateColumns::input_of(Effect const& effect) const {
+  return effect.has_inertia() ? EffectInput{record_->drive, reference_.scales} : baseline_.input(record_->motion);
+}
+
 // the columns of all shapes, one shape after the other
 Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
                                                    std::vector<std::vector<double>> const& shapes) const {
@@ -74,7 +78,7 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
   auto const count = static_cast<Eigen::Index>(shapes.size());
   bool const on_rows = is_fixed_frequency(effect);
   Eigen::MatrixXd all(on_rows ? record_->torque.size() : record_->motion.q.size(), linear * count);
-  EffectInput const input = on_rows ? EffectInput{row_motion_, reference_.scales} : baseline_.input(record_->motion);
+  EffectInput const input = on_rows ? EffectInput{row_motion_, reference_.scales} : input_of(effect);
   for (Eigen::Index i = 0; i < count; ++i)
     effect.columns(input, shapes[static_cast<std::size_t>(i)], all.middleCols(i * linear, linear));
   return on_rows ? all : pipeline_->filtered_columns(all, *record_);
@@ -96,9 +100,8 @@ Eigen::MatrixXd CandidateColumns::plain_columns(Effect const& effect, std::span<
 }
 
 Eigen::MatrixXd CandidateColumns::signals(Effect const& effect, std::span<double const> shape) const {
-  Motion const& motion = record_->motion;
-  Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(effect.n_linear()));
-  effect.columns(baseline_.input(motion), shape, all);
+  Eigen::MatrixXd all(record_->motion.q.size(), static_cast<Eigen::Index>(effect.n_linear()));
+  effect.columns(input_of(effect), shape, all);
   return all;
 }
 

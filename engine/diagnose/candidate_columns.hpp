@@ -52,6 +52,7 @@ class CandidateColumns {
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
 
  private:
+  EffectInput input_of(Effect const& effect) const;
   Eigen::MatrixXd plain_columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const;

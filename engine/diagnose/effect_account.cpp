@@ -58,7 +58,7 @@ ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& c
   RecordPipeline const& pipeline = *stage.pipeline;
   Eigen::VectorXd const torque = beside_the_level(stage, *effect, stage.model().regressor().columns(motion),
                                                   columns.signals(*effect, shape) * parameters_of(stage, i));
-  MotionAxes const axes = motion_axes(stage.model(), motion, stage.parameters());
+  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
   Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
   Eigen::Index const n = torque.size();
   Eigen::VectorXd const kept = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));

@@ -16,7 +16,7 @@ constexpr Eigen::Index n_knots_of_form = 12;
 
 // at the full rate
 Eigen::MatrixXd forms_of(Effect const& effect, ModelStage const& stage) {
-  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.rows.motion, stage.parameters());
+  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
   SignatureAxis const axis = effect.signature().front();
   Eigen::VectorXd const at = values_on(axis, axes);
   // of the speed: a function of the velocity would be of either parity

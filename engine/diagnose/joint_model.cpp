@@ -1,5 +1,6 @@
 #include "engine/diagnose/joint_model.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -37,14 +38,18 @@ std::vector<bool> JointModel::non_negative() const {
   return signs;
 }
 
-Eigen::MatrixXd JointModel::columns(Motion const& motion) const {
+bool JointModel::has_inertia() const {
+  return std::any_of(effects_.begin(), effects_.end(), [](auto const& one) { return one.effect->has_inertia(); });
+}
+
+Eigen::MatrixXd JointModel::columns(Motion const& motion, Motion const& drive) const {
   if (effects_.empty()) return regressor_->columns(motion);
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));
   all.leftCols(static_cast<Eigen::Index>(regressor_->size())) = regressor_->columns(motion);
   FittedBaseline const baseline = on_motion(*regressor_, reference_, motion);
-  EffectInput const input = baseline.input(motion);
+  EffectInput const input = baseline.input(motion), driven{drive, reference_.scales};
   for (std::size_t i = 0; i < effects_.size(); ++i)
-    effects_[i].effect->columns(input, effects_[i].shape,
+    effects_[i].effect->columns(effects_[i].effect->has_inertia() ? driven : input, effects_[i].shape,
                                 all.middleCols(static_cast<Eigen::Index>(first_parameter(i)),
                                                static_cast<Eigen::Index>(effects_[i].effect->n_linear())));
   return all;

@@ -46,7 +46,9 @@ class JointModel {
   // parameters of effects that physics allows no negative value; those of the baseline are free
   std::vector<bool> non_negative() const;
 
-  Eigen::MatrixXd columns(Motion const& motion) const;
+  bool has_inertia() const;  // of any effect
+  // drive: the same motion with a wider band, for effects that have an inertia (record_pipeline.hpp)
+  Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
   // linear parameters, then the shape: as Effect::runner takes them
   std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
   // Errors: Error 65 as make_twin_joint

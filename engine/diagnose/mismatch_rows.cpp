@@ -45,11 +45,12 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
                                   TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
   TwinComparison result;
   CleanTwin const quiet(twin.joint(), noiseless(twin.loop()), twin.track(), twin.step_s());
-  for_each_twin(quiet, pipeline, address, 1, 1, [&](VisitedTwin const& visited) {
-    result.ran_away = visited.ran_away;
-    result.common = visited.record;
-  });
+  TwinGroup alone;
+  quiet.simulate(address, 0, alone);
+  result.ran_away = alone.ran_away.front();
   if (result.ran_away) return result;
+  // candidates are driven by it, whatever the model is: processed by itself, with its drive
+  result.common = pipeline.process(recording_of(alone, 0, pipeline.rate_hz()));
 
   // pilots: rows at which a twin may turn are not safe in any
   std::size_t const n_pilots = std::min<std::size_t>(twins, twin_lanes);
@@ -74,7 +75,7 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   rows.kept_rows = safe;
   rows.motion = result.common.motion;
   static_cast<MotionAxes&>(rows) =
-      motion_axes(pipeline.model(), rows.motion, result.common.parameters).picked([&](Eigen::VectorXd const& signal) {
+      motion_axes(pipeline.model(), result.common, result.common.parameters).picked([&](Eigen::VectorXd const& signal) {
         return pipeline.picked(signal, result.common);
       });
   rows.torque = result.recording.torque_itself();

@@ -14,8 +14,9 @@ Eigen::VectorXd distance_since(Eigen::VectorXd const& signal, Eigen::VectorXd co
 
 }  // namespace
 
-MotionAxes motion_axes(JointModel const& model, Motion const& motion, Eigen::VectorXd const& parameters) {
-  Eigen::MatrixXd const columns = model.columns(motion);
+MotionAxes motion_axes(JointModel const& model, ProcessedRecord const& record, Eigen::VectorXd const& parameters) {
+  Motion const& motion = record.motion;
+  Eigen::MatrixXd const columns = model.columns(motion, record.drive);
   MotionAxes axes{motion.time_s, motion.q, motion.dq, motion.ddq, {}, columns * parameters, {}, {}};
   axes.load_torque = Eigen::VectorXd::Zero(columns.rows());
   auto const& owners = model.regressor().column_owners();

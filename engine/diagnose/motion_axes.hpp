@@ -9,8 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/data/motion.hpp"
-#include "engine/diagnose/joint_model.hpp"
+#include "engine/diagnose/record_pipeline.hpp"
 
 namespace torquescope {
 
@@ -35,7 +34,7 @@ struct MotionAxes {
   }
 };
 
-// at the full rate of `motion`; parameters: model.size()
-MotionAxes motion_axes(JointModel const& model, Motion const& motion, Eigen::VectorXd const& parameters);
+// at the full rate of its motion; parameters: model.size()
+MotionAxes motion_axes(JointModel const& model, ProcessedRecord const& record, Eigen::VectorXd const& parameters);
 
 }  // namespace torquescope

@@ -1,6 +1,5 @@
 #include "engine/diagnose/own_motion.hpp"
 
-#include <algorithm>
 #include <vector>
 
 namespace torquescope {
@@ -9,16 +8,6 @@ BothMotions::BothMotions(ModelStage const& stage)
     : twin(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()),
       recording(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), CandidateColumns::none,
                 DrivenBy::recording) {}
-
-namespace {
-
-// a part that rings or knocks by its own inertia; friction with a memory has one maximum
-bool has_inertia(Effect const& effect) {
-  auto const& axes = effect.signature();
-  return std::find(axes.begin(), axes.end(), SignatureAxis::acceleration) != axes.end();
-}
-
-}  // namespace
 
 std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
                                                   Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
@@ -29,7 +18,8 @@ std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, E
     // parts that ring or knock have many shapes that are nearly right
     constexpr int times_longer = 3;
     searches.front().generations *= times_longer;
-    if (how.everywhere && has_inertia(*scan.effect)) {
+    // friction with a memory has one maximum
+    if (how.everywhere && scan.effect->has_inertia()) {
       constexpr std::int64_t members = 20;
       searches.push_back(shape_search(how.optimiser, how.seed, members));
       searches.back().generations = 40;

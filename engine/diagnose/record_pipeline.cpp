@@ -1,5 +1,6 @@
 #include "engine/diagnose/record_pipeline.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/contract.hpp"
@@ -24,12 +25,22 @@ std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const
   return rows;
 }
 
+// Half as much again as the fastest flank that the catalogue looks for (effects/backlash.cpp): a part that rings or knocks integrates
+// what drives it twice, so that noise up there does not matter, and a flank of 100 Hz that is driven up to 60 Hz is another one
+FilterOptions driving_options(FilterOptions options, double rate_hz) {
+  constexpr double per_parallel_cutoff = 4.5, most_of_rate = 0.4;
+  double const wide_hz = std::min(per_parallel_cutoff * parallel_cutoff_of(options), most_of_rate * rate_hz);
+  if (options.cutoff_hz > 0.0) options.cutoff_hz = std::max(options.cutoff_hz, wide_hz);
+  return options;
+}
+
 }  // namespace
 
 RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
                                Section const& filter)
     : model_(std::move(model)),
       options_(options),
+      drive_options_(driving_options(options, rate_hz)),
       section_(filter),
       rate_hz_(rate_hz),
       n_samples_(n_samples),
@@ -43,9 +54,23 @@ ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   return record;
 }
 
-ProcessedRecord RecordPipeline::process_smooth(Recording&& recording) const {
+RecordPipeline::SmoothPositions RecordPipeline::smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const {
+  SmoothPositions smooth{smooth_positions(positions, options_, rate_hz_), {}};
+  if (model_.has_inertia()) smooth.drive = smooth_positions(positions, drive_options_, rate_hz_);
+  return smooth;
+}
+
+ProcessedRecord RecordPipeline::process_smooth(Recording&& recording, SmoothPositions const& positions,
+                                               Eigen::Index column) const {
   std::string const name = recording.name;
-  ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)));
+  Motion drive;
+  if (positions.drive.size() > 0) {
+    Recording driving = recording;
+    driving.position = positions.drive.col(column);
+    drive = differentiate_smooth(std::move(driving));
+  }
+  recording.position = positions.joint.col(column);
+  ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)), std::move(drive));
   fit(record, name);
   return record;
 }
@@ -127,20 +152,21 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
 }
 
 ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
-  return prepare(differentiate(recording, options_, section_));
+  return prepare(differentiate(recording, options_, section_), differentiate(recording, drive_options_, section_));
 }
 
-ProcessedRecord RecordPipeline::prepare(Motion&& motion) const {
+ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
   TORQUESCOPE_EXPECT(motion.q.size() == n_samples_ && motion.torque.size() == n_samples_);
   ProcessedRecord record;
   record.motion = std::move(motion);
+  record.drive = std::move(drive);
   record.kept_rows =
       fixed_rows_.empty()
           ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz, keeps_reversals_)
           : fixed_rows_;
 
   // the torque goes through the filter beside the columns: eight signals cost as much as one
-  Eigen::MatrixXd signals = model_.columns(record.motion);
+  Eigen::MatrixXd signals = model_.columns(record.motion, record.drive);
   Eigen::Index const last = signals.cols();
   signals.conservativeResize(Eigen::NoChange, last + 1);
   signals.col(last) = record.motion.torque;

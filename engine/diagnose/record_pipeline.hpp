@@ -35,6 +35,8 @@ struct ProcessedRecord {
   // before whitening, in torque units throughout; empty where nothing was whitened
   Eigen::MatrixXd plain_columns{};
   Eigen::VectorXd plain_torque{};
+  Motion
+      drive{};  // the same with a wider band: what moves parts that have an inertia; empty in a twin whose model has none
   std::string held{};  // "inertia" or "dry friction" where its fit is at a bound (joint_fit.hpp)
 
   double energy() const { return residual.squaredNorm(); }
@@ -79,11 +81,13 @@ class RecordPipeline {
   void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;
-  // of a recording whose position went through smoothed(), one of many: they share that filter's work
-  ProcessedRecord process_smooth(Recording&& recording) const;
-  Eigen::MatrixXd smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const {
-    return smooth_positions(positions, options_, rate_hz_);
-  }
+  // positions of many recordings, one per column, which share the filter's work; drive: none where the model needs none
+  struct SmoothPositions {
+    Eigen::MatrixXd joint, drive;
+  };
+  SmoothPositions smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const;
+  // of a recording whose position is to be that column
+  ProcessedRecord process_smooth(Recording&& recording, SmoothPositions const& positions, Eigen::Index column) const;
   // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay empty
   ProcessedRecord prepare(Recording const& recording) const;
   // the same record on fewer of its rows, fitted again; name: of the recording, for the message when that fails
@@ -102,11 +106,11 @@ class RecordPipeline {
  private:
   std::vector<Eigen::Index> present_columns(Eigen::MatrixXd const& columns) const;
   bool is_repeated(Eigen::MatrixXd const& columns, Eigen::Index column) const;
-  ProcessedRecord prepare(Motion&& motion) const;
+  ProcessedRecord prepare(Motion&& motion, Motion&& drive) const;
   void fit(ProcessedRecord& record, std::string const& name) const;  // whitens first
 
   JointModel model_;
-  FilterOptions options_;
+  FilterOptions options_, drive_options_;
   Section section_;
   double rate_hz_;
   Eigen::Index n_samples_;

@@ -56,17 +56,26 @@ Eigen::MatrixXd in_columns(std::array<Eigen::VectorXd, twin_lanes> const& signal
 
 }  // namespace
 
+Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz) {
+  Recording recording;
+  recording.name = "twin";
+  recording.rate_hz = rate_hz;
+  recording.position = group.position[lane];
+  recording.torque = group.torque[lane];
+  Eigen::Index const samples = recording.position.size();
+  recording.time_s = Eigen::VectorXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1) / rate_hz);
+  return recording;
+}
+
 void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
                    TwinRange const& range, int threads, std::function<void(VisitedTwin const&)> const& visit) {
   TORQUESCOPE_EXPECT(twin.samples() == pipeline.samples());
   if (range.to <= range.from) return;
   TORQUESCOPE_EXPECT(range.from % twin_lanes == 0);
-  Eigen::VectorXd const time_s =
-      Eigen::VectorXd::LinSpaced(twin.samples(), 0.0, static_cast<double>(twin.samples() - 1) / pipeline.rate_hz());
   std::size_t const first_group = range.from / twin_lanes, groups = (range.to + twin_lanes - 1) / twin_lanes;
   std::size_t const wave = static_cast<std::size_t>(std::max(1, threads));
   std::vector<TwinGroup> simulated(std::min(wave, groups - first_group));
-  std::vector<Eigen::MatrixXd> smooth(simulated.size());  // positions of a group
+  std::vector<RecordPipeline::SmoothPositions> smooth(simulated.size());  // of a group
   for (std::size_t first = first_group; first < groups; first += wave) {
     // as many groups as there are threads, then all their twins: the pipeline is the longer part and spreads evenly
     std::size_t const now = std::min(wave, groups - first);
@@ -81,13 +90,8 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
       bool const ran_away = group.ran_away[lane];
       ProcessedRecord record;
       if (!ran_away) {
-        Recording recording;
-        recording.name = "twin";
-        recording.rate_hz = pipeline.rate_hz();
-        recording.time_s = time_s;
-        recording.position = smooth[i / twin_lanes].col(static_cast<Eigen::Index>(lane));
-        recording.torque = group.torque[lane];
-        record = pipeline.process_smooth(std::move(recording));
+        record = pipeline.process_smooth(recording_of(group, lane, pipeline.rate_hz()), smooth[i / twin_lanes],
+                                         static_cast<Eigen::Index>(lane));
       }
       visit({first * twin_lanes + i, thread, ran_away, record});
     });

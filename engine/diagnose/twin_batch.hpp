@@ -28,6 +28,9 @@ struct VisitedTwin {
   ProcessedRecord const& record;
 };
 
+// one of a group as if it had been recorded
+Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz);
+
 void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
                    TwinRange const& range, int threads, std::function<void(VisitedTwin const&)> const& visit);
 

@@ -45,7 +45,8 @@ class Backlash final : public MemoryEffect {
              .families = {EffectFamily::reversal},
              .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
              .parity = Parity::neither,
-             .needs_baseline = true}) {}
+             .needs_baseline = true,
+             .has_inertia = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,

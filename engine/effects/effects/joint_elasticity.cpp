@@ -122,7 +122,8 @@ class JointElasticity final : public MemoryEffect {
                             shape_parameter("elasticity_hardening", "1", "1", {0.02}, {8.0}, Spacing::logarithmic)},
              .families = {EffectFamily::acceleration},
              .signature = {SignatureAxis::frequency, SignatureAxis::acceleration},
-             .parity = Parity::even}) {}
+             .parity = Parity::even,
+             .has_inertia = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,

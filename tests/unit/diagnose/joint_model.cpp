@@ -69,7 +69,7 @@ Motion const& motion() {
 TEST(JointModel, WithoutEffectsIsItsRegressor) {
   JointModel const model(clean_regressor());
   EXPECT_EQ(model.size(), 4U);
-  EXPECT_EQ(model.columns(motion()), clean_regressor().columns(motion()));
+  EXPECT_EQ(model.columns(motion(), {}), clean_regressor().columns(motion()));
   EXPECT_EQ(model.column_owners().size(), 4U);
 }
 
@@ -77,7 +77,7 @@ TEST(JointModel, PutsTheColumnsOfAnEffectBehindTheBaseline) {
   JointModel const model = stribeck_model();
   ASSERT_EQ(model.size(), 5U);
   EXPECT_EQ(model.first_parameter(0), 4U);
-  Eigen::MatrixXd const columns = model.columns(motion());
+  Eigen::MatrixXd const columns = model.columns(motion(), {});
   EXPECT_EQ(columns.leftCols(4), clean_regressor().columns(motion()));
 
   Eigen::MatrixXd own(motion().q.size(), 1);
@@ -94,11 +94,11 @@ TEST(JointModel, KeepsTheOrderOfItsEffects) {
   EXPECT_EQ(model.first_parameter(0), 4U);
   EXPECT_EQ(model.first_parameter(1), 6U);
   EXPECT_EQ(model.first_parameter(2), 7U);
-  Eigen::MatrixXd const columns = model.columns(motion());
+  Eigen::MatrixXd const columns = model.columns(motion(), {});
   Eigen::ArrayXd const angle = 9.0 * motion().q.array();
   EXPECT_LT((columns.col(4).array() - angle.cos()).abs().maxCoeff(), 1e-12);
   EXPECT_LT((columns.col(5).array() - angle.sin()).abs().maxCoeff(), 1e-12);
-  EXPECT_EQ(columns.col(6), stribeck_model().columns(motion()).col(4));
+  EXPECT_EQ(columns.col(6), stribeck_model().columns(motion(), {}).col(4));
 
   auto const owners = model.column_owners();
   std::vector<std::string> names;
