@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/data/spline_motion.hpp"
 #include "engine/diagnose/joint_fit.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
 
@@ -25,10 +26,10 @@ std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const
   return rows;
 }
 
-// Half as much again as the fastest flank that the catalogue looks for (effects/backlash.cpp): a part that rings or knocks integrates
+// Twice the fastest flank that the catalogue looks for (effects/backlash.cpp): a part that rings or knocks integrates
 // what drives it twice, so that noise up there does not matter, and a flank of 100 Hz that is driven up to 60 Hz is another one
 FilterOptions driving_options(FilterOptions options, double rate_hz) {
-  constexpr double per_parallel_cutoff = 4.5, most_of_rate = 0.4;
+  constexpr double per_parallel_cutoff = 6.0, most_of_rate = 0.4;
   double const wide_hz = std::min(per_parallel_cutoff * parallel_cutoff_of(options), most_of_rate * rate_hz);
   if (options.cutoff_hz > 0.0) options.cutoff_hz = std::max(options.cutoff_hz, wide_hz);
   return options;
@@ -67,7 +68,7 @@ ProcessedRecord RecordPipeline::process_smooth(Recording&& recording, SmoothPosi
   if (positions.drive.size() > 0) {
     Recording driving = recording;
     driving.position = positions.drive.col(column);
-    drive = differentiate_smooth(std::move(driving));
+    drive = spline_motion(std::move(driving));
   }
   recording.position = positions.joint.col(column);
   ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)), std::move(drive));
@@ -152,7 +153,12 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
 }
 
 ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
-  return prepare(differentiate(recording, options_, section_), differentiate(recording, drive_options_, section_));
+  Recording driving;
+  driving.rate_hz = recording.rate_hz;
+  driving.time_s = recording.time_s;
+  driving.position = smooth_positions(recording.position, drive_options_, rate_hz_);
+  driving.torque = recording.torque;
+  return prepare(differentiate(recording, options_, section_), spline_motion(std::move(driving)));
 }
 
 ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/random_stream.hpp"
+#include "engine/data/spline_motion.hpp"
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
@@ -42,6 +43,29 @@ TEST(Differentiate, ParabolaHasItsDerivativesExactlyInside) {
     EXPECT_NEAR(motion.ddq[i], 3.0, 1e-9);
   }
   EXPECT_EQ(motion.torque, recording.torque);
+}
+
+TEST(SplineMotion, ComesToEveryPositionAndSlopeWhenItsAccelerationIsIntegrated) {
+  Recording recording = sine_recording(100, 1, 1);
+  RandomStream random({9, 0, RandomDomain::test}, 0, 0);
+  recording.position = recording.position.unaryExpr([&](double q) { return q + random.uniform(-0.1, 0.1); });
+  Eigen::VectorXd const position = recording.position;
+  Motion const motion = spline_motion(std::move(recording));
+  constexpr double h = 0.01;
+  for (Eigen::Index k = 0; k + 1 < position.size(); ++k) {
+    double const jerk = (motion.ddq[k + 1] - motion.ddq[k]) / h;
+    ASSERT_NEAR(position[k] + h * motion.dq[k] + h * h * (motion.ddq[k] / 2 + h * jerk / 6), position[k + 1], 1e-12);
+    ASSERT_NEAR(motion.dq[k] + h * (motion.ddq[k] + h * jerk / 2), motion.dq[k + 1], 1e-9);
+  }
+}
+
+TEST(SplineMotion, KeepsAWaveThatCentralDifferencesLose) {
+  constexpr double rate = 1000, frequency = 85, omega = 2 * pi * frequency;
+  Motion const spline = spline_motion(sine_recording(rate, 2, frequency));
+  Motion const differences = differentiate(sine_recording(rate, 2, frequency), {}, filter_section());
+  double const peak = omega * omega;
+  EXPECT_NEAR(spline.ddq.segment(500, 1000).maxCoeff(), peak, 0.03 * peak);
+  EXPECT_LT(differences.ddq.segment(500, 1000).maxCoeff(), 0.92 * peak);
 }
 
 TEST(Differentiate, SineGivesTheAnalyticGainOfFilterAndDifferences) {
