@@ -145,22 +145,20 @@ class JointWork {
     UnseenEnergies sum;
     double torque = 0.0, floor = 0.0;
     bool has_twins = false;
-    std::vector<std::vector<TwinPrediction>> twins;
+    std::vector<std::vector<PredictionEnergies>> twins;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : unseen_) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
-      torque += result.energy;
-      sum.before += result.before_energy;
-      sum.after += result.after_energy;
-      floor += result.floor * result.floor * result.energy;
+      torque += result.torque_energy;
+      sum.found += result.energies;
+      floor += result.floor * result.floor * result.torque_energy;
       // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
-      sum.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.energy;
+      sum.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
-      sum.moved += result.moved_energy;
       twins.push_back(std::move(result.twins));
       sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
-      for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.without[i].energy - result.after_energy;
+      for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
@@ -171,14 +169,14 @@ class JointWork {
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
-    joint_.validation_relerr = std::sqrt(sum.before / torque);
-    joint_.augmented_validation_relerr = std::sqrt(sum.after / torque);
+    joint_.validation_relerr = std::sqrt(sum.found.before / torque);
+    joint_.augmented_validation_relerr = std::sqrt(sum.found.after / torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
     sum.twins = over_recordings(twins);
     is_refuted_ = must_carry_over(selection_.accepted) && speak_against(sum);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / sum.before;
+      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / sum.found.before;
     }
   }
 

@@ -19,13 +19,13 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
 }
 
 struct TwinResidual {
-  Eigen::VectorXd left;        // empty: it ran away
-  double torque = 0.0;         // norm
-  TwinPrediction predicted{};  // where no artefact is to be taken out
+  Eigen::VectorXd left;            // empty: it ran away
+  double torque = 0.0;             // norm
+  PredictionEnergies predicted{};  // where no artefact is to be taken out
 };
 
-TwinPrediction prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
-                             Eigen::VectorXd const& baseline) {
+PredictionEnergies prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
+                                 Eigen::VectorXd const& baseline) {
   Eigen::VectorXd const before = twin.torque - twin.columns.leftCols(baseline.size()) * baseline;
   return {before.squaredNorm(), left.squaredNorm(), (before - left).squaredNorm()};
 }
@@ -37,7 +37,7 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
   for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
-    TwinPrediction const predicted = rows == nullptr ? prediction_of(record, left, baseline) : TwinPrediction{};
+    PredictionEnergies const predicted = rows == nullptr ? prediction_of(record, left, baseline) : PredictionEnergies{};
     twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
   });
   return twins;
@@ -77,7 +77,7 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
   Eigen::VectorXd const artefact = rows != nullptr ? mean_of(twins) : Eigen::VectorXd();
   // a twin is nearer to a mean that it is in than the recording is
   double const nearer = rows != nullptr ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
-  std::vector<TwinPrediction> predicted;
+  std::vector<PredictionEnergies> predicted;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
     if (rows == nullptr)

@@ -18,9 +18,9 @@
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model_stage.hpp"
+#include "engine/diagnose/prediction_energies.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
 #include "engine/diagnose/twin_batch.hpp"
-#include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
 
@@ -35,7 +35,7 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
 struct TwinErrors {
   double mean = unknown, least = unknown;
   // one each; empty where an artefact was taken out, which is another for the baseline
-  std::vector<TwinPrediction> predicted{};
+  std::vector<PredictionEnergies> predicted{};
 };
 
 // the twins' own fits are not used: the parameters of `stage` predict them, and those of the baseline, `baseline`, without its effects.

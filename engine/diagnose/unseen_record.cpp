@@ -52,7 +52,7 @@ void account_for_twins(Recording const& recording, StageSetting const& setting, 
   result.promised = own.mean;
   result.twins = own.predicted;
   result.twins_ran_away = !std::isfinite(own.mean);
-  double const relerr = std::sqrt(result.after_energy / result.energy);
+  double const relerr = std::sqrt(result.energies.after / result.torque_energy);
   result.floor = floor_below(relerr, own);
   RecordedLoop const& trained = stage.twin->loop;
   if (std::isfinite(result.floor) || result.twins_ran_away || trained.track.rate_hz != loop.track.rate_hz) return;
@@ -81,8 +81,8 @@ void take_out(Eigen::VectorXd const& artefact, Eigen::VectorXd& left) {
 }
 
 // with the artefact of the final model, which that effect changes little
-UnseenWithout without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
-                             Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
+PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
+                                  Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
   auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
   auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
   // what the other terms would have been fitted to without it
@@ -95,7 +95,7 @@ UnseenWithout without_effect(ModelStage const& augmented, std::size_t effect, Pr
   Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
   Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
   take_out(artefact, left);
-  return {left.squaredNorm(), left.squaredNorm() - left_with.squaredNorm(), (left - left_with).squaredNorm()};
+  return {left.squaredNorm(), left_with.squaredNorm(), (left - left_with).squaredNorm()};
 }
 
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
@@ -129,13 +129,11 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
     Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
     if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
   }
-  result.energy = before.torque.squaredNorm();
-  result.before_energy = left_before.squaredNorm();
-  result.after_energy = left_after.squaredNorm();
-  result.moved_energy = (left_before - left_after).squaredNorm();
+  result.torque_energy = before.torque.squaredNorm();
+  result.energies = {left_before.squaredNorm(), left_after.squaredNorm(), (left_before - left_after).squaredNorm()};
   result.blocks = added_torque(left_before, left_after);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
-    result.without.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
+    result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
   return result;
 }
@@ -183,12 +181,12 @@ UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& 
   return predict(from_zero(recording), setting, baseline, augmented, {});
 }
 
-std::vector<TwinPrediction> twins_without(Recording const& given, StageSetting const& setting,
-                                          ModelStage const& augmented, std::size_t effect) {
+std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetting const& setting,
+                                              ModelStage const& augmented, std::size_t effect) {
   Recording const recording = from_zero(given);
   auto const loop = loop_of(recording, augmented);
   if (!loop) return {};
-  std::vector<TwinPrediction> twins(unseen_twins);
+  std::vector<PredictionEnergies> twins(unseen_twins);
   std::vector<char> is_there(twins.size(), 0);
   try {
     for_each_unseen_twin(recording, setting, augmented, *loop, nullptr, [&](VisitedTwin const& visited) {
@@ -196,15 +194,14 @@ std::vector<TwinPrediction> twins_without(Recording const& given, StageSetting c
       Eigen::VectorXd parameters = transferable(augmented, unsaid);
       refit_on_head(augmented, visited.record, parameters, unsaid);
       Eigen::VectorXd const left = visited.record.torque - visited.record.columns * parameters;
-      UnseenWithout const without = without_effect(augmented, effect, visited.record, left, {});
-      twins[visited.index] = {without.energy, without.energy - without.gain, without.moved};
+      twins[visited.index] = without_effect(augmented, effect, visited.record, left, {});
       is_there[visited.index] = 1;
     });
   } catch (Error const&) {
     return {};  // as in check_unseen()
   }
   bool const are_there = std::all_of(is_there.begin(), is_there.end(), [](char there) { return there == 1; });
-  return are_there ? twins : std::vector<TwinPrediction>{};
+  return are_there ? twins : std::vector<PredictionEnergies>{};
 }
 
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,

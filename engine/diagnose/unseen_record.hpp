@@ -27,18 +27,11 @@
 
 namespace torquescope {
 
-// of the model without one of its effects
-struct UnseenWithout {
-  double energy = 0.0;  // of the residual
-  double gain = 0.0;    // by the effect, no offset refitted in either; negative: the effect spoils the prediction
-  double moved = 0.0;   // energy of the difference between both predictions
-};
-
 struct UnseenPrediction {
-  double energy = 0.0, before_energy = 0.0, after_energy = 0.0;  // of torque and residuals, summed over rows
-  double moved_energy = 0.0;                                     // of the difference between both predictions
+  double torque_energy = 0.0;
+  PredictionEnergies energies{};  // of all effects together
   std::vector<AddedTorque> blocks{};
-  std::vector<UnseenWithout> without{};  // per effect
+  std::vector<PredictionEnergies> by_effect{};  // without and with each, no offset refitted in either
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
   // all of them, when what processing makes of a complete model at reversals was taken out of the residuals (unseen_floor.hpp)
@@ -48,7 +41,7 @@ struct UnseenPrediction {
 struct UnseenResult : UnseenPrediction {
   double promised = unknown, floor = unknown;  // relerr
   bool twins_ran_away = false;                 // of this recording, under the final model: no floor
-  std::vector<TwinPrediction> twins{};         // one each
+  std::vector<PredictionEnergies> twins{};     // one each
   ForwardSimulation forward{};
 };
 
@@ -58,8 +51,8 @@ UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& 
 
 // Twins of the recording that have all effects, without and with that one in the prediction, what belongs to the training recording
 // left out in both; empty where the recording's loop is not known, or where one ran away
-std::vector<TwinPrediction> twins_without(Recording const& recording, StageSetting const& setting,
-                                          ModelStage const& augmented, std::size_t effect);
+std::vector<PredictionEnergies> twins_without(Recording const& recording, StageSetting const& setting,
+                                              ModelStage const& augmented, std::size_t effect);
 
 // the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,

@@ -12,7 +12,7 @@ struct ShareFound {
 };
 
 ShareFound share_found(UnseenEnergies const& energies) {
-  ShareFound result{share_of(energies.before, energies.after, energies.moved)};
+  ShareFound result{energies.found.share()};
   double energy = 0.0, squares = 0.0;
   for (auto const& block : energies.blocks) {
     energy += block.energy;
@@ -37,13 +37,11 @@ std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen:
   return blocks;
 }
 
-double share_of(double before, double after, double moved) { return 0.5 * (1.0 + (before - after) / moved); }
-
-double least_by_chance(std::vector<TwinPrediction> const& twins) {
+double least_by_chance(std::vector<PredictionEnergies> const& twins) {
   double sum = 0.0, squares = 0.0, n = 0.0;
   for (auto const& twin : twins) {
     if (!(twin.moved > 0.0)) continue;
-    double const share = share_of(twin.before, twin.after, twin.moved);
+    double const share = twin.share();
     sum += share;
     squares += share * share;
     ++n;
@@ -53,32 +51,28 @@ double least_by_chance(std::vector<TwinPrediction> const& twins) {
   return mean - 3.0 * std::sqrt(std::max(0.0, squares / n - mean * mean) * n / (n - 1.0));
 }
 
-std::vector<TwinPrediction> over_recordings(std::vector<std::vector<TwinPrediction>> const& twins) {
+std::vector<PredictionEnergies> over_recordings(std::vector<std::vector<PredictionEnergies>> const& twins) {
   if (twins.empty()) return {};
-  std::vector<TwinPrediction> sum = twins.front();
+  std::vector<PredictionEnergies> sum = twins.front();
   for (std::size_t i = 1; i < twins.size(); ++i) {
     if (twins[i].size() != sum.size()) return {};
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-      sum[k].before += twins[i][k].before;
-      sum[k].after += twins[i][k].after;
-      sum[k].moved += twins[i][k].moved;
-    }
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += twins[i][k];
   }
   return sum;
 }
 
 bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
+  auto const& [before, after, moved] = energies.found;
   ShareFound const there = share_found(energies);
   constexpr double sure = 2.0;  // standard errors
-  bool const is_short = (energies.moved >= enough_moved * energies.before && there.share < quarter) ||
-                        there.share + sure * there.error < quarter;
+  bool const is_short =
+      (moved >= enough_moved * before && there.share < quarter) || there.share + sure * there.error < quarter;
   if (is_short && there.share < least_by_chance(energies.twins)) return true;
-  if (!std::isfinite(energies.floor))
-    return energies.after > energies.before && energies.moved >= quarter * energies.before;
-  double const enough = quarter * energies.before, promised = energies.before - energies.floor;
-  bool const is_kept = energies.before - energies.after >= quarter * promised;
-  return !is_kept && promised >= enough && energies.moved >= enough;
+  if (!std::isfinite(energies.floor)) return after > before && moved >= quarter * before;
+  double const enough = quarter * before, promised = before - energies.floor;
+  bool const is_kept = before - after >= quarter * promised;
+  return !is_kept && promised >= enough && moved >= enough;
 }
 
 // not what is of the very recording: its clock, its zero

@@ -19,6 +19,7 @@
 // Source     PHYSICS.md section 2 step 9: what helps only where it was fitted is no physics
 
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/prediction_energies.hpp"
 
 namespace torquescope {
 
@@ -27,29 +28,19 @@ struct AddedTorque {
   double energy = 0.0, found = 0.0;
 };
 
-// a twin of an unseen recording that has the names, predicted without and with them, as the recording is: energies of residuals and of
-// the difference between both predictions
-struct TwinPrediction {
-  double before = 0.0, after = 0.0, moved = 0.0;
-};
-
 struct UnseenEnergies {
-  double before = 0.0, after = 0.0;
+  PredictionEnergies found{};
   // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
   double floor = 0.0;
-  double moved = 0.0;                   // of the difference between both predictions
-  std::vector<AddedTorque> blocks{};    // of all recordings
-  std::vector<TwinPrediction> twins{};  // over all recordings; empty: not known
+  std::vector<AddedTorque> blocks{};  // of all recordings
+  // of twins that have the names, predicted as the recordings are, over all of these; empty: not known
+  std::vector<PredictionEnergies> twins{};
 };
 
 inline constexpr double enough_moved = 0.1;  // of the residual: less says nothing
 
-// How much of the torque that a law adds is there: 1 of a right law, 0 of one that has nothing to do with the recording. Energies of
-// residuals without and with it, and of the difference
-double share_of(double before, double after, double moved);
-
-// of it in twins that have the law: three standard deviations below their mean; infinite where there are none
-double least_by_chance(std::vector<TwinPrediction> const& twins);
+// share in twins that have the law: three standard deviations below their mean; infinite where there are none
+double least_by_chance(std::vector<PredictionEnergies> const& twins);
 
 bool speak_against(UnseenEnergies const& energies);
 
@@ -57,7 +48,7 @@ bool speak_against(UnseenEnergies const& energies);
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after);
 
 // the sums, twin by twin; empty where those of one recording are
-std::vector<TwinPrediction> over_recordings(std::vector<std::vector<TwinPrediction>> const& twins);
+std::vector<PredictionEnergies> over_recordings(std::vector<std::vector<PredictionEnergies>> const& twins);
 
 // whether a law, or all that was accepted, must hold in another recording too
 bool must_carry_over(Effect const& effect);

@@ -12,28 +12,24 @@ namespace {
 
 // no more than it does in twins that have it
 bool is_as_in_twins(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection,
-                    std::size_t effect, UnseenWithout const& found) {
-  std::vector<std::vector<TwinPrediction>> twins;
+                    std::size_t effect, PredictionEnergies const& found) {
+  std::vector<std::vector<PredictionEnergies>> twins;
   for (auto const& recording : unseen) twins.push_back(twins_without(recording, setting, *selection.final, effect));
-  return share_of(found.energy, found.energy - found.gain, found.moved) >= least_by_chance(over_recordings(twins));
+  return found.share() >= least_by_chance(over_recordings(twins));
 }
 
 // over all recordings, one per effect
 struct Without {
-  std::vector<UnseenWithout> effects;
+  std::vector<PredictionEnergies> effects;
   double residual = 0.0;  // of the whole model
 };
 
 Without without_each(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection) {
-  Without sum{std::vector<UnseenWithout>(selection.accepted.size())};
+  Without sum{std::vector<PredictionEnergies>(selection.accepted.size())};
   for (auto const& recording : unseen) {
     auto const prediction = predict_unseen(recording, setting, *selection.baseline, *selection.final);
-    sum.residual += prediction.after_energy;
-    for (std::size_t i = 0; i < sum.effects.size(); ++i) {
-      sum.effects[i].energy += prediction.without[i].energy;
-      sum.effects[i].gain += prediction.without[i].gain;
-      sum.effects[i].moved += prediction.without[i].moved;
-    }
+    sum.residual += prediction.energies.after;
+    for (std::size_t i = 0; i < sum.effects.size(); ++i) sum.effects[i] += prediction.by_effect[i];
   }
   return sum;
 }
@@ -45,10 +41,10 @@ std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<
   std::optional<std::size_t> worst;
   double least = 0.0;
   for (std::size_t i = 0; i < sum.effects.size(); ++i) {
-    auto const& [energy, gain, moved] = sum.effects[i];
-    if (!must_carry_over(*selection.accepted[i].effect) || moved < enough_moved * sum.residual) continue;
-    if (gain >= least * moved || is_as_in_twins(setting, unseen, selection, i, sum.effects[i])) continue;
-    least = gain / moved;
+    PredictionEnergies const& found = sum.effects[i];
+    if (!must_carry_over(*selection.accepted[i].effect) || found.moved < enough_moved * sum.residual) continue;
+    if (found.gain() >= least * found.moved || is_as_in_twins(setting, unseen, selection, i, found)) continue;
+    least = found.gain() / found.moved;
     worst = i;
   }
   return worst;

@@ -17,26 +17,22 @@ using torquescope::speak_against;
 using torquescope::UnseenEnergies;
 
 TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
-  EXPECT_TRUE(speak_against({.before = 4.0, .after = 5.0, .floor = 2.0, .moved = 3.0}));
-  EXPECT_TRUE(speak_against({.before = 4.0, .after = 3.9, .floor = 2.0, .moved = 3.0}))
-      << "a crumb of what its twins promise";
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.4, .floor = 2.0, .moved = 3.0}))
-      << "it keeps more than a quarter";
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 5.0, .floor = 3.5, .moved = 3.0})) << "twins promise little";
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = 2.0, .moved = 0.5}))
-      << "the rest is another matter";
+  EXPECT_TRUE(speak_against({{4.0, 5.0, 3.0}, 2.0}));
+  EXPECT_TRUE(speak_against({{4.0, 3.9, 3.0}, 2.0})) << "a crumb of what its twins promise";
+  EXPECT_FALSE(speak_against({{4.0, 3.4, 3.0}, 2.0})) << "it keeps more than a quarter";
+  EXPECT_FALSE(speak_against({{4.0, 5.0, 3.0}, 3.5})) << "twins promise little";
+  EXPECT_FALSE(speak_against({{4.0, 4.1, 0.5}, 2.0})) << "the rest is another matter";
 }
 
 TEST(UnseenRefutation, WantsTheTorqueThatIsAddedToBeThere) {
   double const floor = 2.0, moved = 0.8, before = 4.0;
   auto const with_share = [&](double there) {
-    return UnseenEnergies{
-        .before = before, .after = before - (2.0 * there - 1.0) * moved, .floor = floor, .moved = moved};
+    return UnseenEnergies{{before, before - (2.0 * there - 1.0) * moved, moved}, floor};
   };
   EXPECT_TRUE(speak_against(with_share(0.0)));
   EXPECT_TRUE(speak_against(with_share(0.2)));
   EXPECT_FALSE(speak_against(with_share(0.3))) << "its size differs, as friction of another day does";
-  EXPECT_FALSE(speak_against({.before = before, .after = 4.3, .floor = floor, .moved = 0.3})) << "too little to tell";
+  EXPECT_FALSE(speak_against({{before, 4.3, 0.3}, floor})) << "too little to tell";
 }
 
 // a wave that chance found in the training recording adds little, and that little is nowhere in the unseen one
@@ -52,10 +48,10 @@ TEST(UnseenRefutation, IsSureOfLittleWhereAllStretchesAgree) {
   auto const energies = [&](double there) {
     Eigen::VectorXd const before = noise + there * wave, after = before - wave;
     double const promised = noise.squaredNorm();
-    return UnseenEnergies{before.squaredNorm(), after.squaredNorm(), promised, wave.squaredNorm(),
-                          added_torque(before, after)};
+    return UnseenEnergies{
+        {before.squaredNorm(), after.squaredNorm(), wave.squaredNorm()}, promised, added_torque(before, after)};
   };
-  ASSERT_LT(energies(0.0).moved, 0.03 * energies(0.0).before);
+  ASSERT_LT(energies(0.0).found.moved, 0.03 * energies(0.0).found.before);
   EXPECT_TRUE(speak_against(energies(-0.5)));
   EXPECT_FALSE(speak_against(energies(0.5)));
   EXPECT_FALSE(speak_against(energies(1.0)));
@@ -67,7 +63,7 @@ TEST(UnseenRefutation, IsSureOfLittleWhereAllStretchesAgree) {
 // of a law whose knocks are turned by noise, or whose columns move other terms, its own twins have little as well
 TEST(UnseenRefutation, AsksForNoMoreThanTwinsThatHaveTheNames) {
   auto const with_twins = [](double share) {
-    UnseenEnergies energies{.before = 4.0, .after = 4.5, .floor = 4.2, .moved = 0.6};
+    UnseenEnergies energies{{4.0, 4.5, 0.6}, 4.2};
     for (double off : {-0.02, -0.01, 0.0, 0.01, 0.02})
       energies.twins.push_back({4.0, 4.0 - (2.0 * (share + off) - 1.0) * 0.6, 0.6});
     return energies;
@@ -83,10 +79,9 @@ TEST(UnseenRefutation, AsksForNoMoreThanTwinsThatHaveTheNames) {
 
 TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {
   double const unknown = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(speak_against({.before = 4.0, .after = 9.0, .floor = unknown, .moved = 9.0}));
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 3.9, .floor = unknown, .moved = 3.0}))
-      << "no promise, none broken";
-  EXPECT_FALSE(speak_against({.before = 4.0, .after = 4.1, .floor = unknown, .moved = 0.5})) << "hardly another one";
+  EXPECT_TRUE(speak_against({{4.0, 9.0, 9.0}, unknown}));
+  EXPECT_FALSE(speak_against({{4.0, 3.9, 3.0}, unknown})) << "no promise, none broken";
+  EXPECT_FALSE(speak_against({{4.0, 4.1, 0.5}, unknown})) << "hardly another one";
 }
 
 TEST(UnseenRefutation, AsksNothingOfWhatBelongsToOneRecording) {
