@@ -187,11 +187,18 @@ class LoadBehindGap {
   // what a load that is fixed to the motor would need
   double drive(JointState const& state) const { return drive_of(state, load_.weight); }
   double drive_of(JointState const& state, double weight) const { return state.ddq + weight + drag_per_s_ * state.dq; }
+  bool has_weight() const {
+    return (scales_.gravity_sin != 0.0 || scales_.gravity_cos != 0.0) && scales_.inertia > 0.0;
+  }
   // over the inertia
+  double weight(double cosine, double sine) const {
+    return (scales_.gravity_sin * sine + scales_.gravity_cos * cosine) / scales_.inertia;
+  }
   double weight(double q) const {
-    bool const has_weight = scales_.gravity_sin != 0.0 || scales_.gravity_cos != 0.0;
-    if (!has_weight || !(scales_.inertia > 0.0)) return 0.0;
-    return (scales_.gravity_sin * std::sin(q) + scales_.gravity_cos * std::cos(q)) / scales_.inertia;
+    if (!has_weight()) return 0.0;
+    double cosine = 1.0, sine = 0.0;
+    kernels::cosine_sine_of_multiple(1.0, &q, 1, &cosine, &sine);
+    return weight(cosine, sine);
   }
 
   // of the joint on the load

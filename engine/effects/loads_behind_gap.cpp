@@ -125,7 +125,7 @@ TORQUESCOPE_EXPORT(whole_sub_step);
 class LoadsBehindGap final : public EffectMemory {
  public:
   LoadsBehindGap(LoadBehindGap const& fresh, std::size_t lanes)
-      : fresh_(fresh), law_(fresh), n_(lanes), weight_(n_), drive_(n_) {
+      : fresh_(fresh), law_(fresh), n_(lanes), weight_(n_), cosine_(n_), sine_(n_), drive_(n_) {
     std::size_t const whole = (lanes + gap_lanes - 1) / gap_lanes * gap_lanes;
     for (auto* one : {&y_, &dy_, &side_, &now_, &jerk_, &event_}) one->assign(whole, 0.0);
   }
@@ -138,10 +138,12 @@ class LoadsBehindGap final : public EffectMemory {
     if (!has_started_) return start(at);
     law_.divide(step_s);
     double const part_s = law_.sub_steps().time_s;
+    if (law_.has_weight()) {
+      kernels::cosine_sine_of_multiple(1.0, at.q.data(), n_, cosine_.data(), sine_.data());
+      for (std::size_t lane = 0; lane < n_; ++lane) weight_[lane] = law_.weight(cosine_[lane], sine_[lane]);
+    }
     for (std::size_t lane = 0; lane < n_; ++lane) {
-      JointState const state = at.state(lane);
-      weight_[lane] = law_.weight(state.q);
-      double const end = law_.drive_of(state, weight_[lane]);
+      double const end = law_.drive_of(at.state(lane), weight_[lane]);
       now_[lane] = drive_[lane];
       jerk_[lane] = (end - drive_[lane]) / step_s;
       drive_[lane] = end;
@@ -192,7 +194,7 @@ class LoadsBehindGap final : public EffectMemory {
 
   LoadBehindGap fresh_, law_;
   std::size_t n_;
-  std::vector<double> weight_, drive_;
+  std::vector<double> weight_, cosine_, sine_, drive_;
   std::vector<double> y_, dy_, side_, now_, jerk_, event_;  // whole vectors: lanes behind the last never meet a flank
   bool has_started_ = false;
 };

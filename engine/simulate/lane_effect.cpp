@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/instant_effect.hpp"
 #include "engine/effects/memory_effect.hpp"
+#include "kernels/elementary.hpp"
 
 namespace torquescope {
 namespace {
@@ -72,11 +72,12 @@ class CatalogueEffect final : public LaneEffect {
   LaneTorques load_torques(LaneInstant const& at) const {
     LaneTorques load{};
     if (!needs_baseline_) return load;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      load[lane] = baseline_.inertia * at.ddq[lane];
-      if (has_weight_)
-        load[lane] += baseline_.gravity_sin * std::sin(at.q[lane]) + baseline_.gravity_cos * std::cos(at.q[lane]);
-    }
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) load[lane] = baseline_.inertia * at.ddq[lane];
+    if (!has_weight_) return load;
+    LaneTorques sine, cosine;
+    kernels::cosine_sine_of_multiple(1.0, at.q, twin_lanes, cosine.data(), sine.data());
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      load[lane] += baseline_.gravity_sin * sine[lane] + baseline_.gravity_cos * cosine[lane];
     return load;
   }
 

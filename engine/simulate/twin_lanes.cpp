@@ -1,8 +1,7 @@
 #include "engine/simulate/twin_lanes.hpp"
 
-#include <cmath>
-
 #include "kernels/dispatch-inl.hpp"
+#include "kernels/elementary.hpp"
 
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
@@ -190,10 +189,11 @@ void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double st
     a.weight_slope[lane] = 0.0;
   }
   if (has_weight) {
+    alignas(64) double sine[twin_lanes], cosine[twin_lanes];
+    kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      double const sine = std::sin(state.q[lane]), cosine = std::cos(state.q[lane]);
-      a.weight[lane] = (joint.gravity_sin * sine + joint.gravity_cos * cosine) * per_inertia[lane];
-      a.weight_slope[lane] = (joint.gravity_sin * cosine - joint.gravity_cos * sine) * per_inertia[lane];
+      a.weight[lane] = (joint.gravity_sin * sine[lane] + joint.gravity_cos * cosine[lane]) * per_inertia[lane];
+      a.weight_slope[lane] = (joint.gravity_sin * cosine[lane] - joint.gravity_cos * sine[lane]) * per_inertia[lane];
     }
     TORQUESCOPE_DISPATCH(advance_heavy)(a, step_s, steps, state);
   } else {
