@@ -103,7 +103,7 @@ TEST(Cmaes, BeginsAnewWhereItHasCollapsed) {
     auto const search = make_optimiser("cmaes", box, {5, run});
     run_to_generation(*search, two_basins, 60);
     first_start += search->progress().best_fitness < -0.5 ? 1 : 0;
-    run_to_generation(*search, two_basins, 3000);
+    run_to_generation(*search, two_basins, 12000);
     in_the_end += search->progress().best_fitness < -0.5 ? 1 : 0;
   }
   EXPECT_LT(first_start, 10);

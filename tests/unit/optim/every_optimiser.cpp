@@ -133,7 +133,7 @@ TEST_P(EveryOptimiser, CountsAndNeverSelectsNonfiniteFitness) {
   for (std::size_t i = 0; i < search->population().rows(); ++i) {
     EXPECT_EQ(search->fitness()[i], ranked_fitness(half_undefined(search->population().row(i))));
     // after forty generations every slot has met a finite trial
-    if (keeps_members(*search)) EXPECT_TRUE(std::isfinite(search->fitness()[i]));
+    EXPECT_TRUE(std::isfinite(search->fitness()[i]) || !keeps_members(*search));
   }
 }
 

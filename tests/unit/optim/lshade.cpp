@@ -52,6 +52,7 @@ TEST(Lshade, TakesTheStepsOfThePaper) {
 
     auto batch = ask(*search);
     std::vector<double> S_F, S_CR, gain;
+    std::vector<std::vector<double>> replaced;
     for (std::size_t i = 0; i < N; ++i) {
       RandomStream random(key, generation, static_cast<std::uint32_t>(i));
       std::size_t const r = random.below(H);
@@ -81,8 +82,9 @@ TEST(Lshade, TakesTheStepsOfThePaper) {
       S_F.push_back(F);
       S_CR.push_back(CR);
       gain.push_back(f[i] - batch.fitness[i]);
-      archive.push_back(x[i]);
+      replaced.push_back(x[i]);
     }
+    archive.insert(archive.end(), replaced.begin(), replaced.end());
     ASSERT_LE(archive.size(), 20u) << "2.6 x 8: nobody leaves in this test";
     search->tell(batch.rows(), batch.fitness);
     if (!gain.empty()) {

@@ -229,7 +229,8 @@ TEST(Optimise, StoresAShrinkingPopulationAtItsFirstSize) {
       EXPECT_EQ(std::isnan(history.fitness[g * 54 + i]), i >= members);
       for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(std::isnan(history.population[(g * 54 + i) * 3 + j]), i >= members);
     }
-    if (g > 0) EXPECT_EQ(history.evaluations[g], history.evaluations[g - 1] + static_cast<std::int64_t>(before));
+    std::int64_t const evaluations_before = g > 0 ? history.evaluations[g - 1] : 0;
+    EXPECT_EQ(history.evaluations[g], evaluations_before + static_cast<std::int64_t>(before));
     before = members;
   }
   EXPECT_EQ(before, 4u);
