@@ -43,6 +43,20 @@ TEST(CovarianceAdaptation, TakesTheFirstStepOfTheTutorial) {
   EXPECT_NEAR(distribution.covariance()(0, 0), C, 1e-15);
 }
 
+// a step so long that sigma is far too small: the rank-one path waits, and what it does not add is not lost either
+TEST(CovarianceAdaptation, LeavesALongStepToTheStepSize) {
+  CovarianceAdaptation distribution(Eigen::VectorXd::Constant(1, 0.4), 0.01, 4);
+  double const a = std::log(2.5), b = std::log(1.25);
+  double const w1 = a / (a + b), w2 = b / (a + b);
+  double const mu_eff = 1.0 / (w1 * w1 + w2 * w2);
+  distribution.learn(Eigen::MatrixXd{{3.0, 2.5}});
+  double const c_c = (4.0 + mu_eff) / (5.0 + 2.0 * mu_eff);
+  double const c_1 = 2.0 / (2.3 * 2.3 + mu_eff);
+  double const c_mu = 2.0 * (mu_eff - 2.0 + 1.0 / mu_eff) / (9.0 + mu_eff);
+  double const C = 1.0 - c_1 - c_mu + c_1 * c_c * (2.0 - c_c) + c_mu * (w1 * 9.0 + w2 * 6.25);
+  EXPECT_NEAR(distribution.covariance()(0, 0), C, 1e-15);
+}
+
 // without selection nothing is learned: ln sigma makes a random walk, and C stays near the identity
 TEST(CovarianceAdaptation, IsUnbiasedUnderRandomSelection) {
   double ln_sigma = 0.0, trace = 0.0;
