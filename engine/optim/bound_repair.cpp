@@ -14,6 +14,8 @@ namespace {
 
 double clipped(double x, double lower, double upper) { return x > upper ? upper : x >= lower ? x : lower; }
 
+}  // namespace
+
 double reflected(double x, double lower, double upper) {
   if (!std::isfinite(x)) return clipped(x, lower, upper);
   // the mirrored path repeats every two widths: up, then down
@@ -21,8 +23,6 @@ double reflected(double x, double lower, double upper) {
   double const phase = std::fmod(std::fabs(x - lower), 2.0 * width);
   return clipped(lower + (phase <= width ? phase : 2.0 * width - phase), lower, upper);
 }
-
-}  // namespace
 
 double repaired(BoundRepair repair, double x, double lower, double upper, double target, RandomStream& random) {
   switch (repair) {

@@ -25,6 +25,9 @@ enum class BoundRepair { midpoint, clip, reflect, random };
 // in the order of the enum: what an option takes
 std::vector<std::string> const& bound_repair_words();
 
+// mirrored at the bounds until inside
+double reflected(double x, double lower, double upper);
+
 // a parameter x outside lower .. upper
 double repaired(BoundRepair repair, double x, double lower, double upper, double target, RandomStream& random);
 

@@ -2,29 +2,23 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "engine/optim/optimiser_state.hpp"
+#include "engine/optim/search_progress.hpp"
 #include "engine/optim/selection.hpp"
 
 namespace torquescope {
 
-namespace {
-
-constexpr double state_version = 1.0;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 GenerationalSearch::GenerationalSearch(std::string kind, Bounds bounds, RandomKey key, std::size_t n_members)
-    : kind_(std::move(kind)), bounds_(std::move(bounds)), key_(key), population_(n_members, bounds_.dimension()) {
+    : kind_(std::move(kind)),
+      bounds_(std::move(bounds)),
+      key_(key),
+      n_members_(n_members),
+      population_(n_members, bounds_.dimension()),
+      progress_(no_progress(bounds_.dimension())) {
   TORQUESCOPE_EXPECT(n_members >= 4 && bounds_.dimension() >= 1);
   TORQUESCOPE_EXPECT(bounds_.lower.size() == bounds_.upper.size());
-  progress_.best_fitness = std::numeric_limits<double>::infinity();
-  progress_.best.assign(bounds_.dimension(), none);
-  progress_.F = progress_.CR = progress_.PC = progress_.FC = none;
 }
 
 void GenerationalSearch::ask(MatrixView<double> candidates) const {
@@ -39,14 +33,14 @@ void GenerationalSearch::ask(MatrixView<double> candidates) const {
 void GenerationalSearch::tell(MatrixView<double const> asked, std::span<double const> fitness) {
   TORQUESCOPE_EXPECT(asked.rows() >= 1 && asked.rows() <= batch_size() && asked.columns() == dimension());
   TORQUESCOPE_EXPECT(fitness.size() == asked.rows());
-  if (begun()) {
-    select_and_learn(asked, fitness);
-  } else {
+  bool const first = !begun();
+  count_batch(progress_, fitness);
+  if (first) {
     keep_initial_population(asked, fitness);
+  } else {
+    select_and_learn(asked, fitness);
   }
-  progress_.evaluations += static_cast<std::int64_t>(fitness.size());
-  progress_.nonfinite += static_cast<std::int64_t>(count_nonfinite(fitness));
-  record_best();
+  record_best(progress_, population_);
 }
 
 void GenerationalSearch::keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness) {
@@ -68,45 +62,26 @@ void GenerationalSearch::select_and_learn(MatrixView<double const> asked, std::s
   for (std::size_t const i : winners_) before_.set_member(i, members.row(i), population_.fitness[i]);
   select(asked, fitness, population_, winners_);
   ++progress_.generation;
+  bool const whole = asked.rows() == population_.size();
   learn({before_, population_, winners_}, progress_);
-}
-
-void GenerationalSearch::record_best() {
-  std::size_t const best = best_index(population_.fitness);
-  double const best_fitness = population_.fitness[best];
-  // selection never loses the best member, so only a smaller value is news
-  if (!(best_fitness < progress_.best_fitness)) return;
-  progress_.best_fitness = best_fitness;
-  progress_.last_improvement = progress_.generation;
-  auto const member = std::as_const(population_).members().row(best);
-  progress_.best.assign(member.begin(), member.end());
+  // a budget cut the batch: it was the last
+  if (!whole || members_to_keep() >= population_.size()) return;
+  population_.keep_best(members_to_keep());
+  forget_generation_before();
 }
 
 OptimiserState GenerationalSearch::save() const {
-  OptimiserState state{{"kind " + kind_, {state_version}},  {"key", numbers_of(key_)},
-                       {"progress", numbers_of(progress_)}, {"best", progress_.best},
-                       {"population", population_.numbers}, {"fitness", population_.fitness}};
+  OptimiserState state = saved_state(kind_, key_, progress_, population_);
   save_more(state);
   return state;
 }
 
 void GenerationalSearch::restore(OptimiserState const& state) {
-  if (state_entry(state, "kind " + kind_, 1).front() != state_version) {
-    throw std::invalid_argument("the saved state is of another version of " + kind_);
-  }
-  auto const key = numbers_of(key_);
-  if (state_entry(state, "key", key.size()) != key) {
-    throw std::invalid_argument("the saved state belongs to another seed or run");
-  }
-  auto const& progress = state_entry(state, "progress", numbers_of(progress_).size());
-  auto const& best = state_entry(state, "best", dimension());
-  auto const& population = state_entry(state, "population", population_.numbers.size());
-  auto const& fitness = state_entry(state, "fitness", population_.size());
+  auto saved = saved_search(state, kind_, key_, dimension(), least_members(), n_members_);
   // from here on nothing of ours can fail
   restore_more(state);
-  progress_ = progress_of(progress, best);
-  population_.numbers = population;
-  population_.fitness = fitness;
+  progress_ = std::move(saved.progress);
+  population_ = std::move(saved.population);
   forget_generation_before();
 }
 

@@ -4,8 +4,8 @@
 //
 // Random     trial of member i in generation t: stream (key, t, i); so ask() is a pure function of the state
 // Promise    candidates are inside the bounds; a candidate without finite fitness is counted and never selected
-// State      entries "kind <name>", "key", "progress", "best", "population", "fitness" and what the kind adds;
-//            restore() throws std::invalid_argument, and changes nothing, for another kind, size or key
+// State      optimiser_state.hpp, and what the kind adds; restore() throws std::invalid_argument, and changes nothing, for
+//            another kind, size or key
 
 #include <cstddef>
 #include <span>
@@ -31,6 +31,7 @@ class GenerationalSearch : public Optimiser {
 
   std::size_t dimension() const final { return bounds_.dimension(); }
   std::size_t batch_size() const final { return population_.size(); }
+  std::size_t largest_batch() const final { return n_members_; }
   void ask(MatrixView<double> candidates) const final;
   void tell(MatrixView<double const> asked, std::span<double const> fitness) final;
 
@@ -48,6 +49,9 @@ class GenerationalSearch : public Optimiser {
   virtual void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const = 0;
   // after selection: writes F, CR, PC, FC of the generation just told where the kind has them, and adapts
   virtual void learn(Selected const& step, Progress& progress) = 0;
+  // after learn(): members that go on, the best of them; and the least that there ever are
+  virtual std::size_t members_to_keep() const { return population_.size(); }
+  virtual std::size_t least_members() const { return n_members_; }
   virtual void save_more(OptimiserState&) const {}
   // checks all its entries before it changes anything
   virtual void restore_more(OptimiserState const&) {}
@@ -57,11 +61,11 @@ class GenerationalSearch : public Optimiser {
   void keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness);
   void select_and_learn(MatrixView<double const> asked, std::span<double const> fitness);
   void forget_generation_before();
-  void record_best();
 
   std::string kind_;
   Bounds bounds_;
   RandomKey key_;
+  std::size_t n_members_;  // in the beginning
   Population population_;
   Population before_;                 // the generation before: differs from population_ in the winners
   std::vector<std::size_t> winners_;  // of the last generation

@@ -1,5 +1,5 @@
 #pragma once
-// DE/rand/1 mutation: a random member plus a scaled difference of two others.
+// Mutations of differential evolution. DE/rand/1: a random member plus a scaled difference of two others.
 //
 // Equation   v = x_r1 + F (x_r2 - x_r3); r1, r2, r3 and the target i all different         (seed eq. 5)
 // Random     three draws, without rejection: every ordered triple has the same probability
@@ -46,6 +46,14 @@ inline void mutate_rand_1(MatrixView<double const> members, std::array<std::size
   auto const plus = members.row(picked[1]);
   auto const minus = members.row(picked[2]);
   for (std::size_t j = 0; j < mutant.size(); ++j) mutant[j] = base[j] + F * (plus[j] - minus[j]);
+}
+
+// v = x + F (x_best - x) + F (x_plus - x_minus)                          (JADE's current-to-pbest/1 where best is one of many)
+inline void mutate_current_to_best_1(std::span<double const> target, std::span<double const> best,
+                                     std::span<double const> plus, std::span<double const> minus, double F,
+                                     std::span<double> mutant) {
+  for (std::size_t j = 0; j < mutant.size(); ++j)
+    mutant[j] = target[j] + F * (best[j] - target[j]) + F * (plus[j] - minus[j]);
 }
 
 }  // namespace torquescope

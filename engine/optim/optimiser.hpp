@@ -28,17 +28,17 @@ class FuzzyController;
 
 // what a search has reached after tell(); everything the result file stores per generation
 struct Progress {
-  std::int64_t generation = 0;   // 0: the initial population
-  std::int64_t evaluations = 0;  // candidates told so far
-  std::int64_t nonfinite = 0;    // of these, how many had NaN or inf fitness
+  std::int64_t generation = 0;        // 0: the initial population
+  std::int64_t evaluations = 0;       // candidates told so far
+  std::int64_t nonfinite = 0;         // of these, how many had NaN or inf fitness
   std::int64_t last_improvement = 0;  // generation in which best_fitness last fell: stagnation counts from here
-  double best_fitness = 0.0;     // +inf while no candidate had finite fitness
-  std::vector<double> best;      // dimension; NaN while no candidate had finite fitness
+  double best_fitness = 0.0;          // +inf while no candidate had finite fitness
+  std::vector<double> best;           // dimension; NaN while no candidate had finite fitness
   // of the generation just told; NaN where an optimiser has no such number (the initial population, other methods)
-  double F = 0.0;                // mutation factor
-  double CR = 0.0;               // crossover rate
-  double PC = 0.0;               // parameter change, FADE eq. 8 (raw or relative as the optimiser is set)
-  double FC = 0.0;               // function value change, FADE eq. 8
+  double F = 0.0;   // mutation factor
+  double CR = 0.0;  // crossover rate
+  double PC = 0.0;  // parameter change, FADE eq. 8 (raw or relative as the optimiser is set)
+  double FC = 0.0;  // function value change, FADE eq. 8
 };
 
 // state of a search as named lists of numbers: enough to go on exactly
@@ -51,13 +51,17 @@ class Optimiser {
   virtual std::size_t dimension() const = 0;
   // members of the next batch
   virtual std::size_t batch_size() const = 0;
+  // members of the largest batch, and of the largest population, from beginning to end: what is stored has room for them.
+  // More than batch_size() only where a population shrinks
+  virtual std::size_t largest_batch() const { return batch_size(); }
   // fills batch_size() rows; calling it twice without tell() gives the same rows
   virtual void ask(MatrixView<double> candidates) const = 0;
   // `asked` may hold fewer rows than batch_size() when an evaluation budget cut the batch: the first rows count
   virtual void tell(MatrixView<double const> asked, std::span<double const> fitness) = 0;
 
   virtual Progress const& progress() const = 0;
-  // current population after selection: members x dimension, and its fitness
+  // current population after selection: members x dimension, and its fitness (+inf where there was no finite one). Methods
+  // that keep a distribution rather than members: the candidates told last
   virtual MatrixView<double const> population() const = 0;
   virtual std::span<double const> fitness() const = 0;
 
@@ -67,9 +71,9 @@ class Optimiser {
 
 // how one kind of optimiser is made, checked and described; one per file in optimisers/
 struct OptimiserChoice {
-  std::string name;     // "fade"
-  std::string title;    // "Fuzzy Adaptive DE"
-  std::string source;   // paper
+  std::string name;    // "fade"
+  std::string title;   // "Fuzzy Adaptive DE"
+  std::string source;  // paper
   // every option with its default; what `describe fade` prints
   std::vector<OptionDescription> options;
   // reads the options of an [[estimator]] section ("name" and other callers' keys in `ignored`), appending problems;

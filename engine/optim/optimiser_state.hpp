@@ -1,7 +1,8 @@
 #pragma once
-// Reading a saved state back: every entry is checked before anything is changed.
+// What every search saves, and reading a saved state back: every entry is checked before anything is changed.
 //
-// Errors     std::invalid_argument: an entry is missing or has another number of values
+// State      entries "kind <name>", "key", "progress", "best", "population", "fitness"; a kind adds its own
+// Errors     std::invalid_argument: an entry is missing or has another number of values; another kind or key
 
 #include <cstddef>
 #include <string>
@@ -9,16 +10,27 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/optim/optimiser.hpp"
+#include "engine/optim/population.hpp"
 
 namespace torquescope {
 
 std::vector<double> const& state_entry(OptimiserState const& state, std::string const& name, std::size_t size);
+// least to most whole rows of `columns` numbers
+std::vector<double> const& state_rows(OptimiserState const& state, std::string const& name, std::size_t columns,
+                                      std::size_t least, std::size_t most);
 
 // a key as numbers that doubles hold exactly: seed high, seed low, run, domain
 std::vector<double> numbers_of(RandomKey key);
 
-// every number of a Progress but the best member
-std::vector<double> numbers_of(Progress const& progress);
-Progress progress_of(std::vector<double> const& numbers, std::vector<double> const& best);
+struct SavedSearch {
+  Progress progress;
+  Population population;
+};
+
+OptimiserState saved_state(std::string const& kind, RandomKey key, Progress const& progress,
+                           Population const& population);
+// the population has between least and most members
+SavedSearch saved_search(OptimiserState const& state, std::string const& kind, RandomKey key, std::size_t dimension,
+                         std::size_t least, std::size_t most);
 
 }  // namespace torquescope

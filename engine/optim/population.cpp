@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace torquescope {
 
@@ -10,6 +11,26 @@ Population::Population(std::size_t n_members, std::size_t dimension_)
     : dimension(dimension_),
       numbers(n_members * dimension_, 0.0),
       fitness(n_members, std::numeric_limits<double>::infinity()) {}
+
+void Population::keep_best(std::size_t n_members) {
+  TORQUESCOPE_EXPECT(n_members <= size());
+  auto kept = ranking(fitness);
+  kept.resize(n_members);
+  std::sort(kept.begin(), kept.end());
+  // each moves towards the front, or stays
+  for (std::size_t to = 0; to < n_members; ++to) {
+    if (kept[to] != to) set_member(to, members().row(kept[to]), fitness[kept[to]]);
+  }
+  numbers.resize(n_members * dimension);
+  fitness.resize(n_members);
+}
+
+std::vector<std::size_t> ranking(std::span<double const> fitness) {
+  std::vector<std::size_t> order(fitness.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fitness[a] < fitness[b]; });
+  return order;
+}
 
 void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members) {
   TORQUESCOPE_EXPECT(members.columns() == bounds.dimension());

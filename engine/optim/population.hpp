@@ -30,12 +30,18 @@ struct Population {
     fitness[i] = its_fitness;
   }
 
+  // of equally good ones the first, and all in their order
+  void keep_best(std::size_t n_members);
+
   std::size_t dimension = 0;
   std::vector<double> numbers;
   std::vector<double> fitness;
 };
 
 void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members);
+
+// indices from the best member to the worst, equally good ones in their order
+std::vector<std::size_t> ranking(std::span<double const> fitness);
 
 // largest extent of the members along any parameter, as a share of the box: 1 when they span it, 0 when all are equal
 double population_width(MatrixView<double const> members, Bounds const& bounds);

@@ -78,6 +78,13 @@ std::optional<StopReason> reason_to_stop(StopRules const& rules, Optimiser const
   return std::nullopt;
 }
 
+double share_spent(StopRules const& rules, Progress const& progress) {
+  auto const share = [](std::int64_t spent, std::int64_t limit) {
+    return limit > 0 ? static_cast<double>(spent) / static_cast<double>(limit) : 0.0;
+  };
+  return std::max(share(progress.evaluations, rules.evaluations), share(progress.generation, rules.generations));
+}
+
 std::size_t allowed_rows(StopRules const& rules, Progress const& progress, std::size_t batch_size) {
   if (rules.evaluations <= 0) return batch_size;
   auto const left = std::max<std::int64_t>(0, rules.evaluations - progress.evaluations);

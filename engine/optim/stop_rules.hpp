@@ -48,6 +48,9 @@ std::string to_string(StopReason reason);
 std::optional<StopReason> reason_to_stop(StopRules const& rules, Optimiser const& search, Bounds const& bounds,
                                          double elapsed_s);
 
+// of evaluations or generations, whichever is nearer its end; 0 where neither is limited, above 1 behind the end
+double share_spent(StopRules const& rules, Progress const& progress);
+
 // rows of the next batch that may still be evaluated
 std::size_t allowed_rows(StopRules const& rules, Progress const& progress, std::size_t batch_size);
 

@@ -143,7 +143,7 @@ void check_sizes(Experiment::Parts const& parts, std::vector<Problem>& problems)
   for (std::size_t i = 0; i < parts.estimators.size(); ++i) {
     auto const& plan = parts.estimators[i];
     if (plan.is_closed_form()) continue;
-    auto const members = static_cast<double>(plan.make_optimiser(parts.box, {})->batch_size());
+    auto const members = static_cast<double>(plan.make_optimiser(parts.box, {})->largest_batch());
     double const entries = static_cast<double>(plan.stop_rules.generations) + 1.0;
     double const numbers_per_member = static_cast<double>(parts.regressor->size()) + 1.0;
     double const bytes =

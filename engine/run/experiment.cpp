@@ -83,7 +83,7 @@ std::vector<std::string> Experiment::fitness_lines() const {
 }
 
 std::int64_t evaluations_of(Experiment::Parts const& parts, EstimatorPlan const& plan) {
-  auto const members = static_cast<std::int64_t>(plan.make_optimiser(parts.box, {})->batch_size());
+  auto const members = static_cast<std::int64_t>(plan.make_optimiser(parts.box, {})->largest_batch());
   std::int64_t const each = (plan.stop_rules.generations + 1) * members;
   return parts.experiment.runs * (plan.stop_rules.evaluations > 0 ? std::min(each, plan.stop_rules.evaluations) : each);
 }
@@ -200,7 +200,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   auto const parameters = static_cast<double>(parts_->regressor->size());
   for (auto const& plan : parts_->estimators) {
     if (plan.is_closed_form()) continue;
-    auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->batch_size());
+    auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->largest_batch());
     double const generations = static_cast<double>(plan.stop_rules.generations) + 1.0;
     evaluations += static_cast<double>(parts_->experiment.runs) * generations * members;
     bytes += static_cast<double>(parts_->experiment.runs) * generations * (members * (parameters + 1.0) + 7.0) * 8.0;

@@ -44,6 +44,7 @@ void record(Optimiser const& optimiser, SearchSetting const& setting, RunHistory
                             population.data() + population.rows() * population.columns());
   auto const fitness = optimiser.fitness();
   history.fitness.insert(history.fitness.end(), fitness.begin(), fitness.end());
+  history.pad_population(optimiser.largest_batch() - population.rows(), population.columns());
   history.F.push_back(progress.F);
   history.CR.push_back(progress.CR);
   history.PC.push_back(progress.PC);
@@ -69,7 +70,7 @@ struct Run {
 
 RunHistory finished(Run& run, SearchSetting const& setting) {
   run.history.told = run.history.best.size();
-  run.history.pad(stored_generations(setting.rules), run.search.batch_size(), run.search.dimension());
+  run.history.pad(stored_generations(setting.rules), run.search.largest_batch(), run.search.dimension());
   run.history.parameters = run.search.progress().best;
   run.history.stop_reason = to_string(*run.reason);
   run.history.nonfinite = run.search.progress().nonfinite;
@@ -103,8 +104,8 @@ std::vector<RunHistory> optimise(std::vector<RunStart> starts, SearchSetting con
     runs.push_back({search, std::move(begun.history)});
     Run& run = runs.back();
     run.spent_before_s = run.history.elapsed_s;
-    run.history.reserve(stored_generations(setting.rules), search.batch_size(), search.dimension());
-    most_rows += search.batch_size();
+    run.history.reserve(stored_generations(setting.rules), search.largest_batch(), search.dimension());
+    most_rows += search.largest_batch();
     // killed between its last generation and its end
     if (!run.history.best.empty())
       run.reason = reason_to_stop(setting.rules, search, setting.objective.bounds(), run.spent_before_s);

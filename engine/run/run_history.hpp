@@ -2,7 +2,8 @@
 // Everything one run of a population method leaves behind: what RESULT_FORMAT.md stores under /runs/<estimator>.
 //
 // Shapes     G + 1 entries per list (generation 0 is the initial population), NP x R numbers per population; entries
-//            after the run has stopped are NaN (evaluations: the last count)
+//            after the run has stopped are NaN (evaluations: the last count), and so are members that a shrinking
+//            population no longer has
 // Threads    plain record of one run
 
 #include <cstddef>
@@ -34,6 +35,13 @@ struct RunHistory {
     fitness.reserve(entries * members);
     for (auto* list : {&F, &CR, &PC, &FC, &best, &gap}) list->reserve(entries);
     evaluations.reserve(entries);
+  }
+
+  // rows that a population which has shrunk left empty in the generation just recorded
+  void pad_population(std::size_t members, std::size_t dimension) {
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    population.resize(population.size() + members * dimension, not_a_number);
+    fitness.resize(fitness.size() + members, not_a_number);
   }
 
   // fills up to `entries` generations of `members` x `dimension`: all runs of an estimator are stored at one size

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/optim/optimiser.hpp"
+#include "engine/optim/stop_rules.hpp"
 
 namespace torquescope::testing {
 
@@ -21,7 +22,9 @@ inline std::unique_ptr<Optimiser> make_optimiser(std::string const& name, Bounds
   OptimiserChoice const* choice = find_optimiser(name);
   if (!choice) throw std::invalid_argument("no optimiser " + name);
   std::vector<Problem> problems;
-  auto const make = choice->prepare(estimator_section(std::move(settings)), {}, problems);
+  std::vector<std::string> stop_keys;
+  for (auto const& option : StopRules::table().describe()) stop_keys.push_back(option.key);
+  auto const make = choice->prepare(estimator_section(std::move(settings)), stop_keys, problems);
   if (!problems.empty()) throw Error(problems);
   return make(bounds, key);
 }

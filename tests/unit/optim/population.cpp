@@ -50,5 +50,17 @@ TEST(PopulationWidth, IsTheLargestShareOfTheBox) {
   EXPECT_EQ(population_width(population.members(), bounds), 0.0);
 }
 
+TEST(Population, KeepsItsBestInTheirOrder) {
+  Population population(5, 2);
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::vector<double> const fitness{3.0, inf, 1.0, 3.0, 2.0};
+  for (std::size_t i = 0; i < 5; ++i)
+    population.set_member(i, std::vector{static_cast<double>(i), 10.0 * static_cast<double>(i)}, fitness[i]);
+  EXPECT_EQ(ranking(fitness), (std::vector<std::size_t>{2, 4, 0, 3, 1}));
+  population.keep_best(3);
+  EXPECT_EQ(population.fitness, (std::vector{3.0, 1.0, 2.0}));
+  EXPECT_EQ(population.numbers, (std::vector{0.0, 0.0, 2.0, 20.0, 4.0, 40.0}));
+}
+
 }  // namespace
 }  // namespace torquescope

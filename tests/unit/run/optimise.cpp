@@ -36,19 +36,21 @@ class Bowl final : public Objective {
   std::size_t bytes_;
 };
 
-std::unique_ptr<Optimiser> make_fade(std::uint32_t run) {
+std::unique_ptr<Optimiser> make_search(std::string const& name, std::uint32_t run) {
   std::vector<Problem> problems;
-  auto const make = find_optimiser("fade")->prepare(Section{}, {}, problems);
+  auto const make = find_optimiser(name)->prepare(Section{}, {}, problems);
   return make(Bowl().bounds(), RandomKey{5, run});
 }
 
+std::unique_ptr<Optimiser> make_fade(std::uint32_t run) { return make_search("fade", run); }
+
 // runs first, first + 1, ... of one study, side by side
 std::vector<RunHistory> run_bowls(StopRules const& rules, std::uint32_t first, std::uint32_t count, int team = 1,
-                                  std::function<bool()> stop = {}) {
+                                  std::function<bool()> stop = {}, std::string const& name = "fade") {
   Bowl const bowl;
   SearchSetting const setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}, std::move(stop)};
   std::vector<RunStart> starts;
-  for (std::uint32_t run = first; run < first + count; ++run) starts.push_back({make_fade(run)});
+  for (std::uint32_t run = first; run < first + count; ++run) starts.push_back({make_search(name, run)});
   std::vector<Workspace> workspaces;
   return optimise(std::move(starts), setting, team, workspaces);
 }
@@ -169,17 +171,18 @@ TEST(Optimise, SpendsAnEvaluationBudgetExactly) {
   EXPECT_TRUE(std::isnan(history.best.back()));  // generations that never were
 }
 
-TEST(Optimise, InterruptedAnywhereGoesOnToTheSameBits) {
+// of one kind of optimiser
+void expect_same_bits_when_interrupted(std::string const& name) {
   Bowl const bowl;
   StopRules rules;
   rules.generations = 60;
   rules.target = 2e-4;  // runs end before, each in a generation of its own
   rules.evaluations = 1234;
-  auto const whole = run_bowls(rules, 0, 3);
+  auto const whole = run_bowls(rules, 0, 3, 1, {}, name);
   for (int const interval : {1, 2, 7, 30}) {
     // every `interval` generations all runs are stopped, and begun anew from what was kept of them
     std::vector<RunStart> starts;
-    for (std::uint32_t run = 0; run < 3; ++run) starts.push_back({make_fade(run)});
+    for (std::uint32_t run = 0; run < 3; ++run) starts.push_back({make_search(name, run)});
     std::vector<RunHistory> resumed;
     for (int attempts = 0; resumed.empty() && attempts < 100; ++attempts) {
       std::vector<RunStart> kept(3);
@@ -187,7 +190,7 @@ TEST(Optimise, InterruptedAnywhereGoesOnToTheSameBits) {
       SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
       setting.stop_requested = [&] { return polls++ == interval; };
       setting.keep = [&](std::size_t index, RunHistory const& so_far, Optimiser const& search) {
-        kept[index] = {make_fade(static_cast<std::uint32_t>(index)), so_far};
+        kept[index] = {make_search(name, static_cast<std::uint32_t>(index)), so_far};
         kept[index].search->restore(search.save());
       };
       std::vector<Workspace> workspaces;
@@ -198,12 +201,39 @@ TEST(Optimise, InterruptedAnywhereGoesOnToTheSameBits) {
       }
       starts = std::move(kept);
     }
-    ASSERT_EQ(resumed.size(), 3u) << interval;
+    ASSERT_EQ(resumed.size(), 3u) << name << ", " << interval;
     for (std::size_t run = 0; run < 3; ++run) {
       expect_same_bits(resumed[run], whole[run]);
       EXPECT_EQ(resumed[run].told, whole[run].told);
     }
   }
+}
+
+TEST(Optimise, InterruptedAnywhereGoesOnToTheSameBits) {
+  for (auto const& choice : optimiser_choices()) expect_same_bits_when_interrupted(choice.name);
+}
+
+TEST(Optimise, StoresAShrinkingPopulationAtItsFirstSize) {
+  StopRules rules;
+  rules.generations = 100;
+  RunHistory const history = run_bowls(rules, 0, 1, 1, {}, "lshade").front();
+  ASSERT_EQ(history.fitness.size(), 101u * 54u);
+  ASSERT_EQ(history.population.size(), 101u * 54u * 3u);
+  std::size_t before = 54;
+  for (std::size_t g = 0; g <= 100; ++g) {
+    // the members that are left stand first
+    std::size_t members = 0;
+    while (members < 54 && !std::isnan(history.fitness[g * 54 + members])) ++members;
+    EXPECT_LE(members, before);
+    for (std::size_t i = 0; i < 54; ++i) {
+      EXPECT_EQ(std::isnan(history.fitness[g * 54 + i]), i >= members);
+      for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(std::isnan(history.population[(g * 54 + i) * 3 + j]), i >= members);
+    }
+    std::int64_t const evaluations_before = g > 0 ? history.evaluations[g - 1] : 0;
+    EXPECT_EQ(history.evaluations[g], evaluations_before + static_cast<std::int64_t>(before));
+    before = members;
+  }
+  EXPECT_EQ(before, 4u);
 }
 
 TEST(Optimise, KeepsEveryRunWhenAsked) {

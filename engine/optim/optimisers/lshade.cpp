@@ -1,0 +1,217 @@
+// L-SHADE: DE/current-to-pbest/1/bin with an archive, F and CR from a history of successes, and a population that shrinks
+// linearly to four members while the budget is spent.
+//
+// Equation   v = x + F (x_pbest - x) + F (x_r1 - x_r2); pbest among the best 11 %, at least two; r1 of the population, r2 of
+//            population and archive; the target, r1 and r2 all different
+//            NP = NP_0 + (4 - NP_0) share spent, rounded; the archive shrinks with it
+// Budget     that of the job: `evaluations` as in the paper, or `generations`, whichever is nearer its end. A population
+//            that the job limits by generations thus shrinks by generations. reduction = "none": SHADE with these settings
+// Fitness    a member that had no finite fitness gives room without an improvement that could be measured: nothing is
+//            learned from it, and it does not go into the archive
+// Progress   F, CR: mean of the generation's trials. PC, FC: as DE's
+// Random     a trial: controls (success_history.hpp), pbest, r1, r2, j_rand, one per parameter, repairs. The archive: a
+//            stream of its own
+// Source     Tanabe, Fukunaga: Improving the search performance of SHADE using linear population size reduction, CEC 2014;
+//            settings as there (NP_0 = 18 R, H = 6, archive 2.6 NP, p = 0.11)
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "engine/optim/crossover.hpp"
+#include "engine/optim/generational_search.hpp"
+#include "engine/optim/make_choice.hpp"
+#include "engine/optim/member_archive.hpp"
+#include "engine/optim/movement.hpp"
+#include "engine/optim/mutation.hpp"
+#include "engine/optim/named_choice.hpp"
+#include "engine/optim/optimiser_state.hpp"
+#include "engine/optim/stop_rules.hpp"
+#include "engine/optim/success_history.hpp"
+
+namespace torquescope {
+
+namespace {
+
+enum class Reduction { linear, none };
+
+std::vector<std::string> const& reduction_words() {
+  static std::vector<std::string> const words{"linear", "none"};
+  return words;
+}
+
+std::size_t usual_lshade_members(std::size_t dimension) { return 18 * dimension; }
+
+struct LshadeOptions {
+  std::int64_t population = 0;
+  std::int64_t memory = 6;
+  double best_share = 0.11;
+  double archive_share = 2.6;
+  std::string reduction = "linear";
+  std::string repair = "midpoint";
+};
+
+OptionTable<LshadeOptions> const& lshade_options() {
+  using O = LshadeOptions;
+  static OptionTable<O> const table(
+      "estimator", "differential evolution that learns F and CR from its successes, with a shrinking population",
+      {{"population", &O::population, "members", 0, 1e5, "members in the beginning; 0: 18 per parameter"},
+       {"memory", &O::memory, "entries", 1, 1000, "generations of success that are remembered"},
+       {"best_share", &O::best_share, "1", 0.0, 1.0,
+        "share of the population that leads the others, at least two members"},
+       {"archive_share", &O::archive_share, "population", 0.0, 100.0, "members that were replaced and are kept"},
+       {"reduction", &O::reduction, reduction_words(),
+        "linear: to four members at the end of the budget (evaluations or generations); none: constant, which is "
+        "SHADE"},
+       {"repair", &O::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});
+  return table;
+}
+
+struct LshadeSettings {
+  std::size_t memory;
+  double best_share, archive_share;
+  Reduction reduction;
+  BoundRepair repair;
+  StopRules budget;
+};
+
+std::size_t rounded(double number) { return static_cast<std::size_t>(std::lround(number)); }
+
+class Lshade final : public GenerationalSearch {
+ public:
+  Lshade(Bounds const& bounds, RandomKey key, std::size_t n_members, LshadeSettings const& settings)
+      : GenerationalSearch("lshade", bounds, key, n_members),
+        settings_(settings),
+        key_(key),
+        history_(settings.memory),
+        archive_(bounds.dimension()),
+        to_keep_(n_members) {}
+
+ private:
+  void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const override {
+    auto const members = population();
+    auto const order = ranking(fitness());
+    auto const n_best = static_cast<std::uint32_t>(std::clamp(
+        rounded(settings_.best_share * static_cast<double>(members.rows())), std::size_t{2}, members.rows()));
+    for (std::size_t i = 0; i < members.rows(); ++i) {
+      RandomStream random(streams.key, streams.generation, static_cast<std::uint32_t>(i));
+      auto const [F, CR] = history_.draw(random);
+      auto const best = members.row(order[random.below(n_best)]);
+      std::size_t const r1 = pick_another<1>(random, members.rows(), {i});
+      std::size_t const r2 = pick_another<2>(random, members.rows() + archive_.size(), {smaller(i, r1), larger(i, r1)});
+      auto const minus = r2 < members.rows() ? members.row(r2) : archive_.row(r2 - members.rows());
+      auto const trial = trials.row(i);
+      mutate_current_to_best_1(members.row(i), best, members.row(r1), minus, F, trial);
+      cross_binomial(random, CR, members.row(i), trial);
+      repair_bounds(settings_.repair, bounds(), members.row(i), random, trial);
+    }
+  }
+
+  void learn(Selected const& step, Progress& progress) override {
+    auto const movement = movement_between(step.before, step.after, step.winners, bounds(), MovementNorm::raw);
+    progress.PC = movement.PC;
+    progress.FC = movement.FC;
+    auto const generation = static_cast<std::uint32_t>(progress.generation);
+    auto const controls = controls_of(generation, step.after.size());
+    progress.F = progress.CR = 0.0;
+    for (auto const& [F, CR] : controls) {
+      progress.F += F / static_cast<double>(controls.size());
+      progress.CR += CR / static_cast<double>(controls.size());
+    }
+
+    std::vector<Success> successes;
+    RandomStream random(key_, generation, std::numeric_limits<std::uint32_t>::max());
+    for (std::size_t const i : step.winners) {
+      // halved, so that the difference cannot overflow
+      double const improvement = 0.5 * step.before.fitness[i] - 0.5 * step.after.fitness[i];
+      if (!std::isfinite(improvement) || improvement <= 0.0) continue;
+      successes.push_back({controls[i], improvement});
+      archive_.add(step.before.members().row(i), room_for(step.after.size()), random);
+    }
+    history_.learn(successes);
+
+    to_keep_ = std::min(step.after.size(), members_after(progress));
+    archive_.shrink(room_for(to_keep_), random);
+  }
+
+  std::size_t members_to_keep() const override { return to_keep_; }
+  std::size_t least_members() const override {
+    return settings_.reduction == Reduction::none ? largest_batch() : fewest_members;
+  }
+
+  void save_more(OptimiserState& state) const override {
+    state["history"] = history_.numbers();
+    state["archive"] = archive_.numbers();
+  }
+
+  void restore_more(OptimiserState const& state) override {
+    auto const& history = state_entry(state, "history", SuccessHistory::numbers_of(settings_.memory));
+    auto const& archive = state_rows(state, "archive", dimension(), 0, room_for(largest_batch()));
+    history_.restore(history);
+    archive_.restore(archive);
+  }
+
+  // drawn anew from the same streams: they are not part of the state
+  std::vector<TrialControls> controls_of(std::uint32_t generation, std::size_t n_members) const {
+    std::vector<TrialControls> controls(n_members);
+    for (std::size_t i = 0; i < n_members; ++i) {
+      RandomStream random(key_, generation, static_cast<std::uint32_t>(i));
+      controls[i] = history_.draw(random);
+    }
+    return controls;
+  }
+
+  std::size_t room_for(std::size_t n_members) const {
+    return rounded(settings_.archive_share * static_cast<double>(n_members));
+  }
+
+  std::size_t members_after(Progress const& progress) const {
+    if (settings_.reduction == Reduction::none) return largest_batch();
+    double const spent = std::min(1.0, share_spent(settings_.budget, progress));
+    auto const most = static_cast<double>(largest_batch());
+    return rounded(most + (static_cast<double>(fewest_members) - most) * spent);
+  }
+
+  LshadeSettings settings_;
+  RandomKey key_;
+  SuccessHistory history_;
+  MemberArchive archive_;
+  std::size_t to_keep_;  // of the generation just told
+};
+
+MakeSearch configure_lshade(LshadeOptions const& options, StopRules const& budget) {
+  LshadeSettings const settings{static_cast<std::size_t>(options.memory),
+                                options.best_share,
+                                options.archive_share,
+                                named_choice<Reduction>(reduction_words(), options.reduction),
+                                named_choice<BoundRepair>(bound_repair_words(), options.repair),
+                                budget};
+  return [population = options.population, settings](Bounds const& bounds, RandomKey key) {
+    auto const n_members = members_of(population, usual_lshade_members, bounds.dimension());
+    return std::make_unique<Lshade>(bounds, key, n_members, settings);
+  };
+}
+
+}  // namespace
+
+OptimiserChoice lshade_optimiser() {
+  auto choice = make_choice<LshadeOptions>(
+      "lshade", "L-SHADE: success-history adaptive DE, shrinking population", "Tanabe, Fukunaga: CEC 2014, 1658-1665",
+      lshade_options(), [](LshadeOptions const& options) { return configure_lshade(options, {}); },
+      usual_lshade_members);
+  choice.prepare = [check = choice.prepare](Section const& section, std::vector<std::string> const& ignored,
+                                            std::vector<Problem>& problems) {
+    check(section, ignored, problems);
+    // the stop rules of the same section are the budget: whoever searches checks them
+    std::vector<Problem> told_elsewhere;
+    LshadeOptions options;
+    lshade_options().apply(section, options, told_elsewhere);
+    StopRules budget;
+    StopRules::table().apply(section, budget, told_elsewhere);
+    return configure_lshade(options, budget);
+  };
+  return choice;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/optim/success_history.hpp"
+#include "support/optimise.hpp"
+
+namespace torquescope {
+namespace {
+
+using testing::ask;
+using testing::make_optimiser;
+using testing::run_to_generation;
+
+Bounds const box = testing::cube(3, -2.0, 2.0);
+RandomKey const key{5, 1};
+
+// several minima, values that are multiples of 2^-20: sums with whole numbers are exact
+double bumpy(std::span<double const> x) {
+  double sum = 0.0;
+  for (double const v : x) sum += v * v + std::cos(7.0 * v);
+  return std::round(sum * 0x1p20) * 0x1p-20;
+}
+
+std::vector<double> members_of(Optimiser const& search) {
+  auto const members = search.population();
+  return {members.data(), members.data() + members.rows() * members.columns()};
+}
+
+// two generations written out plainly: what is asked, who is replaced, what the memory and the archive hold then
+TEST(Lshade, TakesTheStepsOfThePaper) {
+  constexpr std::size_t N = 8, D = 3, H = 6;
+  auto const search =
+      make_optimiser("lshade", box, key, {{"population", std::int64_t{N}}, {"reduction", std::string("none")}});
+  run_to_generation(*search, bumpy, 0);
+  std::vector<double> M_F(H, 0.5), M_CR(H, 0.5);
+  std::vector<std::vector<double>> archive;
+  std::size_t k = 0, n_successes = 0;
+  for (std::uint32_t generation = 1; generation <= 3; ++generation) {
+    std::vector<std::vector<double>> x(N);
+    std::vector<double> f(search->fitness().begin(), search->fitness().end());
+    for (std::size_t i = 0; i < N; ++i) {
+      auto const row = search->population().row(i);
+      x[i].assign(row.begin(), row.end());
+    }
+    std::vector<std::size_t> order(N);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return f[a] < f[b]; });
+
+    auto batch = ask(*search);
+    std::vector<double> S_F, S_CR, gain;
+    std::vector<std::vector<double>> replaced;
+    for (std::size_t i = 0; i < N; ++i) {
+      RandomStream random(key, generation, static_cast<std::uint32_t>(i));
+      std::size_t const r = random.below(H);
+      double const CR = std::clamp(M_CR[r] + 0.1 * random.normal(), 0.0, 1.0);
+      double F = 0.0;
+      while (F <= 0.0)
+        F = std::min(1.0, M_F[r] + 0.1 * std::tan(std::acos(-1.0) * (RandomStream::probability(random.bits()) - 0.5)));
+      // round(0.11 x 8) is one, the least is two
+      auto const& best = x[order[random.below(2)]];
+      std::size_t r1 = random.below(N - 1);
+      if (r1 >= i) ++r1;
+      std::size_t r2 = random.below(static_cast<std::uint32_t>(N + archive.size() - 2));
+      if (r2 >= std::min(i, r1)) ++r2;
+      if (r2 >= std::max(i, r1)) ++r2;
+      auto const& other = r2 < N ? x[r2] : archive[r2 - N];
+      std::size_t const j_rand = random.below(D);
+      std::vector<double> u = x[i];
+      for (std::size_t j = 0; j < D; ++j) {
+        if (random.uniform() >= CR && j != j_rand) continue;
+        u[j] = x[i][j] + F * (best[j] - x[i][j]) + F * (x[r1][j] - other[j]);
+        if (u[j] > 2.0) u[j] = 0.5 * (x[i][j] + 2.0);
+        if (u[j] < -2.0) u[j] = 0.5 * (x[i][j] - 2.0);
+      }
+      for (std::size_t j = 0; j < D; ++j) EXPECT_NEAR(batch.rows()(i, j), u[j], 1e-15) << generation << ", " << i;
+      batch.fitness[i] = bumpy(batch.rows().row(i));
+      if (batch.fitness[i] >= f[i]) continue;
+      S_F.push_back(F);
+      S_CR.push_back(CR);
+      gain.push_back(f[i] - batch.fitness[i]);
+      replaced.push_back(x[i]);
+    }
+    archive.insert(archive.end(), replaced.begin(), replaced.end());
+    ASSERT_LE(archive.size(), 20u) << "2.6 x 8: nobody leaves in this test";
+    search->tell(batch.rows(), batch.fitness);
+    if (!gain.empty()) {
+      double F2 = 0.0, F1 = 0.0, CR2 = 0.0, CR1 = 0.0;
+      for (std::size_t s = 0; s < gain.size(); ++s) {
+        F2 += gain[s] * S_F[s] * S_F[s];
+        F1 += gain[s] * S_F[s];
+        CR2 += gain[s] * S_CR[s] * S_CR[s];
+        CR1 += gain[s] * S_CR[s];
+      }
+      M_F[k] = F2 / F1;
+      M_CR[k] = CR2 / CR1;
+      k = (k + 1) % H;
+    }
+    n_successes += gain.size();
+    auto const state = search->save();
+    auto const& history = state.at("history");
+    for (std::size_t h = 0; h < H; ++h) {
+      EXPECT_NEAR(history[h], M_F[h], 1e-14);
+      EXPECT_NEAR(history[H + h], M_CR[h], 1e-14);
+      // the same numbers from here on, not only nearly
+      M_F[h] = history[h];
+      M_CR[h] = history[H + h];
+    }
+    std::vector<double> rows;
+    for (auto const& row : archive) rows.insert(rows.end(), row.begin(), row.end());
+    EXPECT_EQ(state.at("archive"), rows);
+  }
+  EXPECT_GT(n_successes, 5u);
+}
+
+TEST(Lshade, PopulationShrinksLinearlyToFourAndTheBestStay) {
+  for (std::string const budget : {"evaluations", "generations"}) {
+    std::int64_t const limit = budget == "evaluations" ? 2000 : 60;
+    auto const search = make_optimiser("lshade", box, key,
+                                       {{"population", std::int64_t{40}},
+                                        {budget, limit},
+                                        {budget == "evaluations" ? "generations" : "evaluations", std::int64_t{0}}});
+    EXPECT_EQ(search->batch_size(), 40u);
+    auto const spent = [&] {
+      return budget == "evaluations" ? search->progress().evaluations : search->progress().generation;
+    };
+    run_to_generation(*search, bumpy, 0);
+    while (spent() < limit) {
+      auto batch = testing::asked_and_evaluated(*search, bumpy);
+      std::vector<double> left;
+      for (std::size_t i = 0; i < batch.fitness.size(); ++i)
+        left.push_back(std::min(batch.fitness[i], search->fitness()[i]));
+      search->tell(batch.rows(), batch.fitness);
+      double const share = std::min(1.0, static_cast<double>(spent()) / static_cast<double>(limit));
+      ASSERT_EQ(search->batch_size(), static_cast<std::size_t>(std::lround(40.0 - 36.0 * share)));
+      std::sort(left.begin(), left.end());
+      left.resize(search->batch_size());
+      std::vector<double> kept(search->fitness().begin(), search->fitness().end());
+      std::sort(kept.begin(), kept.end());
+      ASSERT_EQ(kept, left);
+      // the archive shrinks with the population
+      ASSERT_LE(search->save().at("archive").size() / 3,
+                static_cast<std::size_t>(std::lround(2.6 * static_cast<double>(search->batch_size()))));
+    }
+    EXPECT_EQ(search->batch_size(), 4u);
+  }
+}
+
+TEST(Lshade, TrajectoryIgnoresScaleAndOffsetOfFitness) {
+  auto const after = [](testing::Fitness const& fitness) {
+    auto const search = make_optimiser("lshade", box, key);
+    run_to_generation(*search, fitness, 60);
+    return members_of(*search);
+  };
+  auto const reference = after(bumpy);
+  EXPECT_EQ(after([](auto x) { return 0x1p40 * bumpy(x); }), reference);
+  EXPECT_EQ(after([](auto x) { return 0x1p-300 * bumpy(x); }), reference);
+  EXPECT_EQ(after([](auto x) { return bumpy(x) + 4096.0; }), reference);
+}
+
+// room made by a member that had no number teaches nothing
+TEST(Lshade, LearnsOnlyFromImprovementsThatCanBeMeasured) {
+  auto const search = make_optimiser("lshade", box, key);
+  run_to_generation(
+      *search, [](auto) { return std::numeric_limits<double>::quiet_NaN(); }, 0);
+  run_to_generation(*search, bumpy, 1);
+  EXPECT_TRUE(std::isfinite(search->progress().best_fitness));
+  EXPECT_EQ(search->save().at("history"), SuccessHistory(6).numbers());
+  EXPECT_TRUE(search->save().at("archive").empty());
+}
+
+TEST(Lshade, EachOptionChangesTheSearch) {
+  auto const best_after = [](std::vector<Setting> settings) {
+    auto const search = make_optimiser("lshade", box, key, std::move(settings));
+    run_to_generation(*search, bumpy, 40);
+    return search->progress().best;
+  };
+  auto const reference = best_after({});
+  std::vector<Setting> const settings{{"population", std::int64_t{12}},
+                                      {"memory", std::int64_t{2}},
+                                      {"best_share", 0.5},
+                                      {"archive_share", 0.0},
+                                      {"reduction", std::string("none")},
+                                      {"repair", std::string("reflect")},
+                                      {"evaluations", std::int64_t{2000}}};
+  for (auto const& setting : settings) EXPECT_NE(best_after({setting}), reference) << setting.key;
+}
+
+}  // namespace
+}  // namespace torquescope
