@@ -30,7 +30,8 @@ struct Drive {
 class Grease {
  public:
   // drag: of the load by itself, which the motor does not feel
-  Grease(double film_per_s, double drag_per_s) : push_per_s_(film_per_s), film_per_s_(film_per_s + drag_per_s) {}
+  Grease(double film_per_s, double drag_per_s)
+      : push_per_s_(film_per_s), film_per_s_(film_per_s + drag_per_s), per_film_(1.0 / film_per_s_) {}
 
   double push(Place const& at) const { return push_per_s_ * at.dy; }
 
@@ -45,6 +46,7 @@ class Grease {
   // changes nothing in this time, and would cancel all digits
   bool is_thin(double time_s) const { return film_per_s_ * time_s < 1e-6; }
   double film_per_s() const { return film_per_s_; }
+  double per_film() const { return per_film_; }  // infinite without any: thin
 
  private:
   static Place fly_freely(Place const& from, Drive const& drive, double time_s) {
@@ -55,14 +57,14 @@ class Grease {
 
   // faded: 1 - exp(-c time)
   Place fly_thickly(Place const& from, Drive const& drive, double time_s, double faded) const {
-    double const follow = (drive.jerk / film_per_s_ - drive.now) / film_per_s_, change = drive.jerk / film_per_s_;
+    double const change = drive.jerk * per_film_, follow = (change - drive.now) * per_film_;
     double const free = from.dy - follow;
-    return {from.y + free * faded / film_per_s_ + time_s * (follow - 0.5 * change * time_s),
+    return {from.y + free * faded * per_film_ + time_s * (follow - 0.5 * change * time_s),
             from.dy - free * faded - change * time_s};
   }
 
   double push_per_s_;
-  double film_per_s_;  // all that brakes
+  double film_per_s_, per_film_;  // all that brakes
 };
 
 // of a swing over some time
@@ -77,14 +79,20 @@ class Flank {
       : omega_(2.0 * std::numbers::pi * frequency_hz),
         push_per_s_(2.0 * damping * omega_),
         decay_(std::min(damping * omega_ + 0.5 * drag_per_s, most_decay * omega_)),
-        ringing_(std::sqrt(omega_ * omega_ - decay_ * decay_)) {}
+        ringing_(std::sqrt(omega_ * omega_ - decay_ * decay_)),
+        per_square_(1.0 / (omega_ * omega_)),
+        lag_(2.0 * decay_ * per_square_ * per_square_),
+        per_ringing_(1.0 / ringing_) {}
 
   double omega() const { return omega_; }
   double push_per_s() const { return push_per_s_; }
   double decay() const { return decay_; }
   double ringing() const { return ringing_; }
+  double per_square() const { return per_square_; }    // 1 / omega^2
+  double lag() const { return lag_; }                  // of what follows a drive, per jerk
+  double per_ringing() const { return per_ringing_; }  // 1 / ringing
   double push(Place const& at) const { return omega_ * omega_ * at.y + push_per_s_ * at.dy; }
-  double rest(double drive) const { return -drive / (omega_ * omega_); }
+  double rest(double drive) const { return -drive * per_square_; }
 
   Place ring(Place const& from, Drive const& drive, double time_s) const {
     return ring(from, drive, time_s, fading(time_s));
@@ -96,11 +104,10 @@ class Flank {
 
   // what remains after the motion that follows a straight drive rings freely
   Place ring(Place const& from, Drive const& drive, double time_s, Fading const& fading) const {
-    double const square = omega_ * omega_;
-    double const follow = rest(drive.now) + 2.0 * decay_ * drive.jerk / (square * square);
-    double const dfollow = -drive.jerk / square;
+    double const follow = rest(drive.now) + lag_ * drive.jerk;
+    double const dfollow = rest(drive.jerk);
     double const free = from.y - follow, dfree = from.dy - dfollow;
-    double const quadrature = (dfree + decay_ * free) / ringing_;
+    double const quadrature = (dfree + decay_ * free) * per_ringing_;
     return {free * fading.cosine + quadrature * fading.sine + follow + dfollow * time_s,
             dfree * fading.cosine - (free * ringing_ + decay_ * quadrature) * fading.sine + dfollow};
   }
@@ -109,6 +116,7 @@ class Flank {
   static constexpr double most_decay = 0.99;  // of a swing that is one
 
   double omega_, push_per_s_, decay_, ringing_;
+  double per_square_, lag_, per_ringing_;  // a division takes as long as ten products
 };
 
 // the equal parts of a step, and what whole ones need to know

@@ -45,14 +45,12 @@ struct Places {
 
 // Flank::ring over a whole sub-step; the place relative to where the flank begins
 HWY_INLINE Places rung(Flank const& flank, GapSubSteps const& steps, Places const& from, V now, V jerk) {
-  double const omega = flank.omega();
-  V const square = set(omega * omega), decay = set(flank.decay()), ringing = set(flank.ringing());
+  V const per_square = set(flank.per_square()), decay = set(flank.decay()), ringing = set(flank.ringing());
   V const cosine = set(steps.fading.cosine), sine = set(steps.fading.sine);
-  V const lag = hn::Div(hn::Mul(set(2.0 * flank.decay()), jerk), hn::Mul(square, square));
-  V const follow = hn::Add(hn::Div(hn::Neg(now), square), lag);
-  V const dfollow = hn::Div(hn::Neg(jerk), square);
+  V const follow = hn::Add(hn::Mul(hn::Neg(now), per_square), hn::Mul(set(flank.lag()), jerk));
+  V const dfollow = hn::Mul(hn::Neg(jerk), per_square);
   V const free = hn::Sub(from.y, follow), dfree = hn::Sub(from.dy, dfollow);
-  V const quadrature = hn::Div(hn::Add(dfree, hn::Mul(decay, free)), ringing);
+  V const quadrature = hn::Mul(hn::Add(dfree, hn::Mul(decay, free)), set(flank.per_ringing()));
   V const swing = hn::Add(hn::Mul(free, cosine), hn::Mul(quadrature, sine));
   V const dswing =
       hn::Sub(hn::Mul(dfree, cosine), hn::Mul(hn::Add(hn::Mul(free, ringing), hn::Mul(decay, quadrature)), sine));
@@ -68,11 +66,11 @@ HWY_INLINE Places flown(Grease const& grease, GapSubSteps const& steps, Places c
     return {hn::Add(from.y, hn::Mul(time_s, hn::Sub(from.dy, hn::Mul(half, mean)))),
             hn::Sub(from.dy, hn::Mul(time_s, hn::Add(now, hn::Mul(half, jerk))))};
   }
-  V const film = set(grease.film_per_s()), faded = set(steps.faded);
-  V const change = hn::Div(jerk, film), follow = hn::Div(hn::Sub(change, now), film);
+  V const per_film = set(grease.per_film()), faded = set(steps.faded);
+  V const change = hn::Mul(jerk, per_film), follow = hn::Mul(hn::Sub(change, now), per_film);
   V const lost = hn::Mul(hn::Sub(from.dy, follow), faded);
   V const drift = hn::Mul(time_s, hn::Sub(follow, hn::Mul(hn::Mul(set(0.5), change), time_s)));
-  return {hn::Add(hn::Add(from.y, hn::Div(lost, film)), drift),
+  return {hn::Add(hn::Add(from.y, hn::Mul(lost, per_film)), drift),
           hn::Sub(hn::Sub(from.dy, lost), hn::Mul(change, time_s))};
 }
 
