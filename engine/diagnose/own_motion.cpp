@@ -20,7 +20,7 @@ std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, E
     searches.front().generations *= times_longer;
     // friction with a memory has one maximum
     if (how.everywhere && scan.effect->has_inertia()) {
-      constexpr std::int64_t members = 20;
+      auto const members = 8 * static_cast<std::int64_t>(scan.effect->n_shape());
       searches.push_back(shape_search(how.optimiser, how.seed, members));
       searches.back().generations = 40;
       searches.back().everywhere = true;
