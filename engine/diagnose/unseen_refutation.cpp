@@ -65,10 +65,11 @@ bool speak_against(UnseenEnergies const& energies) {
   constexpr double quarter = 0.25;
   auto const& [before, after, moved] = energies.found;
   ShareFound const there = share_found(energies);
+  if (there.share >= least_by_chance(energies.twins)) return false;
   constexpr double sure = 2.0;  // standard errors
   bool const is_short =
       (moved >= enough_moved * before && there.share < quarter) || there.share + sure * there.error < quarter;
-  if (is_short && there.share < least_by_chance(energies.twins)) return true;
+  if (is_short) return true;
   if (!std::isfinite(energies.floor)) return after > before && moved >= quarter * before;
   double const enough = quarter * before, promised = before - energies.floor;
   bool const is_kept = before - after >= quarter * promised;

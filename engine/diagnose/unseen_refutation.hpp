@@ -2,14 +2,15 @@
 // Names that unseen recordings speak against: a law that explains one recording and spoils the prediction of another is not
 // the joint's, however certain it was.
 //
-// Refuted    when the model with its names keeps less than a quarter of what its own twins of these recordings promise, though they
+// Refuted    when less of the torque that the names add is found there than in twins that have the names, by three standard
+//            deviations of these: an attenuated column moves the other terms, and where parts knock against each other an encoder's
+//            noise turns the next knock, so that even of a right law little or nothing may be found. And when the model with its
+//            names keeps less than a quarter of what its own twins of these recordings promise, though they
 //            promise that a quarter of the residual's energy goes, and though the names change the prediction by as
 //            much as a quarter of it. The second condition spares knocking parts, whose phases no model repeats; the third
-//            spares a right law on a recording that has something else wrong with it. Refuted too where less than a quarter of the
+//            spares a right law on a recording that has something else wrong with it. Or when less than a quarter of the
 //            torque that the names add is found there, if they add a tenth of the residual's energy, or if twenty blocks of each
-//            recording agree on it to two standard errors; and if that is less, by three standard deviations, than in twins that have
-//            the names: an attenuated column moves the other terms, and where parts knock against each other an encoder's noise turns
-//            the next knock, so that even of a right law little or nothing may be found. Where nobody knows
+//            recording agree on it to two standard errors. Where nobody knows
 //            what twins promise (a loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
 // Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors

@@ -69,6 +69,15 @@ TEST(UnseenRefutation, AsksForNoMoreThanTwinsThatHaveTheNames) {
     return energies;
   };
   EXPECT_TRUE(speak_against(with_twins(1.0)));
+  // nor where more than a quarter is found, in all of them without a gain
+  for (double there : {0.2, 0.4}) {
+    UnseenEnergies knocking = with_twins(there + 0.01);
+    knocking.found = {4.0, 4.0 - (2.0 * there - 1.0) * 3.0, 3.0};
+    knocking.floor = 2.0;
+    EXPECT_FALSE(speak_against(knocking)) << there;
+    knocking.twins = with_twins(there + 0.2).twins;
+    EXPECT_TRUE(speak_against(knocking)) << there;
+  }
   EXPECT_FALSE(speak_against(with_twins(0.1)));
   auto const none = over_recordings({with_twins(0.1).twins, {}});
   EXPECT_TRUE(none.empty()) << "of one recording nothing is known";
