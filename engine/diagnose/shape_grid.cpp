@@ -30,6 +30,7 @@ std::size_t points_for(EffectParameter const& parameter, ParameterRange const& r
   if (parameter.is_instant() || parameter.lower.to == RelativeTo::position) return places;
   if (n_shape == 1) return 10;
   if (n_shape == 2) return 6;
+  if (n_shape > 3 && parameter.none_at_lower) return 1;
   if (range.spacing == Spacing::linear) return n_shape == 3 ? 4 : 1;
   // a refinement comes no further than one point: where the law changes by decades, more of them
   constexpr double widest_factor = 2.5;

@@ -50,6 +50,7 @@ struct EffectParameter {
   Bound upper{std::numeric_limits<double>::infinity()};
   bool is_shape = false;  // nonlinear: held fixed while the linear ones are solved
   Spacing spacing = Spacing::linear;
+  bool none_at_lower = false;  // its lower bound stands for a law without it
 
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
@@ -64,6 +65,11 @@ struct EffectParameter {
 inline EffectParameter shape_parameter(std::string name, std::string unit_revolute, std::string unit_prismatic,
                                        Bound lower, Bound upper, Spacing spacing) {
   return {std::move(name), std::move(unit_revolute), std::move(unit_prismatic), lower, upper, true, spacing};
+}
+
+inline EffectParameter none_at_lower(EffectParameter parameter) {
+  parameter.none_at_lower = true;
+  return parameter;
 }
 
 // a parameter's bounds on one recording

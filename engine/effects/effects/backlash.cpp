@@ -41,7 +41,8 @@ class Backlash final : public MemoryEffect {
                             shape_parameter("backlash_damping", "1", "1", {0.02}, {0.7}, Spacing::logarithmic),
                             shape_parameter("backlash_film", "1/s", "1/s", {0.0}, {2.0, RelativeTo::cutoff_frequency},
                                             Spacing::linear),
-                            shape_parameter("backlash_load_drag", "1", "1", {0.001}, {2.0}, Spacing::logarithmic)},
+                            none_at_lower(
+                                shape_parameter("backlash_load_drag", "1", "1", {0.001}, {2.0}, Spacing::logarithmic))},
              .families = {EffectFamily::reversal},
              .signature = {SignatureAxis::since_torque_reversal, SignatureAxis::acceleration},
              .parity = Parity::neither,

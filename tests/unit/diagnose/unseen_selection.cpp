@@ -86,9 +86,9 @@ TEST_F(UnseenSelection, AsksTwinsHowMuchOfALawIsFoundWhereItIs) {
   Recording const unseen = with_teeth(0.0, 2);
   auto const twins = twins_without(unseen, setting, *selection.final, 1);
   ASSERT_EQ(twins.size(), unseen_twins);
-  for (auto const& twin : twins) EXPECT_NEAR(share_of(twin.before, twin.after, twin.moved), 1.0, 0.3);
-  auto const found = predict_unseen(unseen, setting, *selection.baseline, *selection.final).without[1];
-  EXPECT_LT(share_of(found.energy, found.energy - found.gain, found.moved), least_by_chance(twins));
+  for (auto const& twin : twins) EXPECT_NEAR(twin.share(), 1.0, 0.3);
+  auto const found = predict_unseen(unseen, setting, *selection.baseline, *selection.final).by_effect[1];
+  EXPECT_LT(found.share(), least_by_chance(twins));
 }
 
 }  // namespace
