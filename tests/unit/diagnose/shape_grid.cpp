@@ -39,9 +39,10 @@ JointScales scales_of(double duration_s = 12.0, double range = 2.4) {
   return scales;
 }
 
-// of four or more, a linear one
-bool is_left_to_refinement(ShapeGrid const& grid, std::size_t k) {
-  return grid.axes.size() >= 4 && grid.ranges[k].spacing == Spacing::linear;
+// of four or more, one that is linear, or absent at its lower bound
+bool is_left_to_refinement(Effect const& effect, ShapeGrid const& grid, std::size_t k) {
+  auto const& parameter = effect.parameters()[effect.n_linear() + k];
+  return grid.axes.size() >= 4 && (grid.ranges[k].spacing == Spacing::linear || parameter.none_at_lower);
 }
 
 TEST(ShapeGrid, IncludesBothBoundsOfEveryShape) {
@@ -56,7 +57,7 @@ TEST(ShapeGrid, IncludesBothBoundsOfEveryShape) {
       auto const& axis = grid.axes[k];
       double const close = rounding * std::max(std::abs(ranges[k].lower), std::abs(ranges[k].upper));
       EXPECT_NEAR(axis.front(), ranges[k].lower, close) << effect->name();
-      if (is_left_to_refinement(grid, k)) {
+      if (is_left_to_refinement(*effect, grid, k)) {
         EXPECT_EQ(axis.size(), 1U) << effect->name();
         continue;
       }
@@ -97,7 +98,7 @@ TEST(ShapeGrid, BoxHoldsItsPointAndItsNeighboursWithinTheBounds) {
         auto const& axis = grid.axes[k];
         auto const here = std::find(axis.begin(), axis.end(), point[k]);
         double const before = to_unit(grid.ranges[k], here == axis.begin() ? *here : *(here - 1));
-        double const last = is_left_to_refinement(grid, k) ? grid.ranges[k].upper : *here;
+        double const last = is_left_to_refinement(*effect, grid, k) ? grid.ranges[k].upper : *here;
         double const after = to_unit(grid.ranges[k], here + 1 == axis.end() ? last : *(here + 1));
         EXPECT_GE(box.lower[k], 0.0) << effect->name();
         EXPECT_LE(box.upper[k], 1.0) << effect->name();
