@@ -7,7 +7,7 @@
 //            parameters that are at a bound (joint_fit.hpp)
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
-// Memory     about 60 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
+// Memory     about 100 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
 // Errors     constructor: Error 78, 65 as ParallelFilter; process: 65 when the rows cannot tell the parameters apart
 // Threads    const object, any number of threads
 // Source     LESSONS item 3; parallel filtering: Gautier 1997

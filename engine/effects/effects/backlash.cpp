@@ -13,7 +13,7 @@
 //            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1];
 //            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film passes
 //            for a wider gap; backlash_load_drag d [1]: a load that is braked by itself turns against the joint before
-//            that turns, and lies on the other flank when it does
+//            that turns, and lies on the other flank when it does; 0.001 is none. By decades: of most gaps it is small
 // Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
 // Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
