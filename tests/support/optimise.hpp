@@ -1,6 +1,7 @@
 #pragma once
 // A loop for tests: one optimiser, one function, no recording, no stop rule but a number of generations.
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -55,6 +56,18 @@ inline void run_to_generation(Optimiser& search, Fitness const& fitness, std::in
     Batch batch = asked_and_evaluated(search, fitness);
     search.tell(batch.rows(), batch.fitness);
   }
+}
+
+inline std::vector<double> members_of(Optimiser const& search) {
+  auto const members = search.population();
+  return {members.data(), members.data() + members.rows() * members.columns()};
+}
+
+// several minima, values that are multiples of 2^-20: sums with whole numbers are exact
+inline double bumpy(std::span<double const> x) {
+  double sum = 0.0;
+  for (double const v : x) sum += v * v + std::cos(7.0 * v);
+  return std::round(sum * 0x1p20) * 0x1p-20;
 }
 
 inline Bounds cube(std::size_t dimension, double lower, double upper) {

@@ -12,23 +12,13 @@ namespace torquescope {
 namespace {
 
 using testing::ask;
+using testing::bumpy;
 using testing::make_optimiser;
+using testing::members_of;
 using testing::run_to_generation;
 
 Bounds const box = testing::cube(3, -2.0, 2.0);
 RandomKey const key{5, 1};
-
-// several minima, values that are multiples of 2^-20: sums with whole numbers are exact
-double bumpy(std::span<double const> x) {
-  double sum = 0.0;
-  for (double const v : x) sum += v * v + std::cos(7.0 * v);
-  return std::round(sum * 0x1p20) * 0x1p-20;
-}
-
-std::vector<double> members_of(Optimiser const& search) {
-  auto const members = search.population();
-  return {members.data(), members.data() + members.rows() * members.columns()};
-}
 
 // two generations written out plainly: what is asked, who is replaced, what the memory and the archive hold then
 TEST(Lshade, TakesTheStepsOfThePaper) {
