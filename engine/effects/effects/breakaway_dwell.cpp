@@ -1,14 +1,16 @@
 // Break-away friction that grows while the joint rests: the contact ages, and sliding renews it.
 //
-// Equation   tau = s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 - |dq| age / D;
+// Equation   tau = s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 / (1 + (dq / v_r)^2) - |dq| age / D;
 //            s = sign(dq) weighted by the Coulomb levels of the baseline
 // Memory     the age of the contact [s], exact for a constant speed over a step
+// Ageing     that needs a standing contact (dwell time: v_r small), or goes on while it creeps, where it makes friction fall with the
+//            speed as well (state and rate: v_r of the fastest motion)
 // Growth     that comes to an end (grease), or with the logarithm of the rest and no end (dry contacts); a drive may have both
 // Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; breakaway_ageing Fa >= 0 [N m; N]: for each e-fold of the
-//            rest; dwell_time tau_d [s]; renewal_distance D [rad; m]
+//            rest; dwell_time tau_d [s]; renewal_distance D [rad; m]; rest_speed v_r [rad/s; m/s]: half of the ageing is left
 // Signature  distance since the reversal of the velocity: a spike whose height follows the rest before it
 // Confused   stribeck; rests of different length tell them apart
-// Source     Rabinowicz 1958; Ruina 1983 (law of ageing)
+// Source     Rabinowicz 1958; Ruina 1983 (law of ageing); Armstrong-Helouvry, Dupont, Canudas de Wit 1994 (dwell time)
 
 #include <array>
 #include <cmath>
@@ -20,8 +22,8 @@ namespace {
 
 class AgeingContact {
  public:
-  AgeingContact(double dwell_s, double distance, JointScales const& scales)
-      : dwell_s_(dwell_s), distance_(distance), sign_(scales.friction_sign()) {}
+  AgeingContact(std::span<double const> shape, JointScales const& scales)
+      : dwell_s_(shape[0]), distance_(shape[1]), rest_speed_(shape[2]), sign_(scales.friction_sign()) {}
 
   void start(JointState const& state) {
     q_ = state.q;
@@ -29,9 +31,10 @@ class AgeingContact {
   }
 
   void advance(JointState const& state, double step_s) {
-    double const renewed = std::abs(state.q - q_) / distance_;
+    double const way = std::abs(state.q - q_), renewed = way / distance_, rests = way / (step_s * rest_speed_);
     q_ = state.q;
-    double const grown_s = renewed > 0.0 ? -std::expm1(-renewed) / renewed * step_s : step_s;
+    double const aged_s = step_s / (1.0 + rests * rests);
+    double const grown_s = renewed > 0.0 ? -std::expm1(-renewed) / renewed * aged_s : aged_s;
     age_s_ = age_s_ * std::exp(-renewed) + grown_s;
   }
 
@@ -41,7 +44,7 @@ class AgeingContact {
   }
 
  private:
-  double dwell_s_, distance_;
+  double dwell_s_, distance_, rest_speed_;
   FrictionSign sign_;
   double q_ = 0.0, age_s_ = 0.0;
 };
@@ -49,27 +52,29 @@ class AgeingContact {
 class BreakawayDwell final : public MemoryEffect {
  public:
   BreakawayDwell()
-      : MemoryEffect(
-            {.name = "breakaway_dwell",
-             .title = "break-away friction that grows while the joint rests",
-             .equation = "s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 - |dq| age / D",
-             .source = "Rabinowicz 1958; Ruina 1983",
-             .separated_by = "rests of 0.1 to 30 s before each start",
-             .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
-                            {"breakaway_ageing", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
-                            shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
-                                            {0.5, RelativeTo::duration}, Spacing::logarithmic),
-                            shape_parameter("renewal_distance", "rad", "m", {1.0, RelativeTo::resolution},
-                                            {0.02, RelativeTo::position_range}, Spacing::logarithmic)},
-             .families = {EffectFamily::reversal},
-             .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::time},
-             .parity = Parity::odd,
-             .is_dry_friction = true}) {}
+      : MemoryEffect({.name = "breakaway_dwell",
+                      .title = "break-away friction that grows while the joint rests",
+                      .equation = "s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], "
+                                  "d age/dt = 1 / (1 + (dq / v_r)^2) - |dq| age / D",
+                      .source = "Rabinowicz 1958; Ruina 1983; Armstrong-Helouvry, Dupont, Canudas de Wit 1994",
+                      .separated_by = "rests of 0.1 to 30 s before each start",
+                      .parameters = {{"breakaway_dwell", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
+                                     {"breakaway_ageing", "N m", "N", {0.0}, {1.0, RelativeTo::coulomb}},
+                                     shape_parameter("dwell_time", "s", "s", {0.001, RelativeTo::duration},
+                                                     {0.5, RelativeTo::duration}, Spacing::logarithmic),
+                                     shape_parameter("renewal_distance", "rad", "m", {1.0, RelativeTo::resolution},
+                                                     {0.02, RelativeTo::position_range}, Spacing::logarithmic),
+                                     shape_parameter("rest_speed", "rad/s", "m/s", {0.001, RelativeTo::peak_speed},
+                                                     {1.0, RelativeTo::peak_speed}, Spacing::logarithmic)},
+                      .families = {EffectFamily::reversal},
+                      .signature = {SignatureAxis::since_velocity_reversal, SignatureAxis::time},
+                      .parity = Parity::odd,
+                      .is_dry_friction = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
-    return memory_of(AgeingContact(shape[0], shape[1], scales), lanes);
+    return memory_of(AgeingContact(shape, scales), lanes);
   }
 };
 

@@ -141,8 +141,8 @@ TEST(MaxwellSlip, StiffnessFallsAsElementsSlip) {
 }
 
 TEST(BreakawayDwell, GrowsWithTheRestAndIsRenewedBySliding) {
-  double const dwell_s = 3.0, distance = 1e-3, to_an_end = 0.5, without_end = 0.2;
-  Walk walk("breakaway_dwell", {to_an_end, without_end, dwell_s, distance});
+  double const dwell_s = 3.0, distance = 1e-3, rest_speed = 1e6, to_an_end = 0.5, without_end = 0.2;
+  Walk walk("breakaway_dwell", {to_an_end, without_end, dwell_s, distance, rest_speed});
   walk.to(1.0, 100);
   walk.rest(6.0);
   EXPECT_EQ(walk.torque(), 0.0);  // at rest friction is what holds
@@ -152,6 +152,16 @@ TEST(BreakawayDwell, GrowsWithTheRestAndIsRenewedBySliding) {
   // sliding at 1 m/s: the age settles at D / v
   double const sliding = to_an_end * -std::expm1(-distance / dwell_s) + without_end * std::log1p(distance / dwell_s);
   EXPECT_NEAR(walk.to(1.0 + 50.0 * distance, 50), sliding, 1e-12);
+}
+
+TEST(BreakawayDwell, CountsRestsAloneWhereTheRestSpeedIsSlow) {
+  double const dwell_s = 3.0, distance = 1e-3, rest_speed = 1e-3;
+  Walk walk("breakaway_dwell", {1.0, 0.0, dwell_s, distance, rest_speed});
+  walk.to(1.0, 100);
+  walk.rest(6.0);
+  EXPECT_NEAR(walk.at_speed(1e-12), 1.0 - std::exp(-2.0), 1e-3);
+  // at 1 m/s a millionth of the ageing is left, which D / v of way forgets
+  EXPECT_NEAR(walk.to(1.0 + 50.0 * distance, 50), 1e-6 * distance / dwell_s, 1e-12);
 }
 
 TEST(FrictionLag, SplitsTheCurveIntoTwoBranches) {
