@@ -88,34 +88,27 @@ TrackedJoint fitted_joint(RecordPipeline const& pipeline, Eigen::VectorXd const&
           joint.lanes.gravity_cos};
 }
 
-bool is_of_torque_channel(Effect const& effect) { return effect.acts_on() == ActsOn::recorded_torque; }
+// as its controller knows it
+struct InLoop {
+  Recording
+      recording;  // without what effects of the torque channel add: it never saw a fault of the measurement (LESSONS item 16)
+  Eigen::VectorXd needed_torque;
+  bool has_channel_faults = false;
+};
 
-bool any_of_torque_channel(JointModel const& model) {
-  return std::any_of(model.effects().begin(), model.effects().end(),
-                     [](auto const& one) { return is_of_torque_channel(*one.effect); });
+InLoop in_loop_of(Recording recording, ProcessedRecord const& record, JointModel const& model) {
+  MotorTorque torque = model.motor_torque(record.motion, record.drive, record.parameters);
+  bool const has_faults = torque.channel_adds.size() > 0;
+  if (has_faults) recording.torque -= torque.channel_adds;
+  return {std::move(recording), std::move(torque.given), has_faults};
 }
 
-// what the motor gave: the recorded torque without what effects of the torque channel add to it. A controller never saw
-// a fault of the torque's measurement (LESSONS item 16)
-Recording without_channel_faults(Recording recording, ProcessedRecord const& record, JointModel const& model) {
-  if (!any_of_torque_channel(model)) return recording;
-  Eigen::MatrixXd const columns = model.columns(record.motion, record.drive);
-  for (std::size_t i = 0; i < model.effects().size(); ++i) {
-    auto const& effect = *model.effects()[i].effect;
-    if (!is_of_torque_channel(effect)) continue;
-    auto const first = static_cast<Eigen::Index>(model.first_parameter(i));
-    auto const width = static_cast<Eigen::Index>(effect.n_linear());
-    recording.torque -= columns.middleCols(first, width) * record.parameters.segment(first, width);
-  }
-  return recording;
-}
-
-RecordedLoop loop_to_try(Recording const& in_loop, TrackedJoint const& joint, JointModel const& model,
-                         FilterOptions const& filter, RecordedLoop const* decided) {
-  if (decided == nullptr) return recorded_loop(in_loop, joint, filter);
-  if (!any_of_torque_channel(model)) return *decided;
-  if (decided->source == LoopSource::tracking) return tracking_loop(in_loop, joint, filter);
-  return recorded_loop(in_loop, joint, filter);
+RecordedLoop loop_to_try(InLoop const& in_loop, TrackedJoint const& joint, FilterOptions const& filter,
+                         RecordedLoop const* decided) {
+  if (decided != nullptr && !in_loop.has_channel_faults) return *decided;
+  if (decided != nullptr && decided->source == LoopSource::tracking)
+    return tracking_loop(in_loop.recording, joint, filter);
+  return recorded_loop(in_loop.recording, joint, filter, in_loop.needed_torque);
 }
 
 Problem runaway(Recording const& recording) {
@@ -151,7 +144,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
                                 TwinOptions const& options, TwinWorkers const& workers) {
   ProcessedRecord record = pipeline.process(recording);
   TrackedJoint const joint = fitted_joint(pipeline, record.parameters);
-  Recording const in_loop = without_channel_faults(recording, record, pipeline.model());
+  InLoop const in_loop = in_loop_of(recording, record, pipeline.model());
   bool const decides = options.loop == nullptr;
   // a controller that is known tells what is noise, even where its law is too poor to be simulated
   bool const reads_colour = options.reads_colour || recording.reference.size() != recording.position.size();
@@ -159,12 +152,12 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
     return attempt(std::move(loop), reads_colour, record, pipeline, options, workers);
   };
   // where the motion cannot tell friction from gravity both may be wrong and large: fed forward they throw the joint
-  auto const led_by_error = [&] { return attempt_in(tracking_loop(in_loop, {joint.inertia}, filter)); };
+  auto const led_by_error = [&] { return attempt_in(tracking_loop(in_loop.recording, {joint.inertia}, filter)); };
   auto const led = [&] {
-    Attempt knowing = attempt_in(tracking_loop(in_loop, joint, filter));
+    Attempt knowing = attempt_in(tracking_loop(in_loop.recording, joint, filter));
     return knowing.ran_away() ? led_by_error() : knowing;
   };
-  Attempt made = attempt_in(loop_to_try(in_loop, joint, pipeline.model(), filter, options.loop.get()));
+  Attempt made = attempt_in(loop_to_try(in_loop, joint, filter, options.loop.get()));
   if (decides && made.ran_away() && made.loop.source == LoopSource::tracking) {
     std::string const remark = made.loop.remark;
     made = led_by_error();

@@ -42,6 +42,21 @@ bool JointModel::has_inertia() const {
   return std::any_of(effects_.begin(), effects_.end(), [](auto const& one) { return one.effect->has_inertia(); });
 }
 
+MotorTorque JointModel::motor_torque(Motion const& motion, Motion const& drive,
+                                     Eigen::VectorXd const& parameters) const {
+  Eigen::MatrixXd const all = columns(motion, drive);
+  MotorTorque torque{all * parameters, {}};
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    if (effects_[i].effect->acts_on() != ActsOn::recorded_torque) continue;
+    auto const first = static_cast<Eigen::Index>(first_parameter(i));
+    auto const width = static_cast<Eigen::Index>(effects_[i].effect->n_linear());
+    Eigen::VectorXd const added = all.middleCols(first, width) * parameters.segment(first, width);
+    torque.given -= added;
+    torque.channel_adds = torque.channel_adds.size() > 0 ? Eigen::VectorXd(torque.channel_adds + added) : added;
+  }
+  return torque;
+}
+
 Eigen::MatrixXd JointModel::columns(Motion const& motion, Motion const& drive) const {
   if (effects_.empty()) return regressor_->columns(motion);
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));

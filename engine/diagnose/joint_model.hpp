@@ -30,6 +30,12 @@ struct BaselineReference {
   Eigen::VectorXd parameters{};  // of the regressor
 };
 
+// one per sample
+struct MotorTorque {
+  Eigen::VectorXd given;         // to the joint
+  Eigen::VectorXd channel_adds;  // to the record of it: of effects of the torque channel; empty without any
+};
+
 class JointModel {
  public:
   // NOLINTNEXTLINE(google-explicit-constructor): a regressor is a model without effects; it outlives the model
@@ -49,6 +55,8 @@ class JointModel {
   bool has_inertia() const;  // of any effect
   // drive: the same motion with a wider band, for effects that have an inertia (record_pipeline.hpp)
   Eigen::MatrixXd columns(Motion const& motion, Motion const& drive) const;
+  // what the joint needs at these parameters
+  MotorTorque motor_torque(Motion const& motion, Motion const& drive, Eigen::VectorXd const& parameters) const;
   // linear parameters, then the shape: as Effect::runner takes them
   std::vector<double> effect_parameters(std::size_t effect, Eigen::VectorXd const& parameters) const;
   // Errors: Error 65 as make_twin_joint

@@ -7,6 +7,8 @@
 //                             encoder would ask for more than the recording's torque) follows the smoothed
 //                             measured motion, what the joint needs for it fed forward; good for most names, not
 //                             calibrated for elasticity, payload and delay
+// Limit      of the torque: the drive's, unless the joint has got most of what was asked for beyond it. Then it is one of the channel
+//            that tells the torque, the loop has none, and what is missing in the record is for the search to find
 // Noise      tracking: white torque noise from second differences, an upper bound while the torque itself bends; what it
 //            is in the band of the fit, and how slow, is measured with twins (torque_colour.hpp)
 // Ends       the motion that twins follow goes on as its odd reflection while it is smoothed: no accelerations of the filter's
@@ -36,8 +38,10 @@ struct RecordedLoop {
   std::string remark{};
 };
 
-// joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows
-RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);
+// joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows; needed_torque: by the model, one per
+// sample or none where no model is at hand
+RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter,
+                           Eigen::VectorXd const& needed_torque = {});
 
 // as if the recording had no reference: what to fall back to when the identified loop runs away
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);

@@ -25,10 +25,12 @@ void check_rows(ProcessedRecord const& record, std::string const& name) {
 }
 
 // the loop that another recording was made in, without levels; none where twins follow a measured motion
-std::optional<RecordedLoop> loop_of(Recording const& recording, ModelStage const& stage) {
+std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage) {
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
-  return recorded_loop(recording, {}, {});
+  ProcessedRecord const record = pipeline_for(setting, recording, stage.model()).prepare(recording);
+  return recorded_loop(recording, {}, {},
+                       stage.model().motor_torque(record.motion, record.drive, stage.parameters()).given);
 }
 
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
@@ -184,7 +186,7 @@ UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& 
 std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetting const& setting,
                                               ModelStage const& augmented, std::size_t effect) {
   Recording const recording = from_zero(given);
-  auto const loop = loop_of(recording, augmented);
+  auto const loop = loop_of(recording, setting, augmented);
   if (!loop) return {};
   std::vector<PredictionEnergies> twins(unseen_twins);
   std::vector<char> is_there(twins.size(), 0);
@@ -207,7 +209,7 @@ std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetti
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
                           ModelStage const& augmented) {
   Recording const recording = from_zero(given);
-  auto const loop = loop_of(recording, augmented);
+  auto const loop = loop_of(recording, setting, augmented);
   Artefact artefact;
   if (loop && setting.keeps_reversals)
     artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) -> Eigen::VectorXd {

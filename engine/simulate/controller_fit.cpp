@@ -140,6 +140,17 @@ LoopLaw law_of(ControllerRegression const& fit) {
   return law;
 }
 
+std::vector<LimitedSample> limited_samples(Eigen::VectorXd const& asked, SampleRows const& rows,
+                                           ControllerLimits const& limits) {
+  std::vector<LimitedSample> limited;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    double const want = asked[static_cast<Eigen::Index>(i)];
+    double const beyond = want - std::clamp(want, limits.least, limits.most);
+    if (beyond != 0.0) limited.push_back({rows[i], beyond});
+  }
+  return limited;
+}
+
 std::string in_words(ControllerFit const& fit) {
   if (fit.is_white)
     return fmt::format("the controller is identified (R^2 {:.6f}, white residual): torque noise {:.3g} rms",
@@ -202,7 +213,7 @@ ControllerFit fit_controller(LoopSignals const& signals) {
   result.drift_z = result.drift_per_s / fit.errors[fit.columns.drift()];
   result.lags = fit.columns.lags;
   result.rows = static_cast<Eigen::Index>(rows.size());
-  result.clipped_rows = static_cast<Eigen::Index>(all.size() - rows.size());
+  if (limits.any()) result.limited = limited_samples(asked_torque(signals, fit, all), all, limits);
   result.remark = in_words(result);
   return result;
 }

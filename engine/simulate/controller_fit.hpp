@@ -23,12 +23,19 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "engine/simulate/autoregression.hpp"
 #include "engine/simulate/loop_law.hpp"
 #include "engine/simulate/loop_signals.hpp"
 
 namespace torquescope {
+
+// at which the law asks for more than the torque reaches
+struct LimitedSample {
+  Eigen::Index sample = 0;
+  double beyond = 0.0;  // what it asks for, counted from the limit: positive at the upper one
+};
 
 struct ControllerFit {
   LoopLaw law;
@@ -40,8 +47,9 @@ struct ControllerFit {
   double drift_per_s = 0.0, drift_z = 0.0;
   double integral_z = 0.0;  // before it was kept or dropped
   int lags = 0;
-  Eigen::Index rows = 0, clipped_rows = 0;
-  std::string remark;  // a sentence for people: what is trusted, what is not
+  Eigen::Index rows = 0;
+  std::vector<LimitedSample> limited;  // in time order
+  std::string remark;                  // a sentence for people: what is trusted, what is not
 };
 
 inline constexpr std::array<Eigen::Index, 4> acf_lags{1, 2, 5, 20};

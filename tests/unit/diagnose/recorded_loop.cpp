@@ -1,4 +1,4 @@
-// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp).
+// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp); whose limit a limit of the torque is.
 
 #include "engine/diagnose/recorded_loop.hpp"
 
@@ -10,6 +10,7 @@
 
 #include "engine/data/recording_reader.hpp"
 #include "support/recordings_folder.hpp"
+#include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
 
@@ -30,7 +31,40 @@ Recording read(std::filesystem::path const& path) {
   return make_recording(read_table(path, section), options, section);
 }
 
+// some of the torque that a joint needs which has no limit
+double limit_of(test::CleanJoint const& joint) { return 0.9 * simulate_joint(joint.plan, 5).torque.maxCoeff(); }
+
+RecordedLoop loop_of(Recording const& recording, Eigen::VectorXd const& truth) {
+  Motion const motion = differentiate(recording, test::clean_filter(), {});
+  Eigen::VectorXd const needed = test::clean_regressor().columns(motion) * truth;
+  return recorded_loop(recording, {truth[0]}, test::clean_filter(), needed);
+}
+
 }  // namespace
+
+TEST(RecordedLoop, KeepsTheLimitOfADriveThatGaveNoMore) {
+  auto joint = test::clean_joint();
+  double const limit = limit_of(joint);
+  joint.plan.controller.torque_limit = limit;
+  auto const simulated = simulate_joint(joint.plan, 5);
+  ASSERT_GT(simulated.saturated_samples, 100);
+  auto const found = loop_of(test::recorded(simulated), joint.truth);
+  EXPECT_NEAR(found.loop.law.most, limit, 0.02 * limit);
+  EXPECT_NEAR(found.loop.law.least, -limit, 0.02 * limit);
+}
+
+TEST(RecordedLoop, HasNoLimitWhereOnlyTheRecordHasOne) {
+  auto const joint = test::clean_joint();
+  Recording recording = test::recorded(simulate_joint(joint.plan, 5));
+  double const limit = limit_of(joint);
+  ASSERT_GT((recording.torque.array() > limit).count(), 50);
+  recording.torque = recording.torque.cwiseMin(limit).cwiseMax(-limit);
+  // without a model nobody can tell
+  EXPECT_NEAR(recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most, limit, 0.01 * limit);
+  auto const found = loop_of(recording, joint.truth);
+  EXPECT_EQ(found.controller->law.most, recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most);
+  EXPECT_TRUE(std::isinf(found.loop.law.most) && std::isinf(found.loop.law.least));
+}
 
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   auto const path = emps("emps_train.csv.gz");

@@ -58,7 +58,7 @@ TEST_P(EveryController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) {
   auto const found = fit(recording);
   EXPECT_TRUE(found.is_white) << found.remark;
   EXPECT_EQ(found.law.shift, 0);
-  EXPECT_EQ(found.clipped_rows, 0);
+  EXPECT_TRUE(found.limited.empty());
   EXPECT_GT(found.r_squared, 0.999);
   // noise / (gain * sqrt(n) * spread of the regressor): 0.1 % and 0.2 % are more than five standard errors
   EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
@@ -88,7 +88,9 @@ TEST_P(EveryController, GivesWayAtItsTorqueLimit) {
   ASSERT_GT(recording.saturated_samples, 100);
   auto const found = fit(recording);
   EXPECT_TRUE(found.is_white) << found.remark;
-  EXPECT_NEAR(found.clipped_rows, recording.saturated_samples, 0.05 * static_cast<double>(recording.saturated_samples));
+  auto const limited = static_cast<double>(found.limited.size()),
+             saturated = static_cast<double>(recording.saturated_samples);
+  EXPECT_NEAR(limited, saturated, 0.05 * saturated);
   EXPECT_NEAR(found.law.most, 1.5, 0.01);
   EXPECT_NEAR(found.law.least, -1.5, 0.01);
   EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
@@ -197,7 +199,7 @@ TEST(ControllerFit, FindsNoLimitBelowTheTorqueThatWasReached) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     auto const recording = simulate_joint(plan, seed);
     auto const found = fit(recording);
-    EXPECT_EQ(found.clipped_rows, 0) << seed;
+    EXPECT_TRUE(found.limited.empty()) << seed;
     EXPECT_GT(found.law.most, recording.torque.maxCoeff() - 6.0 * torque_noise) << seed;
     EXPECT_LT(found.law.least, recording.torque.minCoeff() + 6.0 * torque_noise) << seed;
   }
