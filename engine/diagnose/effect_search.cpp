@@ -234,11 +234,12 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
     return fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)", 100.0 * region.share,
                        100.0 * region.asked_for);
   // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
-  if (effect->is_event() && is_faint_) return "happens once, and is too faint to be told from what twins cannot repeat";
-  if (effect->is_event() && gain < least_share_of_rest * whole && !is_large)
+  bool const is_once = happens_once(trial);
+  if (is_once && is_faint_) return "happens once, and is too faint to be told from what twins cannot repeat";
+  if (is_once && gain < least_share_of_rest * whole && !is_large)
     return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                        100.0 * gain / whole);
-  if (!effect->is_event() && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
+  if (!is_once && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
   for (auto const& one : selection_.accepted)
     for (auto const& shaped : stage().model().effects())
       if (shaped.effect == one.effect &&

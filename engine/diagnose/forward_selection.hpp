@@ -16,7 +16,7 @@
 //            largest gain wins, a lesser one that gives 97 % of it when it is another wave of a named effect or has fewer
 //            parameters. It must explain a quarter of what is left and 0.2 % of the whole, have a
 //            plausible shape, help where it acts (region_consistency.hpp) and improve blocks of time it was not fitted to (t >= 2,
-//            or by half of its gain); what happens once cannot
+//            or by half of its gain); what happens once (happens_once in trial_order.hpp) cannot
 //            do that, and must explain a quarter of the whole. As soon as an effect of
 //            the family `time` would be accepted, the search begins again among twins whose friction wanders as much as
 //            it may at most (friction_wander.hpp, by itself)

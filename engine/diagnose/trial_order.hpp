@@ -33,6 +33,9 @@ struct Trial {
 
 std::vector<Trial> in_order_of_trial(std::vector<Trial> trials);
 
+// nothing in other blocks of time can speak for it: it begins at an instant, or reaches its limit in one block alone
+bool happens_once(Trial const& trial);
+
 bool helps_elsewhere(BlockedGain const& cv, double gain);
 
 }  // namespace torquescope

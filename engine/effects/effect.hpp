@@ -114,6 +114,7 @@ struct EffectDescription {
   ActsOn acts_on = ActsOn::joint;
   bool needs_baseline = false;   // input beyond the motion: load or motor torque, or baseline parameters in the scales
   bool has_inertia = false;      // a mass of its own moves behind the joint: it rings or knocks
+  bool is_of_extremes = false;   // it acts where a limit is reached, which a recording may do once
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
   bool is_level_free =
       false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
@@ -138,6 +139,7 @@ class Effect {
   ActsOn acts_on() const { return description_.acts_on; }
   bool needs_baseline() const { return description_.needs_baseline; }
   bool has_inertia() const { return description_.has_inertia; }
+  bool is_of_extremes() const { return description_.is_of_extremes; }
   bool is_dry_friction() const { return description_.is_dry_friction; }
   bool is_level_free() const { return description_.is_level_free; }
   std::string const& plain_equation() const { return description_.plain_equation; }

@@ -32,7 +32,8 @@ class Clipping final : public InstantEffect {
                        .signature = {SignatureAxis::load},
                        .parity = Parity::neither,
                        .acts_on = ActsOn::recorded_torque,
-                       .needs_baseline = true}) {}
+                       .needs_baseline = true,
+                       .is_of_extremes = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {

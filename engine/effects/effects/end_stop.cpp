@@ -29,7 +29,8 @@ class EndStop final : public InstantEffect {
                                                       {0.49, RelativeTo::position}, Spacing::linear)},
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},
-                       .parity = Parity::neither}) {}
+                       .parity = Parity::neither,
+                       .is_of_extremes = true}) {}
 
   bool is_plausible(std::span<double const> shape, JointScales const& scales) const override {
     constexpr double outer = 0.3;  // of the range, from the centre
