@@ -167,11 +167,19 @@ class Shards(Folders):
     def test_every_case_belongs_to_one_shard(self):
         cases = list(range(10))
         shares = [shard.share(cases, shard.of(f"{i}/3", {})) for i in range(3)]
-        self.assertEqual(shares, [[0, 3, 6, 9], [1, 4, 7], [2, 5, 8]])
+        self.assertEqual(sorted(sum(shares, [])), cases)
+        self.assertEqual([len(one) for one in shares], [4, 3, 3])
+        self.assertTrue(all(one == sorted(one) for one in shares))
         self.assertEqual(shard.share(cases, shard.of(None, {})), cases)
         for wrong in ("3/3", "1", "a/b", "-1/3"):
             with self.assertRaises(ValueError):
                 shard.of(wrong, {})
+
+    def test_a_share_has_every_size(self):
+        pairs = [f"T2:a+b:{size}:{seed}" for seed, size in enumerate([1, 2, 4] * 67)]
+        for index in range(18):
+            sizes = {name.split(":")[2] for name in shard.share(pairs, (index, 18))}
+            self.assertEqual(sizes, {"1", "2", "4"}, index)
 
     def test_slurm_says_which_share(self):
         array = {"SLURM_ARRAY_TASK_COUNT": "5", "SLURM_ARRAY_TASK_ID": "10", "SLURM_ARRAY_TASK_MIN": "2", "SLURM_ARRAY_TASK_STEP": "4"}
