@@ -7,23 +7,15 @@
 
 #include "engine/base/error.hpp"
 #include "engine/diagnose/backward_selection.hpp"
+#include "engine/diagnose/buildup_trial.hpp"
 #include "engine/diagnose/joint_refinement.hpp"
 #include "engine/diagnose/multiple_testing.hpp"
-#include "engine/diagnose/trial_order.hpp"
 
 namespace torquescope {
 namespace {
 
-// Of what is left beside the nuisance, by projection, and of all that is missing at reversals, by twins. Projection looks
-// along the motion that the model without the effect gives: within a tick of the encoder that is not the one friction made
-constexpr double enough_to_try = 0.25, most_of_it = 0.5;
-
-// friction that remembers where it turned, and nothing else
-bool is_buildup(Effect const& effect) {
-  static std::vector<EffectFamily> const families{EffectFamily::reversal};
-  static std::vector<SignatureAxis> const axes{SignatureAxis::since_velocity_reversal, SignatureAxis::velocity};
-  return effect.is_dry_friction() && effect.families() == families && effect.signature() == axes;
-}
+// of all that is missing at reversals, by twins
+constexpr double most_of_it = 0.5;
 
 // a law of the speed alone, like Stribeck's, is within the nuisance at reversals
 bool remembers_reversals(Effect const& effect) {
@@ -32,29 +24,9 @@ bool remembers_reversals(Effect const& effect) {
                                 signature.front() == SignatureAxis::since_torque_reversal);
 }
 
-// n x 5: what a smeared sign leaves of a sharp one
-Eigen::MatrixXd smeared_signs(Motion const& motion, JointScales const& scales) {
-  constexpr int count = 5;
-  constexpr double slowest = 1.0 / 2000.0, factor = 3.0;
-  double const peak = motion.dq.cwiseAbs().maxCoeff();
-  Eigen::MatrixXd signals(motion.dq.size(), count);
-  for (int k = 0; k < count; ++k) {
-    double const speed = peak * slowest * std::pow(factor, k);
-    for (Eigen::Index i = 0; i < motion.dq.size(); ++i)
-      signals(i, k) = scales.friction_sign()(motion.dq[i]) * (std::tanh(std::abs(motion.dq[i]) / speed) - 1.0);
-  }
-  return signals;
-}
-
-// what is left of signals beside a basis
-Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& signals) {
-  return signals - basis * (basis.transpose() * signals);
-}
-
-struct Finding {
+struct Findings {
   std::vector<EffectScan> scans;
   std::vector<double> q;
-  Trial trial;
 };
 
 class SecondLook {
@@ -74,8 +46,7 @@ class SecondLook {
       setting_.keeps_reversals = true;
       if (!compare(std::min(draft_twins, setting_.twins)) || !is_anything_left()) return false;
       if (setting_.twins > draft_twins && (!compare(setting_.twins) || !is_anything_left())) return false;
-      auto finding = find();
-      return finding && take(std::move(*finding));
+      return take_any();
     } catch (Error const&) {
       return false;  // these rows cannot be fitted: what the masked ones said stands
     }
@@ -137,59 +108,22 @@ class SecondLook {
 
   bool is_anything_left() const { return is_significant(rows_); }
 
-  std::optional<Finding> find() const {
-    auto const& final = before();
-    CandidateColumns columns(*rows_.pipeline, rows_.comparison, final.reference(), final.parameters());
-    columns.add_nuisance(smeared_signs(rows_.comparison.rows.motion, columns.scales()));
-    Finding found{scan_candidates(columns, options_.candidates, setting_.threads), {}, {}};
+  bool take_any() {
+    BuildupLook const look{rows_,           before().reference(),     before().parameters(),
+                           options_.q,      options_.shape_optimiser, setting_.seed,
+                           setting_.threads};
+    Findings found{scan_candidates(buildup_columns(look, DrivenBy::twin), options_.candidates, setting_.threads), {}};
     found.q = q_of(found.scans);
-    Eigen::VectorXd const mismatch = rows_.mismatch();
-    ShapeSearch const search = shape_search(options_.shape_optimiser, setting_.seed);
-    std::vector<Trial> trials;
-    double most_of_others = 0.0;
-    for (std::size_t i = 0; i < found.scans.size(); ++i) {
-      auto const& scan = found.scans[i];
-      if (!is_buildup(*scan.effect)) most_of_others = std::max(most_of_others, scan.gain);
-      if (!is_buildup(*scan.effect) || !scan.is_testable || found.q[i] > options_.q || !(scan.gain > 0.0)) continue;
-      Trial trial{scan, found.q[i], refine_shape(columns, scan, mismatch, search, setting_.threads), {}};
-      selection_.evaluations += trial.refined.evaluations;
-      trial.cv = blocked_gain(mismatch, columns.nuisance(), columns.columns(*scan.effect, trial.refined.shape),
-                              guard_rows(*rows_.pipeline));
-      trials.push_back(std::move(trial));
+    for (DrivenBy const motion : {DrivenBy::twin, DrivenBy::recording}) {
+      auto const trial = buildup_trial(look, motion, found.scans, found.q, selection_.evaluations);
+      if (trial && take(*trial, found)) return true;
     }
-    if (trials.empty()) return std::nullopt;
-    found.trial = simplest_of(std::move(trials));
-    auto const& best = found.trial.refined;
-    bool const holds = best.gain > most_of_others && best.gain > enough_to_try * left_beside(columns.nuisance()) &&
-                       best.effect->is_plausible(best.shape, columns.scales()) &&
-                       helps_elsewhere(found.trial.cv, best.gain);
-    return holds ? std::optional(std::move(found)) : std::nullopt;
+    selection_.differs_at_reversals = true;
+    return false;
   }
 
-  // Nested loops have parameters enough for any law of building up, and no bound on what they add up to: where the simpler
-  // law explains half as much it is the one that is modelled, and the other is asked as its rival
-  static Trial simplest_of(std::vector<Trial> trials) {
-    constexpr double half = 0.5;
-    auto const most = std::max_element(trials.begin(), trials.end(),
-                                       [](auto const& a, auto const& b) { return a.refined.gain < b.refined.gain; });
-    Trial* best = &*most;
-    for (auto& trial : trials)
-      if (trial.refined.effect->n_linear() < best->refined.effect->n_linear() &&
-          trial.refined.gain >= half * most->refined.gain)
-        best = &trial;
-    return std::move(*best);
-  }
-
-  // energy of the mismatch beyond noise, beside the nuisance
-  double left_beside(Eigen::MatrixXd const& nuisance) const {
-    auto const& rows = rows_.comparison.rows;
-    auto const m = static_cast<double>(rows.n_twins());
-    double const noise = beside(nuisance, rows.twins.colwise() - rows.twin_mean).squaredNorm() / (m - 1.0);
-    return beside(nuisance, rows_.mismatch()).squaredNorm() - noise * (1.0 + 1.0 / m);
-  }
-
-  bool take(Finding found) {
-    auto const& refined = found.trial.refined;
+  bool take(Trial const& trial, Findings const& found) {
+    auto const& refined = trial.refined;
     progress_told(0);
     std::vector<ShapedEffect> effects = before().model().effects();
     effects.push_back({refined.effect, refined.shape});
@@ -209,7 +143,7 @@ class SecondLook {
     if (!next || !baseline ||
         energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - confirmed_share * refined.gain)
       return false;
-    put(std::move(found), std::move(*baseline), std::move(*next));
+    put(trial, found, std::move(*baseline), std::move(*next));
     if (selection_.accepted.size() > 1) revise_selection(setting_, options_, selection_);
     return true;
   }
@@ -221,8 +155,7 @@ class SecondLook {
     return make_stage(own, setting_.regressor);
   }
 
-  void put(Finding found, ModelStage baseline, ModelStage final) {
-    auto const& trial = found.trial;
+  void put(Trial const& trial, Findings const& found, ModelStage baseline, ModelStage final) {
     selection_.accepted = accepted_;
     for (auto& one : selection_.accepted) {
       one.gain *= selection_.energy_unit;
@@ -234,7 +167,7 @@ class SecondLook {
     bool const was_open = selection_.is_gate_open;
     for (std::size_t i = 0; i < found.scans.size(); ++i) {
       if (was_open && !is_buildup(*found.scans[i].effect)) continue;
-      selection_.first_scan[i] = std::move(found.scans[i]);
+      selection_.first_scan[i] = found.scans[i];
       selection_.first_q[i] = found.q[i];
       if (selection_.first_scan[i].effect == trial.refined.effect) selection_.first_cv_gain[i] = trial.cv.gain;
     }

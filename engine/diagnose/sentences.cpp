@@ -202,6 +202,10 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
 std::string none_reason(JointDiagnosis const& joint) {
   std::string text = likeness_sentence(joint);
   append(text, joint.power_sentence);
+  if (joint.differs_at_reversals)
+    append(text,
+           "Round reversals, which are left out, its friction changes its side in another way than the model's; no "
+           "friction that builds up over a distance explains how.");
   return text;
 }
 

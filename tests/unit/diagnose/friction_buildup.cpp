@@ -16,11 +16,13 @@ namespace {
 
 class FrictionBuildup : public testing::Test {
  protected:
-  static Recording recording_of(std::vector<PlantTerm> terms) {
+  // a loop that holds the joint to its reference: how it turns round is then no question of its friction
+  static constexpr double stiff_hz = 20.0;
+
+  static Recording recording_of(std::vector<PlantTerm> terms, double bandwidth_hz = stiff_hz) {
     auto joint = clean_joint();
     joint.plan.plant = std::move(terms);
-    // a loop that holds the joint to its reference: how it turns round is then no question of its friction
-    joint.plan.controller.bandwidth_hz = 20.0;
+    joint.plan.controller.bandwidth_hz = bandwidth_hz;
     return recorded(simulate_joint(joint.plan, 3));
   }
 
@@ -55,10 +57,19 @@ class FrictionBuildup : public testing::Test {
 
 }  // namespace
 
-TEST_F(FrictionBuildup, IsFoundWhereNothingElseShows) {
+struct BuildupCase {
+  double bandwidth_hz, distance;
+};
+
+class FrictionBuildupIn : public FrictionBuildup, public testing::WithParamInterface<BuildupCase> {};
+
+INSTANTIATE_TEST_SUITE_P(Loop, FrictionBuildupIn, testing::Values(BuildupCase{20.0, 1e-3}, BuildupCase{10.0, 2e-4}));
+
+TEST_P(FrictionBuildupIn, IsFoundWhereNothingElseShows) {
   // the scalar plant has no memory: a twin with one stands in for the joint
-  constexpr double share = 0.9, distance = 1e-3;
-  Recording recording = recording_of(clean_joint().plan.plant);
+  constexpr double share = 0.9;
+  double const distance = GetParam().distance;
+  Recording recording = recording_of(clean_joint().plan.plant, GetParam().bandwidth_hz);
   FilterOptions const filter = clean_filter();
   Section const section{};
   StageSetting const setting{recording, clean_regressor(), filter, section, 16, 1, 2};
