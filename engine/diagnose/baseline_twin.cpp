@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/needed_torque.hpp"
 
 namespace torquescope {
 namespace {
@@ -88,19 +89,23 @@ TrackedJoint fitted_joint(RecordPipeline const& pipeline, Eigen::VectorXd const&
           joint.lanes.gravity_cos};
 }
 
-// as its controller knows it
+// As its controller knows it: without what effects of the torque channel add, for it never saw a fault of the measurement
+// (LESSONS item 16)
 struct InLoop {
-  Recording
-      recording;  // without what effects of the torque channel add: it never saw a fault of the measurement (LESSONS item 16)
-  Eigen::VectorXd needed_torque;
+  Recording recording;
+  NeededTorque needed_torque;
   bool has_channel_faults = false;
 };
 
-InLoop in_loop_of(Recording recording, ProcessedRecord const& record, JointModel const& model) {
-  MotorTorque torque = model.motor_torque(record.motion, record.drive, record.parameters);
-  bool const has_faults = torque.channel_adds.size() > 0;
-  if (has_faults) recording.torque -= torque.channel_adds;
-  return {std::move(recording), std::move(torque.given), has_faults};
+// keeps references to record and pipeline
+InLoop in_loop_of(Recording recording, ProcessedRecord const& record, RecordPipeline const& pipeline) {
+  JointModel const& model = pipeline.model();
+  bool const has_faults = std::any_of(model.effects().begin(), model.effects().end(),
+                                      [](auto const& one) { return one.effect->acts_on() == ActsOn::recorded_torque; });
+  if (has_faults) recording.torque -= model.motor_torque(record.motion, record.drive, record.parameters).channel_adds;
+  return {std::move(recording),
+          [&](std::vector<LimitedSample> const& limited) { return needed_torque(record, pipeline, limited); },
+          has_faults};
 }
 
 RecordedLoop loop_to_try(InLoop const& in_loop, TrackedJoint const& joint, FilterOptions const& filter,
@@ -144,7 +149,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
                                 TwinOptions const& options, TwinWorkers const& workers) {
   ProcessedRecord record = pipeline.process(recording);
   TrackedJoint const joint = fitted_joint(pipeline, record.parameters);
-  InLoop const in_loop = in_loop_of(recording, record, pipeline.model());
+  InLoop const in_loop = in_loop_of(recording, record, pipeline);
   bool const decides = options.loop == nullptr;
   // a controller that is known tells what is noise, even where its law is too poor to be simulated
   bool const reads_colour = options.reads_colour || recording.reference.size() != recording.position.size();

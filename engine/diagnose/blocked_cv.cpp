@@ -30,19 +30,6 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
   return (y.segment(from, to - from) - x.middleRows(from, to - from) * theta).squaredNorm();
 }
 
-// of the effect's torque, fitted beside the model, the largest share in one block
-double most_in_a_block(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& both, Eigen::Index width) {
-  Eigen::VectorXd const theta = solve_scaled(both, mismatch);
-  Eigen::VectorXd const torque = both.rightCols(width) * theta.tail(width);
-  double const whole = torque.squaredNorm();
-  double most = 0.0;
-  for (Eigen::Index block = 0; block < n_folds; ++block) {
-    Eigen::Index const from = torque.size() * block / n_folds, to = torque.size() * (block + 1) / n_folds;
-    most = std::max(most, torque.segment(from, to - from).squaredNorm());
-  }
-  return whole > 0.0 ? most / whole : 0.0;
-}
-
 }  // namespace
 
 double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows) {
@@ -52,6 +39,16 @@ double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd co
     sum += left_inside(signal, columns, signal.size() * block / n_folds, signal.size() * (block + 1) / n_folds,
                        guard_rows);
   return sum;
+}
+
+double most_in_a_block(Eigen::VectorXd const& torque) {
+  double const whole = torque.squaredNorm();
+  double most = 0.0;
+  for (Eigen::Index block = 0; block < n_folds; ++block) {
+    Eigen::Index const from = torque.size() * block / n_folds, to = torque.size() * (block + 1) / n_folds;
+    most = std::max(most, torque.segment(from, to - from).squaredNorm());
+  }
+  return whole > 0.0 ? most / whole : 0.0;
 }
 
 BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
@@ -68,7 +65,6 @@ BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const&
     result.per_block.push_back(gain);
     result.gain += gain;
   }
-  result.most_in_a_block = most_in_a_block(mismatch, both, effect.cols());
   double const mean = result.gain / static_cast<double>(n_folds);
   double squares = 0.0;
   for (double gain : result.per_block) squares += (gain - mean) * (gain - mean);

@@ -5,8 +5,6 @@
 // Fit        linear parameters of model and effect on the mismatch, shape held
 // Gain       per block: energy of the mismatch predicted by the model's columns alone less that with the effect
 // t          mean gain over its standard error, blocks as the sample
-// Once       an effect whose torque, fitted beside the model, has more than half of its energy in one block cannot be judged so: what is
-//            left outside is too little to fit it to
 // Shapes     mismatch: n; model: n x k; effect: n x L
 // Requires   n >= fewest_rows
 // Threads    free function
@@ -22,12 +20,14 @@ inline constexpr Eigen::Index fewest_rows = 100;  // ten in each block
 struct BlockedGain {
   double gain = 0.0;  // energy, over all blocks
   double t = 0.0;
-  double most_in_a_block = 0.0;  // of the effect's energy, over all of it
   std::vector<double> per_block{};
 };
 
 // energy left in all blocks, each predicted by the fit outside it
 double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows);
+
+// of a torque's energy the largest share in one of the blocks; 0 without any
+double most_in_a_block(Eigen::VectorXd const& torque);
 
 BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const& model, Eigen::MatrixXd const& effect,
                          Eigen::Index guard_rows);

@@ -8,7 +8,10 @@
 // Answer     the one of the two laws that explains more; the simpler where it explains half as much. None unless it explains
 //            more than any other effect, a quarter of what is left beside the nuisance, helps on other blocks, is plausible, and q is at
 //            the level
-// Threads    free functions
+// Others     at the shapes that explain most along the common motion: nobody looks for theirs along the recording's, twins judge in the end
+// Shapes     q: one per scan
+// Units      gains are energies of the rows, (N m)^2 or N^2
+// Threads    free functions, which use those of the look
 
 #include <optional>
 #include <string>
@@ -25,7 +28,7 @@ bool is_buildup(Effect const& effect);
 // on rows with reversals, beside what is named
 struct BuildupLook {
   ModelStage const& rows;
-  BaselineReference const& reference;
+  BaselineReference reference;
   Eigen::VectorXd const& parameters;  // of the model without the candidate
   double q = 0.05;
   std::string shape_optimiser = "de";
@@ -33,7 +36,7 @@ struct BuildupLook {
   int threads = 1;
 };
 
-// columns along the common motion, with the nuisance in it
+// columns along that motion, with the nuisance among what candidates must explain something beside
 CandidateColumns buildup_columns(BuildupLook const& look, DrivenBy driven_by);
 
 // scans: on the common motion; q: theirs. evaluations: of the search for shapes, added to

@@ -178,8 +178,9 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
     selection_.evaluations += trial.refined.evaluations;
     prefer_own_motion(columns.recording, trial);
     auto const& driven = columns.of(trial.driven_by);
-    trial.cv = blocked_gain(mismatch, driven.model_columns(),
-                            driven.columns(*trial.refined.effect, trial.refined.shape), guard);
+    Eigen::MatrixXd const found = driven.columns(*trial.refined.effect, trial.refined.shape);
+    trial.cv = blocked_gain(mismatch, driven.model_columns(), found, guard);
+    trial.most_in_a_block = most_in_a_block(found * trial.refined.parameters);
     if (selection_.accepted.empty()) selection_.first_cv_gain[i] = trial.cv.gain;
     trials.push_back(std::move(trial));
   }

@@ -66,12 +66,11 @@ struct Selection {
   std::vector<double> first_q{};         // of each
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
-  double first_excess = 0.0;     // of it, or what one candidate explains if that is more; energy
-  double energy_unit = 1.0;      // what a unit of energy of the first step is under the weights of the last
-  bool is_gate_open = false;     // something is missing
-  bool keeps_reversals = false;  // both stages have rows at reversals (friction_buildup.hpp)
-  bool differs_at_reversals =
-      false;  // from its twins, and no friction that builds up explains it; rows there are left out
+  double first_excess = 0.0;          // of it, or what one candidate explains if that is more; energy
+  double energy_unit = 1.0;           // what a unit of energy of the first step is under the weights of the last
+  bool is_gate_open = false;          // something is missing
+  bool keeps_reversals = false;       // both stages have rows at reversals (friction_buildup.hpp)
+  bool differs_at_reversals = false;  // with its rows there from its twins, and no friction that builds up explains it
   WanderReading wander = WanderReading::beside_motion;  // that the twins were made with
   std::vector<AcceptedEffect> accepted{};               // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};

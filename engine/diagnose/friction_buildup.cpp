@@ -46,6 +46,7 @@ class SecondLook {
       setting_.keeps_reversals = true;
       if (!compare(std::min(draft_twins, setting_.twins)) || !is_anything_left()) return false;
       if (setting_.twins > draft_twins && (!compare(setting_.twins) || !is_anything_left())) return false;
+      selection_.differs_at_reversals = true;
       return take_any();
     } catch (Error const&) {
       return false;  // these rows cannot be fitted: what the masked ones said stands
@@ -118,7 +119,6 @@ class SecondLook {
       auto const trial = buildup_trial(look, motion, found.scans, found.q, selection_.evaluations);
       if (trial && take(*trial, found)) return true;
     }
-    selection_.differs_at_reversals = true;
     return false;
   }
 
@@ -173,6 +173,7 @@ class SecondLook {
     }
     selection_.is_gate_open = true;
     selection_.keeps_reversals = true;
+    selection_.differs_at_reversals = false;
     selection_.accepted.push_back({trial.refined.effect, trial.scan, trial.q, trial.refined.gain, trial.cv.gain,
                                    std::numeric_limits<double>::quiet_NaN()});
     selection_.baseline = std::make_shared<ModelStage const>(std::move(baseline));

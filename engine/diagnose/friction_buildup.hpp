@@ -8,7 +8,7 @@
 //            speed is not known, and not asked. Friction that builds up changes its side late: it remembers
 // Gate       omnibus z above 4 and mismatch above 0.25 % of the torque's rms, as in the search; first with few twins
 // Named      when twins with it lose more than half of all that is missing on these rows. Against the baseline twins must still
-//            confirm a third of its gain. Where neither is, and the gate was passed, the selection says so (differs_at_reversals).
+//            confirm a third of its gain. Where neither is named though the gate was passed, the selection says so (differs_at_reversals).
 //            The two are relatives: whether the other fits as well is asked as for every name (equivalent_effects.hpp)
 // Then       rows at reversals stay in: baseline and final model are fitted, shown and checked on unseen data with them, and what
 //            was named before must still be of use

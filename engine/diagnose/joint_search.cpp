@@ -62,6 +62,7 @@ Remainder judge_with_reversals(StageSetting& setting, SelectionOptions const& op
   Remainder with_reversals = judge_remainder(selection, *selection.final);
   if (with_reversals.is_unexplained && !remainder.is_unexplained) {
     selection = before;
+    selection.differs_at_reversals = true;
     return remainder;
   }
   setting.keeps_reversals = true;

@@ -15,7 +15,7 @@ std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, E
   if (!scan.effect->has_memory()) return std::nullopt;
   std::vector<ShapeSearch> searches{shape_search(how.optimiser, how.seed)};
   if (scan.effect->n_shape() > 2) {
-    // parts that ring or knock have many shapes that are nearly right
+    // parts that ring or knock, and friction with three shapes, have many that are nearly right
     constexpr int times_longer = 3;
     searches.front().generations *= times_longer;
     // friction with a memory has one maximum

@@ -86,27 +86,24 @@ double slowest_velocity(Recording const& recording, Eigen::VectorXd const& smoot
   return standard_deviations * 2.0 * std::numbers::pi * band_hz * noise * std::sqrt(share / 3.0);
 }
 
-// Of the torque that was asked for beyond the law's limits, the share that the joint has needed and so has got: 0 where the drive
-// has the limit, 1 where the channel has it
-double share_that_arrived(ControllerFit const& fit, Eigen::VectorXd const& needed_torque) {
+// Whether of the torque that was asked for beyond a limit of the law the joint has needed, and so has got, the greater part: the drive's
+// limit lets nothing of it through, the channel's lets all of it. side: 1 of the upper limit, -1 of the lower one
+bool is_limit_of_channel(ControllerFit const& fit, double side, Eigen::VectorXd const& needed) {
+  constexpr double half = 0.5;  // as near to all of it as to nothing
+  double const limit = side > 0.0 ? fit.law.most : fit.law.least;
   double arrived = 0.0, asked = 0.0;
   for (auto const& [sample, beyond] : fit.limited) {
-    double const limit = beyond > 0.0 ? fit.law.most : fit.law.least;
-    arrived += beyond * (needed_torque[sample] - limit);
+    if (beyond * side < 0.0) continue;
+    arrived += beyond * (needed[sample] - limit);
     asked += beyond * beyond;
   }
-  return arrived / asked;
-}
-
-bool is_limit_of_channel(ControllerFit const& fit, Eigen::VectorXd const& needed_torque) {
-  constexpr double most_of_it = 0.5;  // as near to the one as to the other
-  return !fit.limited.empty() && needed_torque.size() > 0 && share_that_arrived(fit, needed_torque) > most_of_it;
+  return arrived > half * asked;
 }
 
 }  // namespace
 
 RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter,
-                           Eigen::VectorXd const& needed_torque) {
+                           NeededTorque const& needed_torque) {
   if (recording.reference.size() != recording.position.size()) {
     RecordedLoop own = tracking_loop(recording, joint, filter);
     own.remark = "there is no reference: " + own.remark;
@@ -117,12 +114,16 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
   result.controller = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
   result.source = result.controller->is_white ? LoopSource::identified : LoopSource::approximated;
   result.loop.law = result.controller->law;
-  if (is_limit_of_channel(*result.controller, needed_torque)) {
-    result.loop.law.least = -std::numeric_limits<double>::infinity();
-    result.loop.law.most = std::numeric_limits<double>::infinity();
+  if (needed_torque && !result.controller->limited.empty()) {
+    Eigen::VectorXd const needed = needed_torque(result.controller->limited);
+    bool const has_most = is_limit_of_channel(*result.controller, 1.0, needed);
+    bool const has_least = is_limit_of_channel(*result.controller, -1.0, needed);
+    if (has_most) result.loop.law.most = std::numeric_limits<double>::infinity();
+    if (has_least) result.loop.law.least = -std::numeric_limits<double>::infinity();
+    if (has_most || has_least) result.remark = "the torque channel has a limit that the drive does not have; ";
   }
   result.loop.torque_noise = result.controller->noise;
-  result.remark = result.controller->remark;
+  result.remark += result.controller->remark;
   return result;
 }
 

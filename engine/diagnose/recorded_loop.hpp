@@ -8,7 +8,8 @@
 //                             measured motion, what the joint needs for it fed forward; good for most names, not
 //                             calibrated for elasticity, payload and delay
 // Limit      of the torque: the drive's, unless the joint has got most of what was asked for beyond it. Then it is one of the channel
-//            that tells the torque, the loop has none, and what is missing in the record is for the search to find
+//            that tells the torque, the loop has none (its controller keeps it), and what is missing in the record is for the search to find.
+//            The upper and the lower one by themselves
 // Noise      tracking: white torque noise from second differences, an upper bound while the torque itself bends; what it
 //            is in the band of the fit, and how slow, is measured with twins (torque_colour.hpp)
 // Ends       the motion that twins follow goes on as its odd reflection while it is smoothed: no accelerations of the filter's
@@ -17,8 +18,10 @@
 // Threads    free functions
 // Source     LESSONS items 1 and 2 of our own prototype
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
@@ -38,10 +41,13 @@ struct RecordedLoop {
   std::string remark{};
 };
 
-// joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows; needed_torque: by the model, one per
-// sample or none where no model is at hand
+// by the model, one per sample; asked for where some samples are limited
+using NeededTorque = std::function<Eigen::VectorXd(std::vector<LimitedSample> const&)>;
+
+// joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows; needed_torque: none where no model is
+// at hand
 RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter,
-                           Eigen::VectorXd const& needed_torque = {});
+                           NeededTorque const& needed_torque = {});
 
 // as if the recording had no reference: what to fall back to when the identified loop runs away
 RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint, FilterOptions const& filter);

@@ -203,9 +203,10 @@ std::string none_reason(JointDiagnosis const& joint) {
   std::string text = likeness_sentence(joint);
   append(text, joint.power_sentence);
   if (joint.differs_at_reversals)
-    append(text,
-           "Round reversals, which are left out, its friction changes its side in another way than the model's; no "
-           "friction that builds up over a distance explains how.");
+    append(
+        text,
+        "With the rows round reversals, which are left out, it is not what twins have; no friction that builds up over "
+        "a distance explains it.");
   return text;
 }
 

@@ -47,15 +47,16 @@ std::vector<Trial> in_order_of_trial(std::vector<Trial> trials) {
   return trials;
 }
 
-bool happens_once(Trial const& trial) {
-  constexpr double most = 0.5;
-  Effect const& effect = *trial.refined.effect;
-  return effect.is_event() || (effect.is_of_extremes() && trial.cv.most_in_a_block > most);
-}
-
 bool helps_elsewhere(BlockedGain const& cv, double gain) {
   constexpr double least_t = 2.0, most = 0.5;
   return cv.t >= least_t || cv.gain >= most * gain;
+}
+
+bool happens_once(Trial const& trial) {
+  constexpr double mostly = 0.5;
+  Effect const& effect = *trial.refined.effect;
+  return effect.is_event() ||
+         (effect.is_of_extremes() && trial.most_in_a_block > mostly && !helps_elsewhere(trial.cv, trial.refined.gain));
 }
 
 }  // namespace torquescope

@@ -28,9 +28,12 @@ void check_rows(ProcessedRecord const& record, std::string const& name) {
 std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage) {
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
-  ProcessedRecord const record = pipeline_for(setting, recording, stage.model()).prepare(recording);
-  return recorded_loop(recording, {}, {},
-                       stage.model().motor_torque(record.motion, record.drive, stage.parameters()).given);
+  return recorded_loop(recording, {}, {}, [&](std::vector<LimitedSample> const&) -> Eigen::VectorXd {
+    ProcessedRecord const record = pipeline_for(setting, recording, stage.model()).prepare(recording);
+    std::vector<std::string> unsaid;
+    Eigen::VectorXd const parameters = transferable(stage, unsaid);  // an event of the training recording is none here
+    return stage.model().motor_torque(record.motion, record.drive, parameters).given;
+  });
 }
 
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {

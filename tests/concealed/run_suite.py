@@ -145,7 +145,7 @@ def main(arguments):
     which.add_argument("--cases", help="sealed cases, separated by commas")
     which.add_argument("--clean", help="seeds of clean records, FROM..TO")
     which.add_argument("--drawn", help="names of drawn cases: a file, one per line, or separated by commas")
-    parser.add_argument("--shard", nargs="?", const="", help="I/N: the cases whose place in the list is I modulo N")
+    parser.add_argument("--shard", nargs="?", const="", help="I/N: the cases whose name is dealt to it (shard.py)")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
     parser.add_argument("--threads", type=int, default=0, help="threads of each diagnosis; 0: as it likes")
     parser.add_argument("--all-right", action="store_true", help="exit code 1 unless every case is right")

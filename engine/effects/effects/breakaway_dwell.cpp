@@ -4,7 +4,7 @@
 //            s = sign(dq) weighted by the Coulomb levels of the baseline
 // Memory     the age of the contact [s], exact for a constant speed over a step
 // Ageing     that needs a standing contact (dwell time: v_r small), or goes on while it creeps, where it makes friction fall with the
-//            speed as well (state and rate: v_r of the fastest motion)
+//            speed as well (state and rate: v_r of the fastest motion is that for all that slides slowly enough to age)
 // Growth     that comes to an end (grease), or with the logarithm of the rest and no end (dry contacts); a drive may have both
 // Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; breakaway_ageing Fa >= 0 [N m; N]: for each e-fold of the
 //            rest; dwell_time tau_d [s]; renewal_distance D [rad; m]; rest_speed v_r [rad/s; m/s]: half of the ageing is left

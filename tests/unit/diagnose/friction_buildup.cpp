@@ -101,6 +101,7 @@ TEST_F(FrictionBuildup, IsNotASharpSign) {
   Selection const selection = look(recording);
   EXPECT_FALSE(found);
   EXPECT_FALSE(selection.keeps_reversals);
+  EXPECT_FALSE(selection.differs_at_reversals);
   EXPECT_TRUE(selection.accepted.empty());
 }
 
@@ -113,6 +114,8 @@ TEST_F(FrictionBuildup, IsNotASignSmearedOverTheSpeed) {
                                                   {"stribeck", -1.0},
                                                   {"stribeck_speed", 0.05},
                                                   {"stribeck_exponent", 1.0}}));
-  look(recording);
+  Selection const selection = look(recording);
   EXPECT_FALSE(found);
+  // it is none of the two, and no sharp sign either
+  EXPECT_TRUE(selection.differs_at_reversals);
 }

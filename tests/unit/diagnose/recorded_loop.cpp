@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "engine/data/recording_reader.hpp"
+#include "engine/diagnose/needed_torque.hpp"
 #include "support/recordings_folder.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
@@ -31,39 +32,55 @@ Recording read(std::filesystem::path const& path) {
   return make_recording(read_table(path, section), options, section);
 }
 
-// some of the torque that a joint needs which has no limit
-double limit_of(test::CleanJoint const& joint) { return 0.9 * simulate_joint(joint.plan, 5).torque.maxCoeff(); }
+// peaks of its torque are for its inertia
+test::CleanJoint limited_joint() { return test::clean_joint(0.08, 0.3, 0.3); }
+// some of the torque that it needs
+double limit_of(test::CleanJoint const& joint) { return 0.85 * simulate_joint(joint.plan, 5).torque.maxCoeff(); }
 
-RecordedLoop loop_of(Recording const& recording, Eigen::VectorXd const& truth) {
-  Motion const motion = differentiate(recording, test::clean_filter(), {});
-  Eigen::VectorXd const needed = test::clean_regressor().columns(motion) * truth;
-  return recorded_loop(recording, {truth[0]}, test::clean_filter(), needed);
+// the torque that is needed by a model which was fitted to the record as it is
+RecordedLoop loop_of(Recording const& recording) {
+  RecordPipeline const pipeline(test::clean_regressor(), test::clean_filter(), recording.rate_hz,
+                                recording.position.size());
+  ProcessedRecord const record = pipeline.process(recording);
+  return recorded_loop(recording, {record.parameters[0]}, test::clean_filter(),
+                       [&](auto const& limited) { return needed_torque(record, pipeline, limited); });
 }
 
 }  // namespace
 
 TEST(RecordedLoop, KeepsTheLimitOfADriveThatGaveNoMore) {
-  auto joint = test::clean_joint();
+  auto joint = limited_joint();
   double const limit = limit_of(joint);
   joint.plan.controller.torque_limit = limit;
   auto const simulated = simulate_joint(joint.plan, 5);
   ASSERT_GT(simulated.saturated_samples, 100);
-  auto const found = loop_of(test::recorded(simulated), joint.truth);
+  auto const found = loop_of(test::recorded(simulated));
   EXPECT_NEAR(found.loop.law.most, limit, 0.02 * limit);
   EXPECT_NEAR(found.loop.law.least, -limit, 0.02 * limit);
 }
 
 TEST(RecordedLoop, HasNoLimitWhereOnlyTheRecordHasOne) {
-  auto const joint = test::clean_joint();
+  auto const joint = limited_joint();
   Recording recording = test::recorded(simulate_joint(joint.plan, 5));
-  double const limit = limit_of(joint);
-  ASSERT_GT((recording.torque.array() > limit).count(), 50);
+  double const limit = 0.7 * recording.torque.maxCoeff();
+  ASSERT_GT((recording.torque.array() > limit).count(), 100);
   recording.torque = recording.torque.cwiseMin(limit).cwiseMax(-limit);
   // without a model nobody can tell
-  EXPECT_NEAR(recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most, limit, 0.01 * limit);
-  auto const found = loop_of(recording, joint.truth);
-  EXPECT_EQ(found.controller->law.most, recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most);
+  EXPECT_NEAR(recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most, limit, 0.02 * limit);
+  auto const found = loop_of(recording);
+  EXPECT_NEAR(found.controller->law.most, limit, 0.02 * limit);
   EXPECT_TRUE(std::isinf(found.loop.law.most) && std::isinf(found.loop.law.least));
+}
+
+TEST(RecordedLoop, HasNoLimitOnTheOneSideThatIsCut) {
+  auto const joint = limited_joint();
+  Recording recording = test::recorded(simulate_joint(joint.plan, 5));
+  double const limit = limit_of(joint);
+  recording.torque = recording.torque.cwiseMax(-limit);
+  auto const found = loop_of(recording);
+  EXPECT_NEAR(found.controller->law.least, -limit, 0.02 * limit);
+  EXPECT_TRUE(std::isinf(found.controller->law.most));
+  EXPECT_TRUE(std::isinf(found.loop.law.least));
 }
 
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {

@@ -87,7 +87,7 @@ TEST(ReasonSentence, OfNothingMissingStatesThePowerOnlyWhereItIsKnown) {
   diagnosis.joints[0].power_sentence.clear();
   EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.41).");
   diagnosis.joints[0].differs_at_reversals = true;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("(p = 0.41). Round reversals, which are left out, its friction"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("(p = 0.41). With the rows round reversals, which are left out"));
 }
 
 TEST(ReasonSentence, LeavesTheNameOfAFileAsItIs) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 using torquescope::find_effect;
+using torquescope::happens_once;
 using torquescope::helps_elsewhere;
 using torquescope::in_order_of_trial;
 using torquescope::Trial;
@@ -45,6 +46,25 @@ TEST(TrialOrder, WhatRepeatsComesBeforeAnEventWhenItHoldsOnOtherBlocks) {
 TEST(TrialOrder, AnEventThatHoldsBetterOnOtherBlocksNeedNotGiveWay) {
   EXPECT_EQ(names(in_order_of_trial({trial("payload_change", 4.0, 3.5), trial("periodic_disturbance", 3.0, 2.9)})),
             (Names{"payload_change", "periodic_disturbance"}));
+}
+
+TEST(HappensOnce, AnInstantAndALimitThatWasReachedInOneBlock) {
+  EXPECT_TRUE(happens_once(trial("contact", 4.0, 4.0)));
+  // nine tenths in one block, and none of the gain on others
+  Trial clipped = trial("clipping", 4.0, 0.5);
+  clipped.most_in_a_block = 0.9;
+  EXPECT_TRUE(happens_once(clipped));
+  // what is left of it in others speaks for it
+  clipped.cv.t = 2.5;
+  EXPECT_FALSE(happens_once(clipped));
+  // it is everywhere, and does not help there
+  Trial stop = trial("end_stop", 4.0, 0.5);
+  stop.most_in_a_block = 0.3;
+  EXPECT_FALSE(happens_once(stop));
+  // no law of a limit: other blocks are asked whatever it does in this one
+  Trial law = trial("stribeck", 4.0, 0.5);
+  law.most_in_a_block = 0.9;
+  EXPECT_FALSE(happens_once(law));
 }
 
 TEST(TrialOrder, FewerParametersWinWhenTheyExplainNearlyAsMuch) {
