@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/equal_blocks.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -12,11 +13,7 @@ namespace {
 
 constexpr Eigen::Index n_blocks = 10;
 
-struct Block {
-  Eigen::Index from = 0, to = 0;
-};
-
-Eigen::VectorXd fit_without(Block const& block, Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+Eigen::VectorXd fit_without(RowBlock const& block, Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
                             CoefficientBounds const& bounds) {
   Eigen::Index const after = signal.size() - block.to;
   Eigen::MatrixXd rest(block.from + after, columns.cols());
@@ -49,10 +46,9 @@ Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::Matri
   TORQUESCOPE_EXPECT(signal.size() >= n_blocks && columns.rows() == signal.size());
   Eigen::RowVectorXd const energy = columns.colwise().squaredNorm();
   std::vector<std::vector<double>> found(static_cast<std::size_t>(columns.cols()));
-  for (Eigen::Index b = 0; b < n_blocks; ++b) {
-    Block const block{signal.size() * b / n_blocks, signal.size() * (b + 1) / n_blocks};
+  for (auto const& block : equal_blocks(signal.size(), n_blocks)) {
     Eigen::VectorXd const fit = fit_without(block, signal, columns, bounds);
-    Eigen::RowVectorXd const inside = columns.middleRows(block.from, block.to - block.from).colwise().squaredNorm();
+    Eigen::RowVectorXd const inside = columns.middleRows(block.from, block.size()).colwise().squaredNorm();
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
       if (inside[k] <= 0.5 * energy[k]) found[static_cast<std::size_t>(k)].push_back(fit[k]);
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/equal_blocks.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -12,11 +13,10 @@ namespace {
 
 constexpr Eigen::Index n_folds = 10;
 
-// what the fit outside [from, to) leaves inside it
-double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::Index from, Eigen::Index to,
-                   Eigen::Index guard) {
-  Eigen::Index const before = std::max<Eigen::Index>(0, from - guard);
-  Eigen::Index const after = std::min(y.size(), to + guard);
+// what the fit outside the block leaves inside it
+double left_inside(RowBlock const& block, Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::Index guard) {
+  Eigen::Index const before = std::max<Eigen::Index>(0, block.from - guard);
+  Eigen::Index const after = std::min(y.size(), block.to + guard);
   Eigen::Index const n_after = y.size() - after;
   Eigen::MatrixXd fit_x(before + n_after, x.cols());
   fit_x << x.topRows(before), x.bottomRows(n_after);
@@ -27,7 +27,7 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
   for (Eigen::Index k = 0; k < x.cols(); ++k)
     if (fit_x.col(k).norm() < visible * x.col(k).norm()) fit_x.col(k).setZero();
   Eigen::VectorXd const theta = solve_scaled(std::move(fit_x), fit_y);
-  return (y.segment(from, to - from) - x.middleRows(from, to - from) * theta).squaredNorm();
+  return (y.segment(block.from, block.size()) - x.middleRows(block.from, block.size()) * theta).squaredNorm();
 }
 
 }  // namespace
@@ -35,19 +35,15 @@ double left_inside(Eigen::VectorXd const& y, Eigen::MatrixXd const& x, Eigen::In
 double blocked_residual_energy(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns, Eigen::Index guard_rows) {
   TORQUESCOPE_EXPECT(signal.size() >= fewest_rows && columns.rows() == signal.size());
   double sum = 0.0;
-  for (Eigen::Index block = 0; block < n_folds; ++block)
-    sum += left_inside(signal, columns, signal.size() * block / n_folds, signal.size() * (block + 1) / n_folds,
-                       guard_rows);
+  for (auto const& block : equal_blocks(signal.size(), n_folds)) sum += left_inside(block, signal, columns, guard_rows);
   return sum;
 }
 
 double most_in_a_block(Eigen::VectorXd const& torque) {
   double const whole = torque.squaredNorm();
   double most = 0.0;
-  for (Eigen::Index block = 0; block < n_folds; ++block) {
-    Eigen::Index const from = torque.size() * block / n_folds, to = torque.size() * (block + 1) / n_folds;
-    most = std::max(most, torque.segment(from, to - from).squaredNorm());
-  }
+  for (auto const& block : equal_blocks(torque.size(), n_folds))
+    most = std::max(most, torque.segment(block.from, block.size()).squaredNorm());
   return whole > 0.0 ? most / whole : 0.0;
 }
 
@@ -58,10 +54,9 @@ BlockedGain blocked_gain(Eigen::VectorXd const& mismatch, Eigen::MatrixXd const&
   Eigen::MatrixXd both(mismatch.size(), model.cols() + effect.cols());
   both << model, effect;
   BlockedGain result;
-  for (Eigen::Index block = 0; block < n_folds; ++block) {
-    Eigen::Index const from = mismatch.size() * block / n_folds, to = mismatch.size() * (block + 1) / n_folds;
+  for (auto const& block : equal_blocks(mismatch.size(), n_folds)) {
     double const gain =
-        left_inside(mismatch, model, from, to, guard_rows) - left_inside(mismatch, both, from, to, guard_rows);
+        left_inside(block, mismatch, model, guard_rows) - left_inside(block, mismatch, both, guard_rows);
     result.per_block.push_back(gain);
     result.gain += gain;
   }

@@ -30,6 +30,20 @@ std::ptrdiff_t n_asked(JointDiagnosis const& joint) {
                        [](Candidate const& one) { return one.decision != Decision::not_tested; });
 }
 
+constexpr double usual_p = 0.05;
+
+std::string omnibus_text(JointDiagnosis const& joint) {
+  return p_text(joint.omnibus_p, false, 1.0 / static_cast<double>(joint.twins + 1));
+}
+
+// of those without a name the candidate that is least by chance; null where all have one
+Candidate const* surest_refused(JointDiagnosis const& joint) {
+  Candidate const* surest = nullptr;
+  for (auto const& one : joint.candidates)
+    if (one.decision == Decision::rejected && (!surest || one.q < surest->q)) surest = &one;
+  return surest;
+}
+
 }  // namespace
 
 std::string floor_words(double relerr, double floor) {
@@ -75,10 +89,8 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint) {
 
 std::string likeness_sentence(JointDiagnosis const& joint) {
   if (joint.twins == 0) return fmt::format("Nothing is missing in the model of joint {}.", joint.joint);
-  constexpr double usual = 0.05;
-  double const least = 1.0 / static_cast<double>(joint.twins + 1);
-  std::string const p = p_text(joint.omnibus_p, false, least);
-  if (!(joint.omnibus_p < usual) || !std::isfinite(joint.mismatch_share))
+  std::string const p = omnibus_text(joint);
+  if (!(joint.omnibus_p < usual_p) || !std::isfinite(joint.mismatch_share))
     return fmt::format("The residual of joint {} looks like that of {} clean twins ({}).", joint.joint, joint.twins, p);
   std::string const larger =
       fmt::format("The residual of joint {} is larger than that of {} clean twins ({}), but only by {} of the torque",
@@ -89,6 +101,17 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
       "both "
       "more than chance does and more than {} of the torque.",
       larger, n_asked(joint), percent_text(smallest_mismatch_share));
+}
+
+std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {
+  Candidate const* refused = surest_refused(joint);
+  if (joint.omnibus_p < usual_p || !refused)
+    return fmt::format("The residual of joint {} is not what clean twins have ({}), but {}.", joint.joint,
+                       omnibus_text(joint), nothing_fits);
+  return fmt::format(
+      "The residual of joint {} is no larger than that of clean twins ({}), but {} explains more of it than of theirs "
+      "(beyond chance). It gets no name: {}.",
+      joint.joint, omnibus_text(joint), refused->name, refused->reason);
 }
 
 }  // namespace torquescope

@@ -31,4 +31,8 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint);
 // within the twins' spread while no effect stands out
 std::string likeness_sentence(JointDiagnosis const& joint);
 
+// Of a joint with an open gate whose map shows nothing: what it is that twins do not have, the whole or what one candidate would make.
+// nothing_fits: a clause
+std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
+
 }  // namespace torquescope

@@ -228,8 +228,7 @@ std::string unexplained_reason(JointDiagnosis const& joint) {
                                                              : std::string("no known effect fits it");
   std::string text;
   if (joint.unexplained.empty()) {
-    text = fmt::format("The residual of joint {} is not what clean twins have ({}), but {}.", joint.joint,
-                       p_text(joint.omnibus_p, false, least_p(joint)), nothing_fits);
+    text = unlikeness_sentence(joint, nothing_fits);
   } else {
     UnexplainedPart const& part = joint.unexplained.front();
     std::string const where = place_phrase(joint, part.where);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagnose/equal_blocks.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -28,10 +30,9 @@ ShareFound share_found(UnseenEnergies const& energies) {
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after) {
   constexpr Eigen::Index n_blocks = 20;
   std::vector<AddedTorque> blocks;
-  for (Eigen::Index block = 0; block < n_blocks; ++block) {
-    Eigen::Index const from = left_before.size() * block / n_blocks, to = left_before.size() * (block + 1) / n_blocks;
-    Eigen::VectorXd const left = left_before.segment(from, to - from);
-    Eigen::VectorXd const added = left - left_after.segment(from, to - from);
+  for (auto const& block : equal_blocks(left_before.size(), n_blocks)) {
+    Eigen::VectorXd const left = left_before.segment(block.from, block.size());
+    Eigen::VectorXd const added = left - left_after.segment(block.from, block.size());
     blocks.push_back({added.squaredNorm(), added.dot(left)});
   }
   return blocks;

@@ -36,6 +36,23 @@ TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
   EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.20).");
 }
 
+// one candidate's certainty opened the gate, and then it was refused
+TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.unexplained.clear();
+  joint.omnibus_p = 1.0;
+  for (auto& candidate : joint.candidates) candidate.q = 1.0;
+  joint.candidates.push_back({"transmission_error", "order_locked", 8.2, 0.005, 1e-6});
+  joint.candidates.back().reason = "does not help on blocks it was not fitted to";
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 is no larger than that of clean twins (p = 1.0), but transmission_error explains "
+            "more of it "
+            "than of theirs (beyond chance). It gets no name: does not help on blocks it was not fitted to.");
+  joint.omnibus_p = 0.01;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 0.010), but none of"));
+}
+
 TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
   Diagnosis diagnosis = example::invented_diagnosis();
   JointDiagnosis& joint = diagnosis.joints[0];
