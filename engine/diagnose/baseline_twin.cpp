@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/joint_bounds.hpp"
 #include "engine/diagnose/needed_torque.hpp"
 
 namespace torquescope {
@@ -62,7 +63,7 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
     correct_from(options.levels->parameters);
     return result;
   }
-  correct_from(record.parameters);
+  correct_from(without_negatives(record.parameters, pipeline.model()));
   if (result.baseline.ran_away) return result;
   auto const twin = [&] {
     return CleanTwin(pipeline.model().twin_joint(result.baseline.parameters), law, result.loop.track, options.step_s);
@@ -79,8 +80,8 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
   return result;
 }
 
-TrackedJoint fitted_joint(RecordPipeline const& pipeline, Eigen::VectorXd const& parameters) {
-  TwinJoint const joint = pipeline.model().twin_joint(parameters);
+TrackedJoint fitted_joint(JointModel const& model, Eigen::VectorXd const& parameters) {
+  TwinJoint const joint = model.twin_joint(parameters);
   return {joint.lanes.inertia,
           joint.lanes.viscous,
           joint.coulomb_forward + joint.offset,
@@ -102,7 +103,9 @@ InLoop in_loop_of(Recording recording, ProcessedRecord const& record, RecordPipe
   JointModel const& model = pipeline.model();
   bool const has_faults = std::any_of(model.effects().begin(), model.effects().end(),
                                       [](auto const& one) { return one.effect->acts_on() == ActsOn::recorded_torque; });
-  if (has_faults) recording.torque -= model.motor_torque(record.motion, record.drive, record.parameters).channel_adds;
+  if (has_faults)
+    recording.torque -=
+        model.motor_torque(record.motion, record.drive, without_negatives(record.parameters, model)).channel_adds;
   return {std::move(recording),
           [&](std::vector<LimitedSample> const& limited) { return needed_torque(record, pipeline, limited); },
           has_faults};
@@ -148,7 +151,7 @@ NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made,
 BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const& pipeline, FilterOptions const& filter,
                                 TwinOptions const& options, TwinWorkers const& workers) {
   ProcessedRecord record = pipeline.process(recording);
-  TrackedJoint const joint = fitted_joint(pipeline, record.parameters);
+  TrackedJoint const joint = fitted_joint(pipeline.model(), without_negatives(record.parameters, pipeline.model()));
   InLoop const in_loop = in_loop_of(recording, record, pipeline);
   bool const decides = options.loop == nullptr;
   // a controller that is known tells what is noise, even where its law is too poor to be simulated

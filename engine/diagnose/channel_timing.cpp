@@ -106,10 +106,20 @@ Recording with_torque_earlier(Recording recording, double late_s) {
 }
 
 std::string timing_remark(double late_s, double rate_hz) {
+  if (late_s == 0.0) return "";
   return fmt::format(
       "torque taken {:.2g} ms {} than its rows say, {:.2g} of a sample: it was read there, as drives do that are "
       "faster than their log",
       1e3 * std::abs(late_s), late_s > 0.0 ? "earlier" : "later", std::abs(late_s) * rate_hz);
+}
+
+std::string timing_sentence(double late_s, double rate_hz) {
+  if (late_s == 0.0) return "";
+  return fmt::format(
+      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, and was put right: when in its sample a drive reads "
+      "it "
+      "is not known. Where it is, that is a fault of the channel, or a lag of the drive.",
+      1e3 * std::abs(late_s), late_s > 0.0 ? "after" : "before", std::abs(late_s) * rate_hz);
 }
 
 }  // namespace torquescope

@@ -32,7 +32,8 @@ inline constexpr double longest_timing = 1.1;
 // that twins are to have. Before the first and after the last sample it stays
 Recording with_torque_earlier(Recording recording, double late_s);
 
-// for people: what was done to the recordings
+// for people: what was done to the recordings, a clause; the same as a sentence beside a verdict. "" where nothing was
 std::string timing_remark(double late_s, double rate_hz);
+std::string timing_sentence(double late_s, double rate_hz);
 
 }  // namespace torquescope

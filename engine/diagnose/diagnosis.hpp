@@ -172,6 +172,7 @@ struct JointDiagnosis {
   std::vector<ForwardSimulation> forward{};
   // how it was found
   std::string rows = "moving one way";  // or "with reversals" (friction_buildup.hpp): what errors and pictures are of
+  std::string timing_sentence{};        // what was done to the torque channel's time; told in the reason, not stored
   bool differs_at_reversals = false;    // rows that are left out; told in the reason of none, not stored
   std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;

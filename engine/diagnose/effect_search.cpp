@@ -236,7 +236,8 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
                        100.0 * region.asked_for);
   // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
   bool const is_once = happens_once(trial);
-  if (is_once && is_faint_) return "happens once, and is too faint to be told from what twins cannot repeat";
+  if (is_once && is_faint_ && trial.q > faint_q)
+    return "happens once, and is too faint to be told from what twins cannot repeat";
   if (is_once && gain < least_share_of_rest * whole && !is_large)
     return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                        100.0 * gain / whole);

@@ -96,7 +96,7 @@ class SecondLook {
   // recording and twins of the model so far, on rows with reversals
   bool compare(std::size_t twins) {
     auto const& final = before();
-    rows_.pipeline = std::make_unique<RecordPipeline>(pipeline_for(setting_, setting_.recording, final.model()));
+    rows_.pipeline = std::make_unique<RecordPipeline>(pipeline_for(setting_, setting_.recording, final));
     if (setting_.weights) rows_.pipeline->weigh_with(setting_.weights);
     TwinAddress const null_set{setting_.seed, 0, first_free_twin_set};
     rows_.comparison =

@@ -1,5 +1,6 @@
 #include "engine/diagnose/joint_bounds.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace torquescope {
@@ -23,6 +24,13 @@ JointBounds joint_bounds(JointModel const& model) {
     column += size;
   }
   return bounds;
+}
+
+Eigen::VectorXd without_negatives(Eigen::VectorXd fit, JointModel const& model) {
+  std::vector<bool> const non_negative = model.non_negative();
+  for (Eigen::Index k = 0; k < fit.size(); ++k)
+    if (non_negative[static_cast<std::size_t>(k)]) fit[k] = std::max(0.0, fit[k]);
+  return fit;
 }
 
 }  // namespace torquescope

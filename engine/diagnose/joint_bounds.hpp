@@ -24,4 +24,13 @@ struct JointBounds {
 
 JointBounds joint_bounds(JointModel const& model);
 
+// what a fit heeds of them (joint_fit.hpp)
+struct FitBounds {
+  double least_inertia_share = 1e-3;  // of what would take all torque
+  bool of_effects = true;
+};
+
+// a fit's parameters with 0 for what cannot be negative and is
+Eigen::VectorXd without_negatives(Eigen::VectorXd fit, JointModel const& model);
+
 }  // namespace torquescope

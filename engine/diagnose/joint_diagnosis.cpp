@@ -95,8 +95,8 @@ class JointWork {
       unseen_.push_back(torque_late_s_ == 0.0 ? one : with_torque_earlier(one, torque_late_s_));
     drop_spoilers(setting, unseen_, selection_, remainder);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
-    account_for_models(selection_, torque_late_s_ == 0.0 ? "" : timing_remark(torque_late_s_, input_.train.rate_hz),
-                       joint_);
+    account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
+    joint_.timing_sentence = timing_sentence(torque_late_s_, input_.train.rate_hz);
     joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);

@@ -17,13 +17,14 @@ using Group = std::vector<Eigen::Index>;
 class JointFit {
  public:
   JointFit(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-           std::string const& name, double least_share)
+           std::string const& name, FitBounds const& fit_bounds)
       : record_(record),
         owners_(model.column_owners()),
         bounds_(joint_bounds(model)),
         name_(name),
-        least_share_(least_share),
+        least_share_(fit_bounds.least_inertia_share),
         is_whole_(present.size() == owners_.size()) {
+    if (!fit_bounds.of_effects) bounds_.non_negative.assign(bounds_.non_negative.size(), false);
     for (Eigen::Index column : present) groups_.push_back({column});
   }
 
@@ -139,8 +140,8 @@ class JointFit {
 }  // namespace
 
 void fit_joint(ProcessedRecord& record, JointModel const& model, std::vector<Eigen::Index> const& present,
-               std::string const& name, double least_share) {
-  JointFit(record, model, present, name, least_share).run();
+               std::string const& name, FitBounds const& bounds) {
+  JointFit(record, model, present, name, bounds).run();
 }
 
 }  // namespace torquescope

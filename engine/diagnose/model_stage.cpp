@@ -1,6 +1,8 @@
 #include "engine/diagnose/model_stage.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
@@ -13,6 +15,33 @@ constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have som
 
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
 
+bool is_bounded(JointModel const& model) {
+  auto const bounds = model.non_negative();
+  return std::find(bounds.begin(), bounds.end(), true) != bounds.end();
+}
+
+bool has_vanished(JointModel const& model, Eigen::VectorXd const& parameters) {
+  auto const bounds = model.non_negative();
+  for (std::size_t k = 0; k < bounds.size(); ++k)
+    if (bounds[k] && parameters[static_cast<Eigen::Index>(k)] <= 0.0) return true;
+  return false;
+}
+
+// A fit is a statistic from which twins take the bias. Where processing takes more from an effect's column than the effect gives, the fit of
+// a right one is negative, and that of its twins the more so: a bound would make all of them 0 and hide the effect.
+// One that is nothing without the bias, too, is fitted within its bounds
+BaselineTwin possible_twin(StageSetting const& setting, RecordPipeline& pipeline, TwinOptions const& options) {
+  auto const make = [&] {
+    return make_baseline_twin(setting.recording, pipeline, setting.filter, options, setting.workers());
+  };
+  bool const is_free = is_bounded(pipeline.model()) && setting.ablation.indirect_inference;
+  pipeline.bound_effects(!is_free);
+  BaselineTwin made = make();
+  if (!is_free || !has_vanished(pipeline.model(), made.baseline.parameters)) return made;
+  pipeline.bound_effects(true);
+  return make();
+}
+
 ModelStage made_stage(StageSetting const& setting, JointModel model) {
   auto pipeline = std::make_unique<RecordPipeline>(pipeline_for(setting, setting.recording, std::move(model)));
   TwinOptions options;
@@ -21,9 +50,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   options.reads_colour = setting.reads_colour;
   options.loop = setting.loop;
   options.twins = twins_per_round;
-  auto const make_twin = [&] {
-    return make_baseline_twin(setting.recording, *pipeline, setting.filter, options, setting.workers());
-  };
+  auto const make_twin = [&] { return possible_twin(setting, *pipeline, options); };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
   BaselineTwin made = make_twin();
@@ -60,6 +87,12 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
   return pipeline;
 }
 
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  pipeline.bound_effects(stage.pipeline->bounds_effects());
+  return pipeline;
+}
+
 BaselineReference ModelStage::reference() const {
   auto const& regressor = model().regressor();
   Eigen::VectorXd const own = parameters().head(static_cast<Eigen::Index>(regressor.size()));
@@ -87,7 +120,7 @@ std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStag
   StageSetting own = setting;
   own.levels = levels_of(*stage.twin);
   if (stage.pipeline->whitens()) {
-    RecordPipeline const plain = pipeline_for(setting, setting.recording, stage.model());
+    RecordPipeline const plain = pipeline_for(setting, setting.recording, stage);
     NoiseWeights const rows(
         twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.workers()));
     own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));

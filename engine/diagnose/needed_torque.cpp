@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/joint_bounds.hpp"
 
 namespace torquescope {
 namespace {
@@ -42,7 +43,9 @@ Eigen::VectorXd parameters_beside(ProcessedRecord const& record, RecordPipeline 
 
 Eigen::VectorXd needed_torque(ProcessedRecord const& record, RecordPipeline const& pipeline,
                               std::vector<LimitedSample> const& limited) {
-  return pipeline.model().motor_torque(record.motion, record.drive, parameters_beside(record, pipeline, limited)).given;
+  JointModel const& model = pipeline.model();
+  Eigen::VectorXd const parameters = without_negatives(parameters_beside(record, pipeline, limited), model);
+  return model.motor_torque(record.motion, record.drive, parameters).given;
 }
 
 }  // namespace torquescope

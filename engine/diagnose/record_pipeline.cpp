@@ -46,8 +46,7 @@ RecordPipeline::RecordPipeline(JointModel model, FilterOptions const& options, d
       rate_hz_(rate_hz),
       n_samples_(n_samples),
       cutoff_hz_(parallel_cutoff_of(options)),
-      filter_(options, rate_hz, n_samples, filter),
-      least_inertia_share_(least_inertia_share) {}
+      filter_(options, rate_hz, n_samples, filter) {}
 
 ProcessedRecord RecordPipeline::process(Recording const& recording) const {
   ProcessedRecord record = prepare(recording);
@@ -133,7 +132,7 @@ void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const
     record.columns = signals.leftCols(record.columns.cols());
     record.torque = signals.col(record.columns.cols());
   }
-  fit_joint(record, model_, present_columns(record.columns), name, least_inertia_share_);
+  fit_joint(record, model_, present_columns(record.columns), name, fit_bounds_);
 }
 
 ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,

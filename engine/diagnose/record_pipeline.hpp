@@ -20,6 +20,7 @@
 
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
+#include "engine/diagnose/joint_bounds.hpp"
 #include "engine/diagnose/joint_model.hpp"
 #include "engine/diagnose/noise_weights.hpp"
 
@@ -66,7 +67,10 @@ class RecordPipeline {
   void restrict_to(std::vector<Eigen::Index> kept_rows);
 
   // from now on an inertia that takes less than this share of the torque is held (joint_fit.hpp)
-  void hold_inertia_below(double share) { least_inertia_share_ = share; }
+  void hold_inertia_below(double share) { fit_bounds_.least_inertia_share = share; }
+  // from now on a fit bounds effects, or leaves them free
+  void bound_effects(bool bounds) { fit_bounds_.of_effects = bounds; }
+  bool bounds_effects() const { return fit_bounds_.of_effects; }
 
   // from now on its own mask drops rests alone (reversal_mask.hpp)
   void keep_reversals() { keeps_reversals_ = true; }
@@ -117,7 +121,7 @@ class RecordPipeline {
   double cutoff_hz_;
   ParallelFilter filter_;
   bool keeps_reversals_ = false;
-  double least_inertia_share_;
+  FitBounds fit_bounds_{};
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask
   std::shared_ptr<NoiseWeights const> weights_{};
   WanderOnRows fixed_wander_{};  // on fixed_rows_

@@ -304,6 +304,7 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   std::string text;
   for (auto const& joint : diagnosis.joints) {
     append(text, joint_reason(diagnosis.verdict, joint));
+    append(text, joint.timing_sentence);
     append(text, unseen_is_other_sentence(joint));
   }
   return text;

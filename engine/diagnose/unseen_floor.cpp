@@ -58,7 +58,7 @@ Eigen::VectorXd mean_of(std::vector<TwinResidual> const& twins) {
 void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                           RecordedLoop const& loop, std::vector<Eigen::Index> const* rows,
                           std::function<void(VisitedTwin const&)> const& visit) {
-  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  RecordPipeline pipeline = pipeline_for(setting, recording, stage);
   if (rows != nullptr) pipeline.restrict_to(*rows);
   CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());

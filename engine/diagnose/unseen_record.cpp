@@ -29,7 +29,7 @@ std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting con
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
   return recorded_loop(recording, {}, {}, [&](std::vector<LimitedSample> const&) -> Eigen::VectorXd {
-    ProcessedRecord const record = pipeline_for(setting, recording, stage.model()).prepare(recording);
+    ProcessedRecord const record = pipeline_for(setting, recording, stage).prepare(recording);
     std::vector<std::string> unsaid;
     Eigen::VectorXd const parameters = transferable(stage, unsaid);  // an event of the training recording is none here
     return stage.model().motor_torque(record.motion, record.drive, parameters).given;
@@ -106,8 +106,8 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                          ModelStage const& augmented, Artefact const& artefact) {
   UnseenPrediction result;
-  RecordPipeline const plain = pipeline_for(setting, recording, baseline.model());
-  RecordPipeline full = pipeline_for(setting, recording, augmented.model());
+  RecordPipeline const plain = pipeline_for(setting, recording, baseline);
+  RecordPipeline full = pipeline_for(setting, recording, augmented);
   ProcessedRecord const before = plain.prepare(recording);
   check_rows(before, recording.name);
   full.restrict_to(before.kept_rows);

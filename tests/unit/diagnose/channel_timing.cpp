@@ -45,6 +45,10 @@ TEST(ChannelTiming, TakesNoNoiseAwayAndNoLevel) {
 TEST(ChannelTiming, SaysWhatWasDone) {
   EXPECT_EQ(timing_remark(0.5e-3, 1000.0).substr(0, 36), "torque taken 0.5 ms earlier than its");
   EXPECT_EQ(timing_remark(-0.5e-3, 1000.0).substr(0, 34), "torque taken 0.5 ms later than its");
+  EXPECT_EQ(timing_remark(0.0, 1000.0), "");
+  EXPECT_EQ(timing_sentence(0.5e-3, 1000.0).substr(0, 69),
+            "The torque comes 0.5 ms after its rows, 0.5 of a sample, and was put ");
+  EXPECT_EQ(timing_sentence(0.0, 1000.0), "");
 }
 
 }  // namespace
