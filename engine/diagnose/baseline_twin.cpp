@@ -18,12 +18,13 @@ struct Attempt {
   bool ran_away() const {
     return baseline.ran_away || disturbance.ran_away || friction_wander.ran_away || (colour && colour->ran_away);
   }
+  bool is_louder_than_the_recording() const {
+    constexpr double clearly = 4.0;
+    return !ran_away() && disturbance.z < -clearly;
+  }
   // What a law does not explain is noise of its twins. Twins that are louder than the recording, without any disturbance
   // and where effects have little to say, are so because the law lacks something: a feedforward of friction, say
-  bool law_is_too_poor() const {
-    constexpr double clearly = 4.0;
-    return loop.source == LoopSource::approximated && disturbance.z < -clearly;
-  }
+  bool law_is_too_poor() const { return loop.source == LoopSource::approximated && is_louder_than_the_recording(); }
 };
 
 TwinAddress wander_set(TwinOptions const& options) { return {options.seed, options.recording, 2}; }
@@ -156,8 +157,13 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   bool const decides = options.loop == nullptr;
   // a controller that is known tells what is noise, even where its law is too poor to be simulated
   bool const reads_colour = options.reads_colour || recording.reference.size() != recording.position.size();
-  auto const attempt_in = [&](RecordedLoop loop) {
-    return attempt(std::move(loop), reads_colour, record, pipeline, options, workers);
+  auto const attempt_in = [&](RecordedLoop const& loop) {
+    Attempt tried = attempt(loop, reads_colour, record, pipeline, options, workers);
+    // a stiff controller answers its encoder: what the torque has at the highest frequencies is no white noise then
+    bool const mistook_noise = loop.source == LoopSource::tracking && tried.is_louder_than_the_recording();
+    if (reads_colour || options.levels || !mistook_noise) return tried;
+    Attempt coloured = attempt(loop, true, record, pipeline, options, workers);
+    return coloured.ran_away() ? tried : coloured;
   };
   // where the motion cannot tell friction from gravity both may be wrong and large: fed forward they throw the joint
   auto const led_by_error = [&] { return attempt_in(tracking_loop(in_loop.recording, {joint.inertia}, filter)); };

@@ -105,6 +105,13 @@ Recording with_torque_earlier(Recording recording, double late_s) {
   return recording;
 }
 
+bool loses_the_law(RecordedLoop const& as_read, Recording const& in_time) {
+  constexpr double twice = 2.0;
+  if (!as_read.controller || in_time.reference.size() != in_time.position.size()) return false;
+  RecordedLoop const own = recorded_loop(in_time, {}, {});
+  return std::pow(own.controller->noise.std, 2) > twice * std::pow(as_read.controller->noise.std, 2);
+}
+
 std::string timing_remark(double late_s, double rate_hz) {
   if (late_s == 0.0) return "";
   return fmt::format(

@@ -17,6 +17,7 @@
 
 #include "engine/data/recording.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/recorded_loop.hpp"
 
 namespace torquescope {
 
@@ -31,6 +32,10 @@ inline constexpr double longest_timing = 1.1;
 // The torque as if it had been read late_s earlier, by a sinc of 16 samples under a Hann window: straight lines would take noise away
 // that twins are to have. Before the first and after the last sample it stays
 Recording with_torque_earlier(Recording recording, double late_s);
+
+// Whether in the torque put back in time a law leaves more than twice the noise that as_read's left in the torque as it was read: then the
+// rows tell what the controller wrote, whenever the drive gave it. Without a reference nobody knows: false
+bool loses_the_law(RecordedLoop const& as_read, Recording const& in_time);
 
 // for people: what was done to the recordings, a clause; the same as a sentence beside a verdict. "" where nothing was
 std::string timing_remark(double late_s, double rate_hz);

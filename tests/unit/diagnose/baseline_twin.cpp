@@ -92,6 +92,22 @@ TEST(BaselineTwin, FollowsARecordingThatHasNoReference) {
   EXPECT_LT(rms(group.position[0] - recording.position), 2.0 * 1.3 / 1280.0);
 }
 
+// what a stiff controller makes of its encoder is loud at the highest frequencies alone, where the noise of a torque is read that no law tells
+TEST(BaselineTwin, ThatFollowsAMotionIsNoLouderThanARecordingWhoseTorqueRattles) {
+  Recording rattling = recorded(simulate_joint(clean_joint().plan, 12));
+  for (Eigen::Index i = 0; i < rattling.torque.size(); ++i) rattling.torque[i] += i % 2 == 0 ? 0.3 : -0.3;
+  auto const pipeline = clean_pipeline(rattling);
+  TwinOptions options{1e-4, 16, 1, 0};
+  auto const joint = clean_joint().truth;
+  options.loop = std::make_shared<RecordedLoop const>(
+      tracking_loop(rattling, {joint[0], joint[1], joint[2] + joint[3], joint[3] - joint[2]}, clean_filter()));
+  ASSERT_GT(options.loop->loop.torque_noise.std, 0.1);
+  auto const made = make_baseline_twin(rattling, pipeline, clean_filter(), options, 2);
+  EXPECT_TRUE(made.colour.has_value());
+  EXPECT_GT(made.disturbance.z, -4.0);
+  EXPECT_LT(made.twin.loop().torque_noise.std, 0.1);
+}
+
 TEST(BaselineTwin, HasTheSameBitsForAnyNumberOfThreads) {
   auto const recording = recorded(simulate_joint(clean_joint().plan, 12));
   auto const pipeline = clean_pipeline(recording);

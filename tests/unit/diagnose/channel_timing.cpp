@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "unit/diagnose/clean_records.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -40,6 +42,23 @@ TEST(ChannelTiming, TakesNoNoiseAwayAndNoLevel) {
   for (double& value : read.torque) value = normal(draw);
   // half way between two samples straight lines would leave half of the variance; the window takes a tenth, near the Nyquist frequency
   EXPECT_GT(with_torque_earlier(read, 0.5e-3).torque.squaredNorm(), 0.85 * read.torque.squaredNorm());
+}
+
+// a torque that a stiff controller writes follows every step of the encoder: between its rows it is nobody's answer
+TEST(ChannelTiming, LosesTheLawOfAStiffControllerAndNoOther) {
+  auto joint = test::clean_joint();
+  joint.plan.encoder.counts_per_revolution = 0.1 * test::counts_per_revolution;
+  joint.plan.noise.torque_std = 0.002;
+  Recording const recording = test::recorded(simulate_joint(joint.plan, 12));
+  EXPECT_TRUE(loses_the_law(recorded_loop(recording, {}, {}), with_torque_earlier(recording, 0.4e-3)));
+  EXPECT_FALSE(loses_the_law(recorded_loop(recording, {}, {}), recording));
+  joint.plan.controller.bandwidth_hz = 1.0;
+  joint.plan.noise.torque_std = 0.02;
+  Recording const slack = test::recorded(simulate_joint(joint.plan, 12));
+  EXPECT_FALSE(loses_the_law(recorded_loop(slack, {}, {}), with_torque_earlier(slack, 0.4e-3)));
+  Recording unknown = recording;
+  unknown.reference.resize(0);
+  EXPECT_FALSE(loses_the_law(recorded_loop(unknown, {}, {}), with_torque_earlier(unknown, 0.4e-3)));
 }
 
 TEST(ChannelTiming, SaysWhatWasDone) {
