@@ -9,7 +9,7 @@
 //            what a current loop needs itself), is taken out of the recordings, and the search begins again; also one that explains by itself nine
 //            tenths of what was named first, or of what comes closest: when a row was
 //            read is asked before any physics. Where nothing explains the recording, any delay within a sample is taken out: torque
-//            beside its rows hides what is missing. A longer one is a finding
+//            beside its rows hides what is missing; but not where the controller's law is lost by that. A longer one is a finding
 // Threads    free functions
 // Units      s
 

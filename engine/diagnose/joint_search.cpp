@@ -39,7 +39,10 @@ Selection search_in_time(StageSetting const& setting, Recording& recording, Sele
       std::make_shared<RecordedLoop const>(selection.baseline->twin->loop);
   for (int i = 0; i < most_times; ++i) {
     bool const is_unexplained = judge_remainder(selection, *selection.final).is_unexplained;
-    auto const more_s = delay_within_a_sample(selection, is_unexplained, late_s, recording.rate_hz);
+    auto more_s = delay_within_a_sample(selection, is_unexplained, late_s, recording.rate_hz);
+    // where the law says that the rows are in time, that something is unexplained is no reason to move them
+    if (more_s && is_unexplained && loses_the_law(*as_read, with_torque_earlier(recording, *more_s)))
+      more_s = delay_within_a_sample(selection, false, late_s, recording.rate_hz);
     if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);
