@@ -21,7 +21,7 @@ namespace torquescope {
 
 struct BaselineCorrection {
   Eigen::VectorXd parameters;     // corrected
-  Eigen::VectorXd least_squares;  // of the recording
+  Eigen::VectorXd least_squares;  // of the recording; effects may be negative where fits are free (joint_fit.hpp)
   Eigen::VectorXd std;            // of a fit, over twins: noise of this recording's length
   double largest_mismatch = 0.0;  // of the last round, in std
   int rounds = 0;

@@ -7,7 +7,7 @@
 // Loop       decided once: later models of the same recording are told the first one's, or unlike twins would be compared.
 //            Effects of the torque channel ask for another look at it: a controller never saw what they add
 // Colour     of the torque noise: an identified loop has it from its own remainder; in a tracking loop torque_colour.hpp reads
-//            it from what the model leaves, anew with every model
+//            it from what the model leaves, anew with every model, where there is no reference or twins would be louder than the recording
 // Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
 // Errors     Error 65 as the parts; also when twins run away in the tracking loop too
 // Units      SI

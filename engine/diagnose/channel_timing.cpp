@@ -125,7 +125,8 @@ std::string timing_sentence(double late_s, double rate_hz) {
   return fmt::format(
       "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, and was put right: when in its sample a drive reads "
       "it "
-      "is not known. Where it is, that is a fault of the channel, or a lag of the drive.",
+      "is not known. If yours is known to read it with the position, this is a fault of the channel or a lag of the "
+      "drive.",
       1e3 * std::abs(late_s), late_s > 0.0 ? "after" : "before", std::abs(late_s) * rate_hz);
 }
 

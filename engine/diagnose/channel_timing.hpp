@@ -33,8 +33,8 @@ inline constexpr double longest_timing = 1.1;
 // that twins are to have. Before the first and after the last sample it stays
 Recording with_torque_earlier(Recording recording, double late_s);
 
-// Whether in the torque put back in time a law leaves more than twice the noise that as_read's left in the torque as it was read: then the
-// rows tell what the controller wrote, whenever the drive gave it. Without a reference nobody knows: false
+// Whether in the torque put back in time a law leaves more than twice the noise (variance) that as_read's left in the torque as it was
+// read: then the rows are those in which the controller wrote it. Without a reference nobody knows: false
 bool loses_the_law(RecordedLoop const& as_read, Recording const& in_time);
 
 // for people: what was done to the recordings, a clause; the same as a sentence beside a verdict. "" where nothing was

@@ -55,6 +55,8 @@ bool EffectSearch::begin(StageSetting const& setting) {
   setting_.wander = setting.wander;
   setting_.loop = std::make_shared<RecordedLoop const>(first->twin->loop);
   setting_.weights = first->pipeline->weights();
+  // noise that the loop could not tell is read from what each model leaves
+  if (first->twin->colour) setting_.reads_colour = true;
   Selection fresh;
   fresh.evaluations = selection_.evaluations;
   fresh.wander = setting.wander;
@@ -234,7 +236,8 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   if (!region.holds() && setting_.ablation.region_consistency)
     return fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)", 100.0 * region.share,
                        100.0 * region.asked_for);
-  // what happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it
+  // What happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it. Where the whole
+  // mismatch is small it must be certain by itself
   bool const is_once = happens_once(trial);
   if (is_once && is_faint_ && trial.q > faint_q)
     return "happens once, and is too faint to be told from what twins cannot repeat";

@@ -105,7 +105,8 @@ std::string likeness_sentence(JointDiagnosis const& joint) {
 
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits) {
   Candidate const* refused = surest_refused(joint);
-  if (joint.omnibus_p < usual_p || !refused)
+  bool const is_for_one = joint.refutation.empty() && joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
+  if (!is_for_one)
     return fmt::format("The residual of joint {} is not what clean twins have ({}), but {}.", joint.joint,
                        omnibus_text(joint), nothing_fits);
   return fmt::format(

@@ -14,16 +14,15 @@ namespace {
 constexpr double follows_p = 0.005;  // as a candidate that is certain
 
 // A controller's law is one of the torque as its rows say it: put back in time, the torque of a stiff one is no longer what it answers.
-// The loop that was found before stays where the new one would be noisier
-Selection select_in_loop(StageSetting const& setting, RecordedLoop const& as_read, SelectionOptions const& options,
-                         StageSink const& progress) {
-  if (loses_the_law(as_read, setting.recording)) {
-    StageSetting known = setting;
-    known.loop = std::make_shared<RecordedLoop const>(as_read);
+// The loop that was found before stays, if twins follow in it
+Selection select_in_loop(StageSetting& setting, std::shared_ptr<RecordedLoop const> const& as_read,
+                         SelectionOptions const& options, StageSink const& progress) {
+  if (!setting.loop && loses_the_law(*as_read, setting.recording)) {
+    setting.loop = as_read;
     try {
-      return select_effects(known, options, progress);
+      return select_effects(setting, options, progress);
     } catch (Error const&) {
-      // twins in it do not follow
+      setting.loop = nullptr;
     }
   }
   return select_effects(setting, options, progress);
@@ -31,12 +30,11 @@ Selection select_in_loop(StageSetting const& setting, RecordedLoop const& as_rea
 
 }  // namespace
 
-Selection search_in_time(StageSetting const& setting, Recording& recording, SelectionOptions const& options,
+Selection search_in_time(StageSetting& setting, Recording& recording, SelectionOptions const& options,
                          StageSink const& progress, double& late_s) {
   constexpr int most_times = 2;  // the second for what other effects hid of it
   Selection selection = select_effects(setting, options, progress);
-  std::shared_ptr<RecordedLoop const> const as_read =
-      std::make_shared<RecordedLoop const>(selection.baseline->twin->loop);
+  auto const as_read = std::make_shared<RecordedLoop const>(selection.baseline->twin->loop);
   for (int i = 0; i < most_times; ++i) {
     bool const is_unexplained = judge_remainder(selection, *selection.final).is_unexplained;
     auto more_s = delay_within_a_sample(selection, is_unexplained, late_s, recording.rate_hz);
@@ -46,8 +44,9 @@ Selection search_in_time(StageSetting const& setting, Recording& recording, Sele
     if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);
-    selection = select_in_loop(setting, *as_read, options, progress);
+    selection = select_in_loop(setting, as_read, options, progress);
   }
+  if (selection.baseline->twin->colour) setting.reads_colour = true;
   return selection;
 }
 

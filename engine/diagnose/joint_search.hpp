@@ -11,8 +11,9 @@
 namespace torquescope {
 
 // recording: the setting's; its torque is put back in time where it was read within a sample of its rows (channel_timing.hpp).
-// late_s: how much earlier it is now
-Selection search_in_time(StageSetting const& setting, Recording& recording, SelectionOptions const& options,
+// late_s: how much earlier it is now. The setting keeps the loop that was found in the torque as it was read where the controller's
+// law is lost by that, and says whether twins read their torque noise from what models leave
+Selection search_in_time(StageSetting& setting, Recording& recording, SelectionOptions const& options,
                          StageSink const& progress, double& late_s);
 
 // What has no name may be noise: what acts from outside with a memory, or comes through a loop that is faster than its log, is louder at

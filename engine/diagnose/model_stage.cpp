@@ -20,24 +20,33 @@ bool is_bounded(JointModel const& model) {
   return std::find(bounds.begin(), bounds.end(), true) != bounds.end();
 }
 
-bool has_vanished(JointModel const& model, Eigen::VectorXd const& parameters) {
+// of effects that this joint can have: a column that is not there has no spread over twins
+bool is_any_nothing(JointModel const& model, BaselineCorrection const& baseline) {
   auto const bounds = model.non_negative();
-  for (std::size_t k = 0; k < bounds.size(); ++k)
-    if (bounds[k] && parameters[static_cast<Eigen::Index>(k)] <= 0.0) return true;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    auto const at = static_cast<Eigen::Index>(k);
+    if (bounds[k] && baseline.parameters[at] <= 0.0 && baseline.std[at] > 0.0) return true;
+  }
   return false;
 }
 
 // A fit is a statistic from which twins take the bias. Where processing takes more from an effect's column than the effect gives, the fit of
 // a right one is negative, and that of its twins the more so: a bound would make all of them 0 and hide the effect.
-// One that is nothing without the bias, too, is fitted within its bounds
-BaselineTwin possible_twin(StageSetting const& setting, RecordPipeline& pipeline, TwinOptions const& options) {
+// Where one of them is nothing without the bias, too, all are fitted within their bounds
+BaselineTwin twin_of_free_or_bounded_fit(StageSetting const& setting, RecordPipeline& pipeline,
+                                         TwinOptions const& options) {
   auto const make = [&] {
     return make_baseline_twin(setting.recording, pipeline, setting.filter, options, setting.workers());
   };
-  bool const is_free = is_bounded(pipeline.model()) && setting.ablation.indirect_inference;
-  pipeline.bound_effects(!is_free);
-  BaselineTwin made = make();
-  if (!is_free || !has_vanished(pipeline.model(), made.baseline.parameters)) return made;
+  if (is_bounded(pipeline.model()) && setting.ablation.indirect_inference) {
+    pipeline.bound_effects(false);
+    try {
+      BaselineTwin made = make();
+      if (!is_any_nothing(pipeline.model(), made.baseline)) return made;
+    } catch (Error const&) {
+      // such a fit need be none of a joint that follows
+    }
+  }
   pipeline.bound_effects(true);
   return make();
 }
@@ -50,7 +59,7 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   options.reads_colour = setting.reads_colour;
   options.loop = setting.loop;
   options.twins = twins_per_round;
-  auto const make_twin = [&] { return possible_twin(setting, *pipeline, options); };
+  auto const make_twin = [&] { return twin_of_free_or_bounded_fit(setting, *pipeline, options); };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
   BaselineTwin made = make_twin();

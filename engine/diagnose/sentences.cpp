@@ -252,7 +252,10 @@ std::string recording_reason(Diagnosis const& diagnosis) {
       if (advice.would_separate.size() > 1)
         append(text, sentence(joined(advice.would_separate, "and") + " cannot be told apart"));
   }
-  for (auto const& joint : diagnosis.joints) append(text, unseen_is_other_sentence(joint));
+  for (auto const& joint : diagnosis.joints) {
+    append(text, joint.timing_sentence);
+    append(text, unseen_is_other_sentence(joint));
+  }
   append(text, sentence(diagnosis.way_out));
   return text;
 }

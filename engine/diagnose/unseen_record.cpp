@@ -90,14 +90,14 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
                                   Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
   auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
   auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
-  // what the other terms would have been fitted to without it
-  auto const& trained = augmented.comparison.recording;
+  // what the other terms would have been fitted to without it: they take its torque up as far as they can
+  Eigen::MatrixXd const& trained = augmented.comparison.recording.columns;
   std::vector<Eigen::Index> others;
-  for (Eigen::Index k = 0; k < trained.columns.cols(); ++k)
+  for (Eigen::Index k = 0; k < trained.cols(); ++k)
     if (k < first || k >= first + width) others.push_back(k);
-  Eigen::MatrixXd const rest = trained.columns(Eigen::all, others);
-  Eigen::VectorXd const bias = augmented.parameters() - trained.parameters;
-  Eigen::VectorXd const refitted = solve_scaled(rest, trained.torque) + bias(others);
+  Eigen::VectorXd const& parameters = augmented.parameters();
+  Eigen::VectorXd const torque = trained.middleCols(first, width) * parameters.segment(first, width);
+  Eigen::VectorXd const refitted = parameters(others) + solve_scaled(trained(Eigen::all, others), torque);
   Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
   take_out(artefact, left);
   return {left.squaredNorm(), left_with.squaredNorm(), (left - left_with).squaredNorm()};

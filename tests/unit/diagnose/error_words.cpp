@@ -50,7 +50,13 @@ TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused
             "more of it "
             "than of theirs (beyond chance). It gets no name: does not help on blocks it was not fitted to.");
   joint.omnibus_p = 0.01;
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 0.010), but none of"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 0.010), but"));
+  joint.omnibus_p = 1.0;
+  joint.refutation = "backlash, which would explain it, does not";
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("but backlash, which would explain it, does not"));
+  joint.refutation.clear();
+  joint.candidates.back().q = 0.9;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 1.0), but"));
 }
 
 TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
