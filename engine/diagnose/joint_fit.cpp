@@ -24,7 +24,11 @@ class JointFit {
         name_(name),
         least_share_(fit_bounds.least_inertia_share),
         is_whole_(present.size() == owners_.size()) {
-    if (!fit_bounds.of_effects) bounds_.non_negative.assign(bounds_.non_negative.size(), false);
+    if (!fit_bounds.of_effects) {
+      std::vector<bool> const free = sizes_of_effects(model);
+      for (std::size_t k = 0; k < free.size(); ++k)
+        if (free[k]) bounds_.non_negative[k] = false;
+    }
     for (Eigen::Index column : present) groups_.push_back({column});
   }
 

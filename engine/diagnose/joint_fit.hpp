@@ -4,7 +4,7 @@
 // Bounds     parameters of effects that cannot be negative are 0 where least squares would make them so; dry friction that would
 //            drive the joint (less forwards than backwards) is none; an inertia that takes less than a share of the torque
 //            (a thousandth, as a rule) is one that takes three hundredths, or that share
-// Free       effects may be left unbounded: in a fit that is a statistic, from which twins of a possible joint take the bias
+// Free       effects with one parameter may be left unbounded: in a fit that is a statistic, from which twins of a possible joint take the bias
 //            (model_stage.hpp)
 // Why        what a model lacks bends the parameters that it has: a pendulum whose weight was left out has a negative inertia as
 //            soon as it swings slowly. No twin can be made of that, and what is missing could never be asked for

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/joint_bounds.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 #include "engine/diagnose/twin_whitening.hpp"
 
@@ -15,17 +16,17 @@ constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have som
 
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
 
-bool is_bounded(JointModel const& model) {
-  auto const bounds = model.non_negative();
-  return std::find(bounds.begin(), bounds.end(), true) != bounds.end();
+bool has_sizes(JointModel const& model) {
+  auto const sizes = sizes_of_effects(model);
+  return std::find(sizes.begin(), sizes.end(), true) != sizes.end();
 }
 
 // of effects that this joint can have: a column that is not there has no spread over twins
 bool is_any_nothing(JointModel const& model, BaselineCorrection const& baseline) {
-  auto const bounds = model.non_negative();
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
+  auto const sizes = sizes_of_effects(model);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
     auto const at = static_cast<Eigen::Index>(k);
-    if (bounds[k] && baseline.parameters[at] <= 0.0 && baseline.std[at] > 0.0) return true;
+    if (sizes[k] && baseline.parameters[at] <= 0.0 && baseline.std[at] > 0.0) return true;
   }
   return false;
 }
@@ -38,7 +39,7 @@ BaselineTwin twin_of_free_or_bounded_fit(StageSetting const& setting, RecordPipe
   auto const make = [&] {
     return make_baseline_twin(setting.recording, pipeline, setting.filter, options, setting.workers());
   };
-  if (is_bounded(pipeline.model()) && setting.ablation.indirect_inference) {
+  if (has_sizes(pipeline.model()) && setting.ablation.indirect_inference) {
     pipeline.bound_effects(false);
     try {
       BaselineTwin made = make();
