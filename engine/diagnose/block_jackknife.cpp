@@ -43,10 +43,16 @@ Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::Matri
 
 Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
                                      CoefficientBounds const& bounds) {
-  TORQUESCOPE_EXPECT(signal.size() >= n_blocks && columns.rows() == signal.size());
+  TORQUESCOPE_EXPECT(signal.size() >= n_blocks);
+  return jackknife_deviations(signal, columns, bounds, equal_blocks(signal.size(), n_blocks));
+}
+
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds, std::vector<RowBlock> const& blocks) {
+  TORQUESCOPE_EXPECT(columns.rows() == signal.size());
   Eigen::RowVectorXd const energy = columns.colwise().squaredNorm();
   std::vector<std::vector<double>> found(static_cast<std::size_t>(columns.cols()));
-  for (auto const& block : equal_blocks(signal.size(), n_blocks)) {
+  for (auto const& block : blocks) {
     Eigen::VectorXd const fit = fit_without(block, signal, columns, bounds);
     Eigen::RowVectorXd const inside = columns.middleRows(block.from, block.size()).colwise().squaredNorm();
     for (Eigen::Index k = 0; k < columns.cols(); ++k)

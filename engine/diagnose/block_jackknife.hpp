@@ -13,6 +13,9 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
+#include "engine/diagnose/equal_blocks.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 
 namespace torquescope {
@@ -24,5 +27,8 @@ Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::Matri
 // of coefficients that stay within bounds
 Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
                                      CoefficientBounds const& bounds);
+// without each of these blocks of rows in turn
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds, std::vector<RowBlock> const& blocks);
 
 }  // namespace torquescope

@@ -56,8 +56,7 @@ double first_gain(Selection const& selection) {
 
 }  // namespace
 
-std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
-                                            double rate_hz) {
+std::optional<double> named_timing(Selection const& selection, double already_s, double rate_hz) {
   static Effect const* const delay = find_effect("delay");
   if (!selection.is_gate_open) return std::nullopt;
   auto const& effects = selection.final->model().effects();
@@ -67,6 +66,13 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
                            selection.accepted[i].scan.z};
     if (is_timing(found, already_s, rate_hz)) return found.late_s;
   }
+  return std::nullopt;
+}
+
+std::optional<double> timing_instead(Selection const& selection, bool is_unexplained, double already_s,
+                                     double rate_hz) {
+  static Effect const* const delay = find_effect("delay");
+  if (!selection.is_gate_open) return std::nullopt;
   auto const instead = short_delay(*selection.baseline, *delay, rate_hz);
   if (!instead || instead->z < clear_z) return std::nullopt;
   if (!is_unexplained && instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagnose/axis_blocks.hpp"
 #include "engine/diagnose/block_jackknife.hpp"
 #include "engine/diagnose/bounded_projection.hpp"
 #include "engine/diagnose/profiled_interval.hpp"
@@ -45,6 +46,32 @@ Eigen::VectorXd deviations_of(Eigen::MatrixXd const& steps) {
   return (steps.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
 }
 
+// where leaving out a level of an effect's axis changes its parameters by more
+void widen_by_levels(Eigen::VectorXd& half, ModelStage const& stage, CandidateColumns const& columns,
+                     CoefficientBounds const& room) {
+  constexpr Eigen::Index n_levels = 10;
+  auto const& model = stage.model();
+  Eigen::MatrixXd const all = columns.with_tangents();
+  Eigen::VectorXd const mismatch = stage.mismatch();
+  Eigen::Index shape_at = columns.model_columns().cols();
+  for (std::size_t i = 0; i < model.effects().size(); ++i) {
+    auto const& [effect, shape] = model.effects()[i];
+    auto const linear_at = static_cast<Eigen::Index>(model.first_parameter(i));
+    auto const n_linear = static_cast<Eigen::Index>(effect->n_linear()),
+               n_shape = static_cast<Eigen::Index>(shape.size());
+    Eigen::VectorXd const torque = columns.columns(*effect, shape) * stage.parameters().segment(linear_at, n_linear);
+    auto const [order, blocks] = axis_blocks(*effect, stage.comparison.rows, torque, n_levels);
+    if (!order.empty()) {
+      Eigen::VectorXd const levels =
+          jackknife_quantile * jackknife_deviations(mismatch(order), all(order, Eigen::all), room, blocks);
+      half.segment(linear_at, n_linear) =
+          half.segment(linear_at, n_linear).cwiseMax(levels.segment(linear_at, n_linear));
+      half.segment(shape_at, n_shape) = half.segment(shape_at, n_shape).cwiseMax(levels.segment(shape_at, n_shape));
+    }
+    shape_at += n_shape;
+  }
+}
+
 // half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   constexpr double two_sided = 1.96;
@@ -52,7 +79,9 @@ Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& 
   Eigen::MatrixXd const all = columns.with_tangents();
   Eigen::VectorXd const chance = two_sided * deviations_of(solve_scaled(all, twins_apart(stage, columns), room));
   Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), all, room);
-  return chance.cwiseMax(blocks);
+  Eigen::VectorXd half = chance.cwiseMax(blocks);
+  widen_by_levels(half, stage, columns, room);
+  return half;
 }
 
 // where on the recording, or on the travel: its column may not change at all, or jump
