@@ -50,8 +50,11 @@ void Session::verdict(std::string_view text) const {
   if (options_.json != "-") print(stdout, text);
 }
 
+// what was said before comes before it where both go into one file
 void Session::note(std::string_view text) const {
-  if (!options_.quiet) print(stderr, text);
+  if (options_.quiet) return;
+  std::fflush(stdout);
+  print(stderr, text);
 }
 
 void Session::document(std::string const& json) const {

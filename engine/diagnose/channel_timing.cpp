@@ -56,7 +56,8 @@ double first_gain(Selection const& selection) {
 
 }  // namespace
 
-std::optional<double> named_timing(Selection const& selection, double already_s, double rate_hz) {
+std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
+                                            double rate_hz) {
   static Effect const* const delay = find_effect("delay");
   if (!selection.is_gate_open) return std::nullopt;
   auto const& effects = selection.final->model().effects();
@@ -66,13 +67,6 @@ std::optional<double> named_timing(Selection const& selection, double already_s,
                            selection.accepted[i].scan.z};
     if (is_timing(found, already_s, rate_hz)) return found.late_s;
   }
-  return std::nullopt;
-}
-
-std::optional<double> timing_instead(Selection const& selection, bool is_unexplained, double already_s,
-                                     double rate_hz) {
-  static Effect const* const delay = find_effect("delay");
-  if (!selection.is_gate_open) return std::nullopt;
   auto const instead = short_delay(*selection.baseline, *delay, rate_hz);
   if (!instead || instead->z < clear_z) return std::nullopt;
   if (!is_unexplained && instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;
@@ -128,12 +122,13 @@ std::string timing_remark(double late_s, double rate_hz) {
 
 std::string timing_sentence(double late_s, double rate_hz) {
   if (late_s == 0.0) return "";
+  bool const is_late = late_s > 0.0;
   return fmt::format(
-      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, and was put right: when in its sample a drive reads "
-      "it "
-      "is not known. If yours is known to read it with the position, this is a fault of the channel or a lag of the "
-      "drive.",
-      1e3 * std::abs(late_s), late_s > 0.0 ? "after" : "before", std::abs(late_s) * rate_hz);
+      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, and was put right ({} recording.delay_s does so for "
+      "good): when in its sample a drive reads it is not known. If yours is known to read it with the position, this "
+      "is a fault of the channel or a lag of the drive.",
+      1e3 * std::abs(late_s), is_late ? "after" : "before", std::abs(late_s) * rate_hz,
+      is_late ? "as much less in" : "as much more in");
 }
 
 }  // namespace torquescope

@@ -22,11 +22,9 @@
 namespace torquescope {
 
 // how late the torque is when it is within that; nothing when no delay is found, or a longer one
-// already_s: what was taken out before
-// by the delay that was named
-std::optional<double> named_timing(Selection const& selection, double already_s, double rate_hz);
-// by one that explains as much by itself as what was named, or comes closest; any, where what was found does not explain the recording
-std::optional<double> timing_instead(Selection const& selection, bool is_unexplained, double already_s, double rate_hz);
+// is_unexplained: what was found does not explain the recording; already_s: what was taken out before
+std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
+                                            double rate_hz);
 
 // no row says more of a torque than when it was read, to this many samples
 inline constexpr double longest_timing = 1.1;

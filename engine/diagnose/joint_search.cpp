@@ -1,7 +1,6 @@
 #include "engine/diagnose/joint_search.hpp"
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -29,17 +28,6 @@ Selection select_in_loop(StageSetting& setting, std::shared_ptr<RecordedLoop con
   return select_effects(setting, options, progress);
 }
 
-// How late the torque is for all that is known, beyond what was taken out. Where the law says that the rows are in time, that a delay
-// explains much is no reason to move them
-std::optional<double> timing_of(Selection const& selection, RecordedLoop const& as_read, Recording const& recording,
-                                double late_s) {
-  if (auto const named_s = named_timing(selection, late_s, recording.rate_hz)) return named_s;
-  bool const is_unexplained = judge_remainder(selection, *selection.final).is_unexplained;
-  auto const instead_s = timing_instead(selection, is_unexplained, late_s, recording.rate_hz);
-  if (instead_s && loses_the_law(as_read, with_torque_earlier(recording, *instead_s))) return std::nullopt;
-  return instead_s;
-}
-
 }  // namespace
 
 Selection search_in_time(StageSetting& setting, Recording& recording, SelectionOptions const& options,
@@ -48,7 +36,11 @@ Selection search_in_time(StageSetting& setting, Recording& recording, SelectionO
   Selection selection = select_effects(setting, options, progress);
   auto const as_read = std::make_shared<RecordedLoop const>(selection.baseline->twin->loop);
   for (int i = 0; i < most_times; ++i) {
-    auto const more_s = timing_of(selection, *as_read, recording, late_s);
+    bool const is_unexplained = judge_remainder(selection, *selection.final).is_unexplained;
+    auto more_s = delay_within_a_sample(selection, is_unexplained, late_s, recording.rate_hz);
+    // where the law says that the rows are in time, that something is unexplained is no reason to move them
+    if (more_s && is_unexplained && loses_the_law(*as_read, with_torque_earlier(recording, *more_s)))
+      more_s = delay_within_a_sample(selection, false, late_s, recording.rate_hz);
     if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);

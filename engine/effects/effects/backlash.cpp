@@ -14,9 +14,13 @@
 //            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film passes
 //            for a wider gap; backlash_load_drag d [1]: a load that is braked by itself turns against the joint before
 //            that turns, and lies on the other flank when it does; 0.001 is none. By decades: of most gaps it is small
+// Plausible  while b is no less than a tenth of the wind-up a / w^2 that the acceleration a = torque rms / inertia makes of the flank:
+//            below that the gap is not what shows, and the name is joint_elasticity
 // Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
 // Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
 // Source     Nordin, Gutman 2002; LESSONS.md item 10
+
+#include <numbers>
 
 #include "engine/effects/loads_behind_gap.hpp"
 
@@ -48,6 +52,13 @@ class Backlash final : public MemoryEffect {
              .parity = Parity::neither,
              .needs_baseline = true,
              .has_inertia = true}) {}
+
+  bool is_plausible(std::span<double const> shape, JointScales const& scales) const override {
+    constexpr double least_share = 0.1;
+    double const omega = 2.0 * std::numbers::pi * shape[1];
+    double const acceleration = scales.inertia > 0.0 ? scales.torque_rms / scales.inertia : 0.0;
+    return shape[0] >= least_share * acceleration / (omega * omega);
+  }
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -163,6 +164,20 @@ TEST(Backlash, TakesTheLoadAlongInALoop) {
     EXPECT_LT(fastest, 1.05 * together / (1.0 - share)) << share;  // the whole push in the motor
     EXPECT_LT(swing, 0.05 * together) << share;
   }
+}
+
+// a tenth of what the flank winds up: 0.1 (2 / 0.5) / (2 pi 20)^2 = 2.53e-5 rad
+TEST(Backlash, IsNoneWhereTheFlankWindsUpTenTimesAsFar) {
+  JointScales scales;
+  scales.torque_rms = 2.0;
+  scales.inertia = 0.5;
+  auto const is_gap = [&](double half_gap, double frequency_hz) {
+    return find_effect("backlash")->is_plausible(std::array{half_gap, frequency_hz, 0.1, 5.0, 0.01}, scales);
+  };
+  EXPECT_TRUE(is_gap(2.6e-5, 20.0));
+  EXPECT_FALSE(is_gap(2.5e-5, 20.0));
+  EXPECT_FALSE(is_gap(2.6e-5, 19.0));
+  EXPECT_TRUE(is_gap(2.5e-5, 21.0));
 }
 
 }  // namespace
