@@ -19,6 +19,14 @@ bool is_other_kind(double unseen, double train, double floor) {
   return unseen > times * expected && unseen > expected + points;
 }
 
+// of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of names that are
+// refuted (unseen_refutation.hpp), which may stay where they move the prediction too little to be blamed
+bool keeps_little(double before, double after, double floor) {
+  constexpr double quarter = 0.25;
+  double const promised = before * before - floor * floor;
+  return promised >= quarter * before * before && before * before - after * after < quarter * promised;
+}
+
 // a torque channel before the motion
 bool comes_early(NamedEffect const& effect) {
   return effect.acts_on == word(ActsOn::recorded_torque) && !effect.parameters.empty() &&
@@ -62,7 +70,10 @@ std::string gain_sentence(JointDiagnosis const& joint) {
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
   std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
                                        percent_text(before), percent_text(after));
-  return text + floor_words(after, joint.floor_relerr) + ".";
+  return text + floor_words(after, joint.floor_relerr) + "." +
+         (unseen && keeps_little(before, after, joint.floor_relerr)
+              ? " That is less than a quarter of what twins with these names promise: something else is missing there."
+              : "");
 }
 
 std::string unseen_is_other_sentence(JointDiagnosis const& joint) {

@@ -16,7 +16,8 @@ namespace torquescope {
 // it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
 std::string floor_words(double relerr, double floor);
 
-// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded
+// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the unseen error stays far
+// above its floor whatever was named, that is said
 std::string gain_sentence(JointDiagnosis const& joint);
 
 // An unseen error beyond three times and three points above both the error in training and the floor of the unseen recording,

@@ -36,6 +36,23 @@ TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
   EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.20).");
 }
 
+// a quarter of the energy between the error before and the floor: 2.7^2 - (2.7^2 - 1.1^2) / 4 = 2.40^2
+TEST(GainSentence, SaysWhereANameDoesNotBringTheUnseenErrorNearItsFloor) {
+  JointDiagnosis joint = example::invented_diagnosis().joints[0];
+  joint.validation_relerr = 0.027;
+  joint.floor_relerr = 0.011;
+  joint.augmented_validation_relerr = 0.0245;
+  EXPECT_EQ(gain_sentence(joint),
+            "Unseen relerr 2.7 % to 2.5 %, floor 1.1 %. That is less than a quarter of what twins with these names "
+            "promise: something else is missing there.");
+  joint.augmented_validation_relerr = 0.0240;
+  EXPECT_EQ(gain_sentence(joint), "Unseen relerr 2.7 % to 2.4 %, floor 1.1 %.");
+  // little was promised: 2.7^2 - 2.4^2 is 21 % of 2.7^2
+  joint.floor_relerr = 0.024;
+  joint.augmented_validation_relerr = 0.027;
+  EXPECT_THAT(gain_sentence(joint), Not(HasSubstr("something else")));
+}
+
 // one candidate's certainty opened the gate, and then it was refused
 TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused) {
   Diagnosis diagnosis = example::invented_unexplained();
