@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "engine/diagnose/candidate_columns.hpp"
+#include "engine/diagnose/late_torque.hpp"
 
 namespace torquescope {
 
@@ -16,11 +15,6 @@ namespace {
 constexpr double certain_q = 0.05;
 constexpr double clear_z = 4.0;  // one direction, not searched for: far beyond chance
 
-struct LateTorque {
-  double late_s = 0.0, z = 0.0;
-  double gain = 0.0;  // energy, less what chance gives
-};
-
 // no later than a row may be for all that is known of it: one-sided 95 %
 bool is_timing(LateTorque const& found, double already_s, double rate_hz) {
   constexpr double one_sided = 1.64;
@@ -28,19 +22,8 @@ bool is_timing(LateTorque const& found, double already_s, double rate_hz) {
   return (std::abs(already_s + found.late_s) - doubt) * rate_hz <= longest_timing;
 }
 
-// Of the recording as it came, beside the plain model. The span is that of a row: a longer one is another law, which a torque
-// that wanders can make use of
-std::optional<LateTorque> short_delay(ModelStage const& stage, Effect const& delay, double rate_hz) {
-  CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
-  OrthonormalGroup const group = columns.group(delay, std::array{longest_timing / rate_hz});
-  if (group.rank() == 0) return std::nullopt;
-  auto const& rows = stage.comparison.rows;
-  Eigen::VectorXd const own = group.q.transpose() * stage.mismatch();
-  Eigen::MatrixXd const twins = group.q.transpose() * (rows.twins.colwise() - rows.twin_mean);
-  double const variance = twins.squaredNorm() / static_cast<double>(rows.n_twins() - 1);
-  if (!(variance > 0.0)) return std::nullopt;
-  return LateTorque{bounded_gain(group, own).parameters[0], own.norm() / std::sqrt(variance),
-                    own.squaredNorm() - variance};
+CandidateColumns columns_of(ModelStage const& stage) {
+  return {*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()};
 }
 
 // of the recording as it came: by what was named first, or by what would have been if it explained more of it
@@ -67,7 +50,13 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
                            selection.accepted[i].scan.z};
     if (is_timing(found, already_s, rate_hz)) return found.late_s;
   }
-  auto const instead = short_delay(*selection.baseline, *delay, rate_hz);
+  // asked before the physics that was named beside others
+  for (auto const& one : selection.accepted)
+    if (one.instead && one.instead->z >= clear_z && one.instead->gain >= nearly_as_good * one.scan.gain &&
+        is_timing(*one.instead, already_s, rate_hz))
+      return one.instead->late_s;
+  ModelStage const& plain = *selection.baseline;
+  auto const instead = late_torque(plain, columns_of(plain), rate_hz);
   if (!instead || instead->z < clear_z) return std::nullopt;
   if (!is_unexplained && instead->gain < nearly_as_good * first_gain(selection)) return std::nullopt;
   return is_timing(*instead, already_s, rate_hz) ? std::optional(instead->late_s) : std::nullopt;

@@ -17,6 +17,7 @@
 
 #include "engine/data/recording.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/late_torque.hpp"
 #include "engine/diagnose/recorded_loop.hpp"
 
 namespace torquescope {
@@ -25,9 +26,6 @@ namespace torquescope {
 // is_unexplained: what was found does not explain the recording; already_s: what was taken out before
 std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
                                             double rate_hz);
-
-// no row says more of a torque than when it was read, to this many samples
-inline constexpr double longest_timing = 1.1;
 
 // The torque as if it had been read late_s earlier, by a sinc of 16 samples under a Hann window: straight lines would take noise away
 // that twins are to have. Before the first and after the last sample it stays

@@ -173,9 +173,12 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
   Eigen::VectorXd const mismatch = stage().mismatch();
   ShapeSearch const search = shape_search(options_->shape_optimiser, setting_.seed);
   Eigen::Index const guard = guard_rows(*stage().pipeline);
+  std::optional<LateTorque> instead;
+  if (!selection_.accepted.empty()) instead = late_torque(stage(), columns.twin, setting_.recording.rate_hz);
   std::vector<Trial> trials;
   for (std::size_t i : order) {
     Trial trial{scans[i], q[i], refine_shape(columns.twin, scans[i], mismatch, search, setting_.threads)};
+    trial.instead = instead;
     trial.is_named = selection_.has_accepted(scans[i].effect);
     selection_.evaluations += trial.refined.evaluations;
     prefer_own_motion(columns.recording, trial);
@@ -301,8 +304,8 @@ bool EffectSearch::take(Trial const& trial) {
     return false;
   }
   double const unit = selection_.energy_unit;
-  selection_.accepted.push_back(
-      {effect, trial.scan, trial.q, trial.refined.gain / unit, trial.cv.gain / unit, trial.region_share});
+  selection_.accepted.push_back({effect, trial.scan, trial.q, trial.refined.gain / unit, trial.cv.gain / unit,
+                                 trial.region_share, trial.instead});
   selection_.energy_unit *= energy_unit_under(*before, *whole->pipeline);
   setting_.weights = whole->pipeline->weights();
   selection_.final = std::make_shared<ModelStage const>(std::move(*whole));

@@ -29,10 +29,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/diagnose/blocked_cv.hpp"
+#include "engine/diagnose/late_torque.hpp"
 #include "engine/diagnose/model_stage.hpp"
 #include "engine/diagnose/shape_refinement.hpp"
 
@@ -48,11 +50,12 @@ struct SelectionOptions {
 
 struct AcceptedEffect {
   Effect const* effect = nullptr;
-  EffectScan scan{};         // of the step at which it was accepted
-  double q = 1.0;            // hierarchical, there
-  double gain = 0.0;         // energy of the mismatch it explained there, in the unit of the first step
-  double cv_gain = 0.0;      // the same on blocks it was not fitted to
-  double region_gain = 0.0;  // share of the gain where it acts
+  EffectScan scan{};                    // of the step at which it was accepted
+  double q = 1.0;                       // hierarchical, there
+  double gain = 0.0;                    // energy of the mismatch it explained there, in the unit of the first step
+  double cv_gain = 0.0;                 // the same on blocks it was not fitted to
+  double region_gain = 0.0;             // share of the gain where it acts
+  std::optional<LateTorque> instead{};  // beside the effects named before it: by itself, with none
 };
 
 // why a refined candidate was not taken

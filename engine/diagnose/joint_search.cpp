@@ -77,6 +77,9 @@ Remainder judge_with_reversals(StageSetting& setting, SelectionOptions const& op
   if (has_structure && !selection.accepted.empty()) return remainder;
   // how a joint is driven through a reversal nobody knows who does not know its controller
   if (selection.baseline->twin->colour) return remainder;
+  // what a late channel's law leaves of a reversal, which is over in a few rows, looks like friction that builds up
+  static Effect const* const delay = find_effect("delay");
+  if (selection.has_accepted(delay)) return remainder;
   Selection const before = selection;
   look_at_reversals(setting, options, selection, progress);
   if (!selection.keeps_reversals) return remainder;

@@ -26,7 +26,16 @@ std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, E
       searches.back().everywhere = true;
     }
   }
-  return refine_plausible(own, scan, mismatch, searches, threads);
+  auto best = refine_plausible(own, scan, mismatch, searches, threads);
+  auto grid = how.everywhere ? resonance_grid(*scan.effect, own.scales()) : std::nullopt;
+  if (!grid) return best;
+  EffectScan fine;
+  fine.effect = scan.effect;
+  fine.grid = std::move(*grid);
+  auto ringing = refine_plausible(own, fine, mismatch, {&searches.front(), 1}, threads);
+  if (!ringing || (best && ringing->gain <= best->gain)) return best;
+  if (best) ringing->evaluations += best->evaluations;
+  return ringing;
 }
 
 }  // namespace torquescope

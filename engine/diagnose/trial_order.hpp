@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/diagnose/blocked_cv.hpp"
+#include "engine/diagnose/late_torque.hpp"
 #include "engine/diagnose/shape_refinement.hpp"
 
 namespace torquescope {
@@ -30,6 +31,7 @@ struct Trial {
   bool is_named = false;         // already: another wave of it is no new kind of physics
   double region_share =
       std::numeric_limits<double>::quiet_NaN();  // of its gain, where it acts (region_consistency.hpp)
+  std::optional<LateTorque> instead{};           // beside the effects named before
 };
 
 std::vector<Trial> in_order_of_trial(std::vector<Trial> trials);

@@ -51,6 +51,7 @@ struct EffectParameter {
   bool is_shape = false;  // nonlinear: held fixed while the linear ones are solved
   Spacing spacing = Spacing::linear;
   bool none_at_lower = false;  // its lower bound stands for a law without it
+  bool is_resonance = false;   // that rings: most of what it explains is gone a few percent beside it
 
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
@@ -69,6 +70,11 @@ inline EffectParameter shape_parameter(std::string name, std::string unit_revolu
 
 inline EffectParameter none_at_lower(EffectParameter parameter) {
   parameter.none_at_lower = true;
+  return parameter;
+}
+
+inline EffectParameter resonance(EffectParameter parameter) {
+  parameter.is_resonance = true;
   return parameter;
 }
 

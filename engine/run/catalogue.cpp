@@ -38,6 +38,7 @@ std::string parameter_line(EffectParameter const& parameter) {
   if (!std::isinf(parameter.lower.factor) || !std::isinf(parameter.upper.factor))
     line += fmt::format(": {} to {}", bound_text(parameter.lower), bound_text(parameter.upper));
   if (parameter.spacing == Spacing::logarithmic) line += ", logarithmic";
+  if (parameter.spacing == Spacing::cubic) line += ", closest near 0";
   return line;
 }
 

@@ -10,7 +10,8 @@
 //            that both ring alike is a maximum of its own
 // Why        an operator, not jerk and snap: a series of derivatives fails once the resonance lies in the band
 // Parameters load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia, in which a load that stays behind has little part; elasticity_frequency f [Hz]: of the load with the
-//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c [1]: 0.02 is none
+//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c [1]: a load that rings winds the
+//            spring up twenty times as far as y_0, so that no number but 0 is none
 // Signature  frequency: a narrow band fixed in time, rung by jerk
 // Confused   delay, actuator_lag far below f
 // Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
@@ -116,10 +117,11 @@ class JointElasticity final : public MemoryEffect {
              .source = "Spong 1987; Wernholt 2007",
              .separated_by = "a multisine or chirp up to twice the resonance",
              .parameters = {{"load_inertia", "kg m2", "kg", {0.0}, {4.0, RelativeTo::inertia}},
-                            shape_parameter("elasticity_frequency", "Hz", "Hz", {0.05, RelativeTo::cutoff_frequency},
-                                            {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic),
+                            resonance(shape_parameter("elasticity_frequency", "Hz", "Hz",
+                                                      {0.05, RelativeTo::cutoff_frequency},
+                                                      {1.5, RelativeTo::cutoff_frequency}, Spacing::logarithmic)),
                             shape_parameter("elasticity_damping", "1", "1", {0.005}, {0.2}, Spacing::logarithmic),
-                            shape_parameter("elasticity_hardening", "1", "1", {0.02}, {8.0}, Spacing::logarithmic)},
+                            shape_parameter("elasticity_hardening", "1", "1", {0.0}, {8.0}, Spacing::cubic)},
              .families = {EffectFamily::acceleration},
              .signature = {SignatureAxis::frequency, SignatureAxis::acceleration},
              .parity = Parity::even,

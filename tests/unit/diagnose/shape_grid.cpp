@@ -123,7 +123,8 @@ TEST(ShapeGrid, OfAShapeWithoutRoomIsOnePoint) {
 TEST(UnitScale, IsUndoneByItsInverse) {
   RandomStream stream({61, 0, RandomDomain::test}, 0, 0);
   for (ParameterRange const& range :
-       {ParameterRange{-2.0, 5.0, Spacing::linear}, ParameterRange{1e-4, 30.0, Spacing::logarithmic}}) {
+       {ParameterRange{-2.0, 5.0, Spacing::linear}, ParameterRange{1e-4, 30.0, Spacing::logarithmic},
+        ParameterRange{0.0, 8.0, Spacing::cubic}}) {
     EXPECT_NEAR(to_unit(range, range.lower), 0.0, rounding);
     EXPECT_NEAR(to_unit(range, range.upper), 1.0, rounding);
     double last = from_unit(range, 0.0);
