@@ -61,6 +61,26 @@ TEST(ChannelTiming, LosesTheLawOfAStiffControllerAndNoOther) {
   EXPECT_FALSE(loses_the_law(recorded_loop(unknown, {}, {}), with_torque_earlier(unknown, 0.4e-3)));
 }
 
+// what a stage without any late torque leaves is no delay; half a sample is told, within a tenth of one
+TEST(LateTorque, IsTheTimeWithinARowThatTheTorqueWasReadAt) {
+  auto joint = test::clean_joint();
+  joint.plan.noise.torque_std = 0.001;
+  Recording const in_time = test::recorded(simulate_joint(joint.plan, 4));
+  FilterOptions const filter = test::clean_filter();
+  Section const section{};
+  for (double late_s : {0.0, 0.5e-3}) {
+    Recording const recording = with_torque_earlier(in_time, -late_s);
+    StageSetting const setting{recording, test::clean_regressor(), filter, section, 64, 1, 2};
+    ModelStage const stage = make_stage(setting, test::clean_regressor()).value();
+    CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
+    auto const found = late_torque(stage, columns, recording.rate_hz);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->late_s, late_s, 0.1e-3);
+    EXPECT_EQ(found->z > 4.0, late_s > 0.0) << found->z;
+    EXPECT_EQ(found->gain > 0.1 * stage.mismatch().squaredNorm(), late_s > 0.0) << found->gain << " of " << stage.mismatch().squaredNorm() << " z " << found->z << " late " << found->late_s;
+  }
+}
+
 TEST(ChannelTiming, SaysWhatWasDone) {
   EXPECT_EQ(timing_remark(0.5e-3, 1000.0).substr(0, 36), "torque taken 0.5 ms earlier than its");
   EXPECT_EQ(timing_remark(-0.5e-3, 1000.0).substr(0, 34), "torque taken 0.5 ms later than its");
