@@ -8,17 +8,19 @@
 #include "engine/data/spline_motion.hpp"
 #include "engine/diagnose/joint_fit.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
+#include "engine/diagnose/unknown_start.hpp"
 
 namespace torquescope {
 namespace {
 
-// the mask at the samples the filter keeps
+// the mask at the samples the filter keeps, without the start of the record
 std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const& filter, double cutoff_hz,
                                       bool with_reversals) {
   auto const moving = with_reversals ? samples_without_rest(motion.dq, motion.rate_hz, cutoff_hz)
                                      : moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
-  Eigen::VectorXd as_numbers(motion.dq.size());
-  for (Eigen::Index k = 0; k < as_numbers.size(); ++k) as_numbers[k] = moving[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+  Eigen::VectorXd as_numbers = Eigen::VectorXd::Zero(motion.dq.size());
+  for (Eigen::Index k = unknown_start(motion.q, motion.dq); k < as_numbers.size(); ++k)
+    if (moving[static_cast<std::size_t>(k)]) as_numbers[k] = 1.0;
   Eigen::VectorXd const kept = filter.pick(as_numbers);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < kept.size(); ++i)
