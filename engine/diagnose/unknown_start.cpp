@@ -18,7 +18,7 @@ Eigen::Index unknown_start(Eigen::VectorXd const& q, Eigen::VectorXd const& dq) 
     double const step = std::abs(q[k] - q[k - 1]);
     way += step;
     since_turn = dq[k] * dq[k - 1] < 0.0 ? 0.0 : since_turn + step;
-    if (since_turn >= far) return k;
+    if (far > 0.0 && since_turn >= far) return k;
   }
   return 0;
 }

@@ -122,6 +122,7 @@ struct EffectDescription {
   bool has_inertia = false;      // a mass of its own moves behind the joint: it rings or knocks
   bool is_of_extremes = false;   // it acts where a limit is reached, which a recording may do once
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
+  bool is_partly_dry = false;    // a part of it does so, beside one that asks for an acceleration
   bool is_level_free =
       false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
@@ -147,6 +148,7 @@ class Effect {
   bool has_inertia() const { return description_.has_inertia; }
   bool is_of_extremes() const { return description_.is_of_extremes; }
   bool is_dry_friction() const { return description_.is_dry_friction; }
+  bool is_partly_dry() const { return description_.is_partly_dry; }
   bool is_level_free() const { return description_.is_level_free; }
   std::string const& plain_equation() const { return description_.plain_equation; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }

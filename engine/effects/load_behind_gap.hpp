@@ -2,7 +2,9 @@
 // The state of one load behind a gap whose flanks give way: effects/backlash.cpp has its equation.
 //
 // Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
-//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
+//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency. The load's dry
+//            friction is a part of what drives it while it slides; where it has come to rest by the end of a sub-step it stays,
+//            while the motor moves on, until it is pushed by more
 // Bits       loads_behind_gap.cpp writes whole sub-steps without an event a second time, operation by operation: change both
 
 #include <algorithm>
@@ -45,6 +47,7 @@ class Grease {
   double faded(double time_s) const { return -std::expm1(-film_per_s_ * time_s); }
   // changes nothing in this time, and would cancel all digits
   bool is_thin(double time_s) const { return film_per_s_ * time_s < 1e-6; }
+  double push_per_s() const { return push_per_s_; }
   double film_per_s() const { return film_per_s_; }
   double per_film() const { return per_film_; }  // infinite without any: thin
 
@@ -130,17 +133,31 @@ struct GapSubSteps {
 // of one load
 struct LoadState {
   Place at{};
-  double side = 0.0;                 // of the gap on which the load is pushed, 0 while it is not
-  double weight = 0.0, drive = 0.0;  // where the joint is
+  double side = 0.0;                           // of the gap on which the load is pushed, 0 while it is not
+  double weight = 0.0, drive = 0.0, dq = 0.0;  // where the joint is
+  double slides = 0.0;  // direction of the load's own motion, 0 at rest; without dry friction none
+};
+
+// of the load's own bearings, over its inertia; slides: -1, 1, or 0 at rest
+struct DryFriction {
+  double forward = 0.0, backward = 0.0;  // >= 0
+  bool is_there() const { return forward > 0.0 || backward > 0.0; }
+  double against(double slides) const { return slides > 0.0 ? forward : slides < 0.0 ? -backward : 0.0; }
+  // of a load at rest that would be accelerated so
+  double slides_under(double acceleration) const {
+    double const held = acceleration > 0.0 ? forward : backward;
+    return std::abs(acceleration) > held ? std::copysign(1.0, acceleration) : 0.0;
+  }
 };
 
 class LoadBehindGap {
  public:
-  // drag: over the joint's viscous friction per inertia
+  // drag: over the joint's friction per inertia, viscous and dry
   LoadBehindGap(double half_gap, double frequency_hz, double damping, double film_per_s, double drag,
                 JointScales const& scales)
       : half_gap_(half_gap),
         drag_per_s_(scales.inertia > 0.0 ? drag * std::max(0.0, scales.viscous) / scales.inertia : 0.0),
+        dry_(dry_of(drag, scales)),
         flank_(frequency_hz, damping, drag_per_s_),
         grease_(film_per_s, drag_per_s_),
         scales_(scales) {}
@@ -149,7 +166,10 @@ class LoadBehindGap {
   void start(JointState const& state) {
     load_.weight = weight(state.q);
     load_.drive = drive(state);
-    load_.at = {flank_.rest(load_.drive) - std::copysign(half_gap_, load_.drive), 0.0};
+    load_.dq = state.dq;
+    double const whole = load_.drive + dry_.against(state.dq);
+    load_.slides = state.dq > 0.0 ? 1.0 : state.dq < 0.0 ? -1.0 : 0.0;
+    load_.at = {flank_.rest(whole) - std::copysign(half_gap_, whole), 0.0};
     load_.side = side_at(load_.at);
   }
 
@@ -158,11 +178,17 @@ class LoadBehindGap {
     load_.weight = weight(state.q);
     double const end = drive(state);
     Drive pulled{load_.drive, (end - load_.drive) / step_s};
+    double const faster = (state.dq - load_.dq) / sub_steps_.count;
     for (int i = 0; i < sub_steps_.count; ++i) {
-      sub_step(pulled);
+      if (dry_.is_there())
+        dry_sub_step(pulled, faster);
+      else
+        sub_step(pulled);
       pulled = pulled.after(sub_steps_.time_s);
+      load_.dq += faster;
     }
     load_.drive = end;
+    load_.dq = state.dq;
   }
 
   // steps from now on last step_s
@@ -192,7 +218,25 @@ class LoadBehindGap {
     load_.side = side_at(load_.at);
   }
 
-  // what a load that is fixed to the motor would need
+  // the same of a load with dry friction; faster: what the joint gains in it
+  void dry_sub_step(Drive const& drive, double faster) {
+    double const y = load_.at.y, per_step = 1.0 / sub_steps_.time_s;
+    if (load_.slides == 0.0)
+      load_.slides =
+          dry_.slides_under(push(load_.at, load_.side) - (drive.now - faster * per_step - drag_per_s_ * load_.dq));
+    sub_step({drive.now + dry_.against(load_.slides), drive.jerk});
+    double const next_dq = load_.dq + faster;
+    bool const rests = load_.slides == 0.0;
+    if (rests) load_.at.y = y - sub_steps_.time_s * (load_.dq + 0.5 * faster);
+    if (!rests && (next_dq + load_.at.dy) * load_.slides > 0.0) return;
+    load_.slides = 0.0;
+    load_.at.dy = -next_dq;
+    load_.side = side_at(load_.at);
+  }
+  DryFriction const& dry() const { return dry_; }
+  double drag_per_s() const { return drag_per_s_; }
+
+  // what a load that is fixed to the motor would need, but for its dry friction
   double drive(JointState const& state) const { return drive_of(state, load_.weight); }
   double drive_of(JointState const& state, double weight) const { return state.ddq + weight + drag_per_s_ * state.dq; }
   bool has_weight() const {
@@ -221,12 +265,21 @@ class LoadBehindGap {
   Grease const& grease() const { return grease_; }
   GapSubSteps const& sub_steps() const { return sub_steps_; }
 
-  std::array<double, 1> row(JointState const& state) const { return {push(load_.at, load_.side) - drive(state)}; }
+  std::array<double, 1> row(JointState const& state) const {
+    return {push(load_.at, load_.side) - (drive(state) + dry_.against(state.dq))};
+  }
 
  private:
-  static constexpr double largest_angle = 0.25;  // of the contact frequency, in one sub-step
-  static constexpr int most_events = 4;          // in one sub-step; more of them are a load that rests
-  static constexpr int halvings = 20;            // of a sub-step, to find one
+  static constexpr double largest_angle = 0.25;     // of the contact frequency, in one sub-step
+  static constexpr double largest_dry_angle = 0.1;  // a load comes to rest at the end of one
+  static constexpr int most_events = 4;             // in one sub-step; more of them are a load that rests
+  static constexpr int halvings = 20;               // of a sub-step, to find one
+
+  static DryFriction dry_of(double drag, JointScales const& scales) {
+    if (!(scales.inertia > 0.0)) return {};
+    double const share = drag / scales.inertia;
+    return {share * std::max(0.0, scales.coulomb_positive), share * std::max(0.0, scales.coulomb_negative)};
+  }
 
   Place on_flank(Place const& at, double side) const { return {at.y - side * half_gap_, at.dy}; }
   // of the flank that pushes, 0 where none does
@@ -237,7 +290,8 @@ class LoadBehindGap {
   }
 
   GapSubSteps sub_steps_in(double step_s) const {
-    int const count = std::max(1, static_cast<int>(std::ceil(flank_.omega() * step_s / largest_angle)));
+    double const angle = dry_.is_there() ? largest_dry_angle : largest_angle;
+    int const count = std::max(1, static_cast<int>(std::ceil(flank_.omega() * step_s / angle)));
     double const time_s = step_s / count;
     return {count, time_s, flank_.fading(time_s), grease_.faded(time_s)};
   }
@@ -265,6 +319,7 @@ class LoadBehindGap {
 
   double half_gap_;
   double drag_per_s_;
+  DryFriction dry_;
   Flank flank_;
   Grease grease_;
   JointScales scales_;

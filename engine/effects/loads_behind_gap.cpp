@@ -24,6 +24,13 @@ struct GapLanes {
   double* event;
 };
 
+// the same of loads with dry friction: pulled is the drive with that of those which slide
+struct DryLanes {
+  double *y, *dy, *side;
+  double const *now, *dq, *faster;
+  double *slides, *pulled, *y_before;
+};
+
 }  // namespace torquescope::load_behind_gap
 #endif
 
@@ -84,6 +91,54 @@ HWY_INLINE V side_at(Flank const& flank, V half_gap, Places const& at) {
 
 }  // namespace
 
+// LoadBehindGap::dry_sub_step up to the sub-step itself
+void before_dry_sub_step(LoadBehindGap const& law, DryLanes const& lanes) {
+  auto const& flank = law.flank();
+  V const forward = set(law.dry().forward), backward = set(law.dry().backward), zero = hn::Zero(d);
+  V const half_gap = set(law.half_gap()), per_step = set(1.0 / law.sub_steps().time_s);
+  for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
+    V const y = hn::LoadU(d, lanes.y + k), dy = hn::LoadU(d, lanes.dy + k), side = hn::LoadU(d, lanes.side + k);
+    V const now = hn::LoadU(d, lanes.now + k), dq = hn::LoadU(d, lanes.dq + k);
+    V const beyond = hn::Sub(y, hn::Mul(side, half_gap));
+    V const of_flank =
+        hn::Add(hn::Mul(set(flank.omega() * flank.omega()), beyond), hn::Mul(set(flank.push_per_s()), dy));
+    V const of_grease = hn::Mul(set(law.grease().push_per_s()), dy);
+    V const push = hn::Neg(hn::IfThenElse(hn::Eq(side, zero), of_grease, of_flank));
+    V const own =
+        hn::Sub(hn::Sub(now, hn::Mul(hn::LoadU(d, lanes.faster + k), per_step)), hn::Mul(set(law.drag_per_s()), dq));
+    V const acceleration = hn::Sub(push, own);
+    V const held = hn::IfThenElse(hn::Gt(acceleration, zero), forward, backward);
+    V const would = hn::IfThenElseZero(hn::Gt(hn::Abs(acceleration), held), hn::CopySign(set(1.0), acceleration));
+    V const slid = hn::LoadU(d, lanes.slides + k);
+    V const slides = hn::IfThenElse(hn::Eq(slid, zero), would, slid);
+    V const against =
+        hn::IfThenElse(hn::Gt(slides, zero), forward, hn::IfThenElseZero(hn::Lt(slides, zero), hn::Neg(backward)));
+    hn::StoreU(slides, d, lanes.slides + k);
+    hn::StoreU(hn::Add(now, against), d, lanes.pulled + k);
+    hn::StoreU(y, d, lanes.y_before + k);
+  }
+}
+
+// and after it
+void after_dry_sub_step(LoadBehindGap const& law, DryLanes const& lanes) {
+  V const half_gap = set(law.half_gap()), zero = hn::Zero(d), time_s = set(law.sub_steps().time_s), half = set(0.5);
+  for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
+    V const dq = hn::LoadU(d, lanes.dq + k), faster = hn::LoadU(d, lanes.faster + k);
+    V const slides = hn::LoadU(d, lanes.slides + k), dy = hn::LoadU(d, lanes.dy + k);
+    V const next_dq = hn::Add(dq, faster);
+    auto const rests = hn::Eq(slides, zero);
+    V const stayed = hn::Sub(hn::LoadU(d, lanes.y_before + k), hn::Mul(time_s, hn::Add(dq, hn::Mul(half, faster))));
+    V const y = hn::IfThenElse(rests, stayed, hn::LoadU(d, lanes.y + k));
+    auto const goes_on = hn::AndNot(rests, hn::Gt(hn::Mul(hn::Add(next_dq, dy), slides), zero));
+    Places const at{y, hn::IfThenElse(goes_on, dy, hn::Neg(next_dq))};
+    V const side = hn::IfThenElse(goes_on, hn::LoadU(d, lanes.side + k), side_at(law.flank(), half_gap, at));
+    hn::StoreU(at.y, d, lanes.y + k);
+    hn::StoreU(at.dy, d, lanes.dy + k);
+    hn::StoreU(side, d, lanes.side + k);
+    hn::StoreU(hn::IfThenElseZero(goes_on, slides), d, lanes.slides + k);
+  }
+}
+
 // whether there was any event
 bool whole_sub_step(LoadBehindGap const& law, GapLanes const& lanes) {
   V const half_gap = set(law.half_gap());
@@ -119,13 +174,16 @@ namespace torquescope::load_behind_gap {
 namespace {
 
 TORQUESCOPE_EXPORT(whole_sub_step);
+TORQUESCOPE_EXPORT(before_dry_sub_step);
+TORQUESCOPE_EXPORT(after_dry_sub_step);
 
 class LoadsBehindGap final : public EffectMemory {
  public:
   LoadsBehindGap(LoadBehindGap const& fresh, std::size_t lanes)
       : fresh_(fresh), law_(fresh), n_(lanes), weight_(n_), cosine_(n_), sine_(n_), drive_(n_) {
     std::size_t const whole = (lanes + gap_lanes - 1) / gap_lanes * gap_lanes;
-    for (auto* one : {&y_, &dy_, &side_, &now_, &jerk_, &event_}) one->assign(whole, 0.0);
+    for (auto* one : {&y_, &dy_, &side_, &now_, &jerk_, &event_, &dq_, &faster_, &slides_, &pulled_, &y_before_})
+      one->assign(whole, 0.0);
   }
 
   void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
@@ -145,20 +203,22 @@ class LoadsBehindGap final : public EffectMemory {
       now_[lane] = drive_[lane];
       jerk_[lane] = (end - drive_[lane]) / step_s;
       drive_[lane] = end;
+      faster_[lane] = (at.dq[static_cast<Eigen::Index>(lane)] - dq_[lane]) / law_.sub_steps().count;
     }
-    auto const sub_step = TORQUESCOPE_DISPATCH(whole_sub_step);
     for (int i = 0; i < law_.sub_steps().count; ++i) {
-      for (std::size_t k = 0; k < y_.size(); k += gap_lanes)
-        if (sub_step(law_, {&y_[k], &dy_[k], &side_[k], &now_[k], &jerk_[k], &event_[k]})) meet_events(k);
+      sub_step_all();
       for (std::size_t lane = 0; lane < n_; ++lane) now_[lane] = Drive{now_[lane], jerk_[lane]}.after(part_s).now;
+      for (std::size_t lane = 0; lane < n_; ++lane) dq_[lane] += faster_[lane];
     }
+    for (std::size_t lane = 0; lane < n_; ++lane) dq_[lane] = at.dq[static_cast<Eigen::Index>(lane)];
   }
 
   void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
     TORQUESCOPE_EXPECT(linear.size() == 1 && out.size() == n_);
     for (std::size_t lane = 0; lane < n_; ++lane)
       out[lane] =
-          0.0 + linear[0] * (law_.push(place(lane), side_[lane]) - law_.drive_of(at.state(lane), weight_[lane]));
+          0.0 + linear[0] * (law_.push(place(lane), side_[lane]) -
+                             (law_.drive_of(at.state(lane), weight_[lane]) + law_.dry().against(at.state(lane).dq)));
   }
 
  private:
@@ -169,6 +229,23 @@ class LoadsBehindGap final : public EffectMemory {
       take(lane);
       weight_[lane] = law_.load().weight;
       drive_[lane] = law_.load().drive;
+      dq_[lane] = law_.load().dq;
+      slides_[lane] = law_.load().slides;
+    }
+  }
+
+  void sub_step_all() {
+    auto const sub_step = TORQUESCOPE_DISPATCH(whole_sub_step);
+    auto const before = TORQUESCOPE_DISPATCH(before_dry_sub_step);
+    auto const after = TORQUESCOPE_DISPATCH(after_dry_sub_step);
+    bool const is_dry = law_.dry().is_there();
+    std::vector<double> const& driven = is_dry ? pulled_ : now_;
+    for (std::size_t k = 0; k < y_.size(); k += gap_lanes) {
+      DryLanes const dry{&y_[k],      &dy_[k],     &side_[k],   &now_[k],     &dq_[k],
+                         &faster_[k], &slides_[k], &pulled_[k], &y_before_[k]};
+      if (is_dry) before(law_, dry);
+      if (sub_step(law_, {&y_[k], &dy_[k], &side_[k], &driven[k], &jerk_[k], &event_[k]})) meet_events(k, driven);
+      if (is_dry) after(law_, dry);
     }
   }
 
@@ -181,11 +258,11 @@ class LoadsBehindGap final : public EffectMemory {
   }
 
   // one load after the other: few at a time meet a flank
-  void meet_events(std::size_t first) {
+  void meet_events(std::size_t first, std::vector<double> const& driven) {
     for (std::size_t lane = first; lane < first + gap_lanes; ++lane) {
       if (event_[lane] == 0.0) continue;
-      law_.put({place(lane), side_[lane], weight_[lane], drive_[lane]});
-      law_.sub_step({now_[lane], jerk_[lane]});
+      law_.put({place(lane), side_[lane]});
+      law_.sub_step({driven[lane], jerk_[lane]});
       take(lane);
     }
   }
@@ -193,6 +270,8 @@ class LoadsBehindGap final : public EffectMemory {
   LoadBehindGap fresh_, law_;
   std::size_t n_;
   std::vector<double> weight_, cosine_, sine_, drive_;
+  std::vector<double> dq_, faster_;                         // of the joint; what it gains in a sub-step
+  std::vector<double> slides_, pulled_, y_before_;          // of loads with dry friction
   std::vector<double> y_, dy_, side_, now_, jerk_, event_;  // whole vectors: lanes behind the last never meet a flank
   bool has_started_ = false;
 };

@@ -21,6 +21,7 @@ class CatalogueEffect final : public LaneEffect {
                   LaneJoint const& baseline)
       : acts_on_(effect.acts_on()),
         is_dry_friction_(effect.is_dry_friction()),
+        is_partly_dry_(effect.is_partly_dry()),
         has_memory_(effect.has_memory()),
         needs_baseline_(effect.needs_baseline()),
         has_weight_(baseline.gravity_sin != 0.0 || baseline.gravity_cos != 0.0),
@@ -45,19 +46,17 @@ class CatalogueEffect final : public LaneEffect {
     LaneTorques const load = load_torques(at);
     advance(at, load);
     LaneInstant trial = at;
-    if (is_dry_friction_) {
-      add_to(demand.forward, sliding(trial, at, load, 1.0));
-      add_to(demand.backward, sliding(trial, at, load, -1.0));
-    } else {
-      // with the acceleration of the step before, what goes with the acceleration would lag behind it
-      std::fill_n(trial.ddq, twin_lanes, 0.0);
-      LaneTorques const coasting = torques(trial, load);
-      std::fill_n(trial.ddq, twin_lanes, 1.0);
-      LaneTorques per_acceleration = torques(trial, load);
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) per_acceleration[lane] -= coasting[lane];
-      add_to(demand.smooth, coasting);
-      add_to(demand.inertia, per_acceleration);
-    }
+    if (is_dry_friction_) return add_sliding(trial, at, load, demand);
+    // with the acceleration of the step before, what goes with the acceleration would lag behind it
+    std::fill_n(trial.ddq, twin_lanes, 0.0);
+    LaneTorques const coasting = torques(trial, load);
+    std::fill_n(trial.ddq, twin_lanes, 1.0);
+    LaneTorques per_acceleration = torques(trial, load);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) per_acceleration[lane] -= coasting[lane];
+    add_to(demand.inertia, per_acceleration);
+    if (!is_partly_dry_) return add_to(demand.smooth, coasting);
+    std::fill_n(trial.ddq, twin_lanes, 0.0);
+    add_sliding(trial, at, load, demand);
   }
 
   void shift_position(LaneInstant const& tick, double* position) override {
@@ -125,6 +124,11 @@ class CatalogueEffect final : public LaneEffect {
     return found;
   }
 
+  void add_sliding(LaneInstant& trial, LaneInstant const& at, LaneTorques const& load, LaneDemand& demand) const {
+    add_to(demand.forward, sliding(trial, at, load, 1.0));
+    add_to(demand.backward, sliding(trial, at, load, -1.0));
+  }
+
   // the branch that moves in `direction`, continued to rest
   LaneTorques sliding(LaneInstant& trial, LaneInstant const& at, LaneTorques const& load, double direction) const {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
@@ -133,7 +137,7 @@ class CatalogueEffect final : public LaneEffect {
   }
 
   ActsOn acts_on_;
-  bool is_dry_friction_, has_memory_, needs_baseline_, has_weight_;
+  bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
   LaneJoint baseline_;
   std::vector<double> parameters_;
   JointScales scales_;

@@ -70,24 +70,25 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
   }
 }
 
-TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
-  // q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate,
-  // less d Fv / J dq_l for the load's own drag, which the rigid joint has as well
+// q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate, less
+// d (Fv dq_l + Fc sign(dq_l)) / J for the load's own bearings, which the rigid joint has as well; returns the share of the
+// samples at which the load rests
+double rest_of_a_textbook_load(JointScales const& braked) {
   double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3, film_per_s = 30.0, drag = 1.0;
-  JointScales braked;
-  braked.inertia = 2.0;
-  braked.viscous = 8.0;
   double const drag_per_s = drag * braked.viscous / braked.inertia;
+  double const forward = drag * braked.coulomb_positive / braked.inertia;
+  double const backward = drag * braked.coulomb_negative / braked.inertia;
+  auto const dry = [&](double speed) { return speed > 0.0 ? forward : speed < 0.0 ? -backward : 0.0; };
   double const omega = 2.0 * std::numbers::pi * frequency_hz;
   auto const runner = find_effect("backlash")
                           ->runner(std::vector<double>{1.0, half_gap, frequency_hz, damping, film_per_s, drag}, braked);
   constexpr int finer = 2000;
   constexpr double step_s = 1e-3;
   auto const start = swinging(0.1);
-  double const pushed = start.ddq + drag_per_s * start.dq;
+  double const pushed = start.ddq + drag_per_s * start.dq + dry(start.dq);
   double q_load = start.q - std::copysign(half_gap, pushed) - pushed / (omega * omega), dq_load = start.dq;
   double difference = 0.0, size = 0.0;
-  int free_samples = 0;
+  int free_samples = 0, resting_samples = 0;
   runner->advance(start, 0.0);
   for (int i = 1; i <= 3000; ++i) {
     double push = 0.0;
@@ -100,16 +101,31 @@ TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
       touches = side * push > 0.0;
       if (!touches) push = film_per_s * (now.dq - dq_load);
       dq_load += (push - drag_per_s * dq_load) * step_s / finer;
+      double const taken = (dq_load > 0.0 ? forward : backward) * step_s / finer;
+      dq_load = std::copysign(std::max(std::abs(dq_load) - taken, 0.0), dq_load);
       q_load += dq_load * step_s / finer;
     }
     auto const state = swinging(0.1 + step_s * i);
-    double const expected = push - state.ddq - drag_per_s * state.dq;
+    double const expected = push - state.ddq - drag_per_s * state.dq - dry(state.dq);
     difference += std::pow(runner->torque(state, step_s) - expected, 2);
     size += expected * expected;
     free_samples += touches ? 0 : 1;
+    resting_samples += dq_load == 0.0 ? 1 : 0;
   }
   EXPECT_GT(free_samples, 100);
   EXPECT_LT(std::sqrt(difference / size), 0.01);
+  return resting_samples / 3000.0;
+}
+
+TEST(Backlash, ObeysTheTextbookLawInTinySteps) {
+  JointScales braked;
+  braked.inertia = 2.0;
+  braked.viscous = 8.0;
+  EXPECT_EQ(rest_of_a_textbook_load(braked), 0.0);
+  // held by its bearings while the motor crosses the gap
+  braked.coulomb_positive = 20.0;
+  braked.coulomb_negative = 28.0;
+  EXPECT_GT(rest_of_a_textbook_load(braked), 0.01);
 }
 
 TEST(Backlash, DoesNotCareHowASampleIsCutUp) {

@@ -72,8 +72,11 @@ TEST_P(LoadsBehindGap, HaveTheBitsOfOneAlone) {
   heavy.viscous = 0.8;
   heavy.gravity_sin = 3.0;
   heavy.gravity_cos = -1.0;
+  JointScales dry = heavy;
+  dry.coulomb_positive = 2.0;
+  dry.coulomb_negative = 1.5;
   for (auto const& [film, drag] : {std::pair{0.0, 0.0}, std::pair{30.0, 0.0}, std::pair{5.0, 1.5}})
-    for (JointScales const& scales : {JointScales{}, heavy}) {
+    for (JointScales const& scales : {JointScales{}, heavy, dry}) {
       std::size_t const in_gap = expect_bits_of_one_alone(film, drag, scales);
       EXPECT_GT(in_gap, 200u);
       EXPECT_LT(in_gap, 2000u * lanes - 200u);
