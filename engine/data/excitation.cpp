@@ -123,6 +123,7 @@ Excitation measure_channels(Recording const& recording) {
   facts.encoder_step = rows.encoder_step > 0 ? rows.encoder_step : quantisation_step(numbers(recording.position));
   facts.torque_limit_share =
       rows.torque_limit_share > 0 ? rows.torque_limit_share : limit_share(numbers(recording.torque));
+  facts.torque_held_rows = held_rows(numbers(recording.torque));
   facts.torque_noise = white_noise(recording.torque);
   facts.jitter = rows.jitter;
   return facts;
@@ -138,6 +139,9 @@ void measure_motion(Motion const& whole, FilterOptions const& options, Excitatio
   facts.acceleration_rms = std::sqrt(motion.ddq.squaredNorm() / static_cast<double>(motion.ddq.size()));
   facts.torque_least = motion.torque.minCoeff();
   facts.torque_most = motion.torque.maxCoeff();
+  double const cutoff_hz = parallel_cutoff_of(options);
+  if (facts.torque_held_rows > 1 && cutoff_hz > 0.0)
+    facts.torque_updates = whole.rate_hz / static_cast<double>(facts.torque_held_rows) / cutoff_hz;
   measure_movement(motion, facts);
 }
 
@@ -170,6 +174,10 @@ std::vector<DataWarning> excitation_warnings(Excitation const& facts, char const
         range / facts.encoder_step, range, unit));
   if (facts.moving_share > 0 && facts.reversals == 0 && one_way <= one_direction)
     warn("the motion never reverses: friction at reversals cannot be seen");
+  if (facts.torque_held_rows > 1)
+    warn(fmt::format(
+        "the torque changes on every {}th row only: it comes {:.2g} rows late on average; log it at its own rate",
+        facts.torque_held_rows, 0.5 * static_cast<double>(facts.torque_held_rows - 1)));
   return warnings;
 }
 

@@ -25,11 +25,13 @@ struct Excitation {
   std::array<double, 4> quadrant_share{};  // of moving time: (dq,torque) = (+,+) (-,+) (-,-) (+,-)
   int quadrants = 0;                       // of them, visited at least 1 % of moving time
   double speed_spread = 0.0;               // 95th over 10th percentile of |dq| while moving
-  double one_speed_share = 0.0;     // of moving time, the most within a factor of 1.2; by measure_excitation() alone
-  double encoder_step = 0.0;        // RowFacts, or found in the recording's position
-  double torque_limit_share = 0.0;  // RowFacts, or found in the recording's torque
-  double torque_noise = 0.0;        // standard deviation, white part (signal_facts.hpp)
-  double jitter = 0.0;              // RowFacts
+  double one_speed_share = 0.0;       // of moving time, the most within a factor of 1.2; by measure_excitation() alone
+  double encoder_step = 0.0;          // RowFacts, or found in the recording's position
+  double torque_limit_share = 0.0;    // RowFacts, or found in the recording's torque
+  Eigen::Index torque_held_rows = 1;  // signal_facts.hpp
+  double torque_updates = 0.0;  // of a torque that is held: per period of the parallel cut-off; by measure_motion()
+  double torque_noise = 0.0;    // standard deviation, white part (signal_facts.hpp)
+  double jitter = 0.0;          // RowFacts
 };
 
 // speeds, directions and quadrants come from between the edges that the filter drops

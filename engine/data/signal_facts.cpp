@@ -115,6 +115,23 @@ double limit_share(std::span<double const> values) {
   return static_cast<double>(resting_at(low) + resting_at(high)) / static_cast<double>(values.size());
 }
 
+Eigen::Index held_rows(std::span<double const> values) {
+  constexpr double most_of_them = 0.9;
+  constexpr std::size_t fewest = 20, longest = 1000;
+  std::vector<std::size_t> changes;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) changes.push_back(i);
+  if (changes.size() < fewest) return 1;
+  std::vector<std::size_t> times(longest + 1);  // that a way from one change to the next is so many rows
+  for (std::size_t k = 1; k < changes.size(); ++k) ++times[std::min(changes[k] - changes[k - 1], longest)];
+  auto const held = static_cast<std::size_t>(std::max_element(times.begin(), times.end()) - times.begin());
+  if (held < 2 || held == longest) return 1;
+  std::vector<std::size_t> on_grid(held);
+  for (std::size_t row : changes) ++on_grid[row % held];
+  auto const most = static_cast<double>(*std::max_element(on_grid.begin(), on_grid.end()));
+  return most >= most_of_them * static_cast<double>(changes.size()) ? static_cast<Eigen::Index>(held) : 1;
+}
+
 double white_noise(Eigen::Ref<Eigen::VectorXd const> const& signal) {
   if (signal.size() < 8) return 0.0;
   auto const for_each_bend = [&](auto const& visit) {

@@ -74,6 +74,21 @@ TEST(LimitShare, CountsFlatTopsAndNotTurningPoints) {
   EXPECT_GT(limit_share(numbers(rounded(clipped, 0.01))), 0.9 * expected);
 }
 
+TEST(HeldRows, AreThoseOfAnEvenGridAndNotOfACoarseSignal) {
+  auto const torque = sampled(20000, [](double t) { return std::sin(3 * t) + 0.2 * std::sin(11 * t); });
+  auto const held = [&](Eigen::VectorXd values, Eigen::Index rows) {
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      values[i] = values[(i + 3) / rows * rows == 0 ? 0 : (i + 3) / rows * rows - 3];
+    return held_rows(numbers(values));
+  };
+  EXPECT_EQ(held(torque, 1), 1);
+  EXPECT_EQ(held(torque, 2), 2);
+  EXPECT_EQ(held(torque, 20), 20);
+  EXPECT_EQ(held(rounded(torque, 0.003), 20), 20);
+  EXPECT_EQ(held(rounded(torque, 0.05), 1), 1);  // repeats itself, on any row
+  EXPECT_EQ(held_rows(numbers(Eigen::VectorXd::Constant(500, 1.0))), 1);
+}
+
 TEST(WhiteNoise, MeasuresTheStandardDeviationUnderASmoothSignal) {
   RandomStream stream({27, 0, RandomDomain::test}, 0, 0);
   auto torque = sampled(50000, [](double t) { return 5 * std::sin(3 * t); });

@@ -70,6 +70,12 @@ INSTANTIATE_TEST_SUITE_P(Cases, HopelessRecording,
                                               Verdict::insufficient, "one speed", "four speeds"},
                                          Case{"AtItsLimit", [](Excitation& e) { e.torque_limit_share = 0.31; },
                                               good_relerr, Verdict::data_fault, "31 %", "range of the torque channel"},
+                                         Case{"HeldTorque",
+                                              [](Excitation& e) {
+                                                e.torque_held_rows = 20;
+                                                e.torque_updates = 2.5;
+                                              },
+                                              good_relerr, Verdict::data_fault, "every 20th row", "parallel_cutoff_hz"},
                                          Case{"NoRelation", [](Excitation&) {}, 0.97, Verdict::data_fault, "97 %",
                                               "recording.columns"}),
                          [](auto const& one) { return one.param.name; });
@@ -93,6 +99,10 @@ TEST(CheckRecording, HasNothingToSayOfAGoodOne) {
   // an encoder too fine to be seen says nothing about steps
   Excitation facts = good_recording();
   facts.encoder_step = 0.0;
+  EXPECT_FALSE(check_recording(facts, good_relerr).has_value());
+  // held, but changing fast enough
+  facts.torque_held_rows = 4;
+  facts.torque_updates = 12.0;
   EXPECT_FALSE(check_recording(facts, good_relerr).has_value());
   // much that is missing is what a diagnosis is for
   EXPECT_FALSE(check_recording(good_recording(), 0.6).has_value());
