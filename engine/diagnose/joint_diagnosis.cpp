@@ -11,6 +11,7 @@
 #include "engine/diagnose/blocked_mismatch.hpp"
 #include "engine/diagnose/candidate_table.hpp"
 #include "engine/diagnose/channel_timing.hpp"
+#include "engine/diagnose/echoed_reference.hpp"
 #include "engine/diagnose/error_words.hpp"
 #include "engine/diagnose/excitation_advice.hpp"
 #include "engine/diagnose/joint_search.hpp"
@@ -27,9 +28,13 @@
 namespace torquescope {
 namespace {
 
-constexpr char const* without_reference_sentence =
-    "No reference was recorded: twins follow the measured motion, and the torque's noise is read from what the model "
-    "leaves, so that small effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns).";
+std::string without_reference_sentence(bool is_echo) {
+  std::string const why = is_echo ? "The reference is the measured motion itself, in which no controller shows"
+                                  : "No reference was recorded";
+  return why +
+         ": twins follow the measured motion, and the torque's noise is read from what the model leaves, so that small "
+         "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
+}
 
 // what work() says of the recording, or what stopped it when that is the recording's fault
 template <typename Work>
@@ -55,10 +60,10 @@ class JointWork {
 
   Diagnosis run() {
     diagnose();
-    bool const was_led = selection_.baseline && input_.train.reference.size() == 0;
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
-    if (was_led) diagnosis_.reason += std::string(" ") + without_reference_sentence;
+    if (selection_.baseline && !has_reference_)
+      diagnosis_.reason += " " + without_reference_sentence(input_.train.reference.size() > 0);
     return std::move(diagnosis_);
   }
 
@@ -74,7 +79,8 @@ class JointWork {
   }
 
   void diagnose() {
-    Recording recording = from_zero(input_.train);
+    Recording recording = without_echoed_reference(from_zero(input_.train));
+    has_reference_ = recording.reference.size() > 0;
     StageSetting setting{recording,    input_.regressor, input_.filter, input_.filter_section,
                          input_.twins, input_.seed,      input_.threads};
     setting.ablation = input_.ablation;
@@ -91,8 +97,10 @@ class JointWork {
     selection_ = doubt_noise(setting, input_.selection, std::move(selection_), progress_);
     Remainder remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
     unseen_.reserve(input_.validate.size());
-    for (auto const& one : input_.validate)
-      unseen_.push_back(torque_late_s_ == 0.0 ? one : with_torque_earlier(one, torque_late_s_));
+    for (auto const& given : input_.validate) {
+      Recording one = without_echoed_reference(given);
+      unseen_.push_back(torque_late_s_ == 0.0 ? std::move(one) : with_torque_earlier(std::move(one), torque_late_s_));
+    }
     drop_spoilers(setting, unseen_, selection_, remainder);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
@@ -264,6 +272,7 @@ class JointWork {
   Excitation excitation_{};         // of the training recording
   std::vector<Recording> unseen_;   // torque in time with that of the training recording
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
+  bool has_reference_ = false;      // one that tells a loop
   double parameter_share_ = 0.0;
   double torque_late_s_ = 0.0;  // taken out of all recordings (channel_timing.hpp)
   bool is_refuted_ = false;     // what was named, by unseen recordings
