@@ -47,6 +47,7 @@ constexpr StopWords words_of_shard{
 
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
+    if (joint.baseline.empty()) continue;  // given up before it was fitted: the verdict says why
     std::string line =
         fmt::format("{} parameters; error {} train", joint.baseline.size(), percent_text(joint.train_relerr));
     if (std::isfinite(joint.validation_relerr))
