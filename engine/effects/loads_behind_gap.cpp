@@ -123,14 +123,14 @@ TORQUESCOPE_EXPORT(whole_sub_step);
 class LoadsBehindGap final : public EffectMemory {
  public:
   LoadsBehindGap(LoadBehindGap const& fresh, std::size_t lanes)
-      : fresh_(fresh), law_(fresh), n_(lanes), weight_(n_), cosine_(n_), sine_(n_), drive_(n_) {
+      : law_(fresh), n_(lanes), weight_(n_), cosine_(n_), sine_(n_), drive_(n_) {
     std::size_t const whole = (lanes + gap_lanes - 1) / gap_lanes * gap_lanes;
     for (auto* one : {&y_, &dy_, &side_, &now_, &jerk_, &event_}) one->assign(whole, 0.0);
   }
 
-  void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
-    memory_of(fresh_, 1)->columns(input, out);
-  }
+  // lanes of one shape are for twins: one lane by itself is none of these
+  void append(EffectMemory const&) override { TORQUESCOPE_EXPECT(false); }
+  void columns(EffectInput const&, Eigen::Ref<Eigen::MatrixXd>) override { TORQUESCOPE_EXPECT(false); }
 
   void advance(JointStates const& at, double step_s) override {
     if (!has_started_) return start(at);
@@ -190,7 +190,7 @@ class LoadsBehindGap final : public EffectMemory {
     }
   }
 
-  LoadBehindGap fresh_, law_;
+  LoadBehindGap law_;
   std::size_t n_;
   std::vector<double> weight_, cosine_, sine_, drive_;
   std::vector<double> y_, dy_, side_, now_, jerk_, event_;  // whole vectors: lanes behind the last never meet a flank

@@ -20,11 +20,14 @@
 
 namespace torquescope {
 
-// the states behind the columns of one effect at one shape, one per lane
+// the states behind the columns of one effect, one per lane: of one shape for twins, of one shape each for columns
 class EffectMemory {
  public:
   virtual ~EffectMemory() = default;
-  // of one lane that starts with the motion; out: input.size() x linear parameters
+  // `other`, of the same effect and one lane as this, becomes the lane after the last
+  virtual void append(EffectMemory const& other) = 0;
+  // of lanes that start with the motion; out: input.size() x linear parameters of each lane.
+  // A state waits for itself from sample to sample, so that several take hardly longer than one
   virtual void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) = 0;
   // the lanes have come to `at`; they start with the first call
   virtual void advance(JointStates const& at, double step_s) = 0;
@@ -36,6 +39,8 @@ class MemoryEffect : public Effect {
   using Effect::Effect;
   bool has_memory() const final { return true; }
   void columns(EffectInput const& input, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override;
+  void columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,
+                         Eigen::Ref<Eigen::MatrixXd> out) const override;
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
   // of several joints with one shape
   virtual std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
@@ -49,15 +54,23 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
    public:
     Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
 
+    void append(EffectMemory const& other) override {
+      auto const& added = static_cast<Lanes const&>(other).states_;
+      states_.insert(states_.end(), added.begin(), added.end());
+    }
+
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
       for (Eigen::Index i = 0; i < input.size(); ++i) {
         JointState const now = input.state(i);
-        if (i == 0)
-          states_.front().start(now);
-        else
-          states_.front().advance(now, input.motion.time_s[i] - input.motion.time_s[i - 1]);
-        auto const row = states_.front().row(now);
-        for (std::size_t k = 0; k < row.size(); ++k) out(i, static_cast<Eigen::Index>(k)) = row[k];
+        double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
+        Eigen::Index column = 0;
+        for (State& state : states_) {
+          if (i == 0)
+            state.start(now);
+          else
+            state.advance(now, step_s);
+          for (double const value : state.row(now)) out(i, column++) = value;
+        }
       }
     }
 
