@@ -45,7 +45,7 @@ class Grease {
   double faded(double time_s) const { return -std::expm1(-film_per_s_ * time_s); }
   // changes nothing in this time, and would cancel all digits
   bool is_thin(double time_s) const { return film_per_s_ * time_s < 1e-6; }
-  double film_per_s() const { return film_per_s_; }
+  double push_per_s() const { return push_per_s_; }
   double per_film() const { return per_film_; }  // infinite without any: thin
 
  private:
