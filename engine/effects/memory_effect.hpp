@@ -6,13 +6,19 @@
 //   void advance(JointState const& state, double step_s)                                    step_s > 0
 //   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
 //
+// Shared     a class whose memory does not depend on all of its shapes may say so, and is told once for those that share it:
+//   bool shares_memory(State const& other) const        both remember the same after the same motion
+//   void remember(State const& other)                   what the other does
+//
 // Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or time
 // Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
 //            them and not once for each: a twin takes 50 000 steps per second
 // Threads    an EffectMemory is used by one thread
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/effect.hpp"
@@ -50,6 +56,7 @@ class MemoryEffect : public Effect {
 // what a file in effects/ returns as memory(): `lanes` copies of a state that has not started
 template <typename State>
 std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
+  constexpr bool may_share = requires(State state) { state.shares_memory(state); };
   class Lanes final : public EffectMemory {
    public:
     Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
@@ -60,15 +67,19 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
+      std::vector<State const*> const tellers = who_remember();
       for (Eigen::Index i = 0; i < input.size(); ++i) {
         JointState const now = input.state(i);
         double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
         Eigen::Index column = 0;
-        for (State& state : states_) {
+        for (std::size_t lane = 0; lane < states_.size(); ++lane) {
+          State& state = states_[lane];
           if (i == 0)
             state.start(now);
-          else
+          else if (tellers[lane] == &state)
             state.advance(now, step_s);
+          else if constexpr (may_share)
+            state.remember(*tellers[lane]);
           for (double const value : state.row(now)) out(i, column++) = value;
         }
       }
@@ -97,6 +108,18 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
+    // for each lane the first that shares its memory
+    std::vector<State const*> who_remember() const {
+      std::vector<State const*> tellers;
+      for (State const& state : states_) {
+        tellers.push_back(&state);
+        if constexpr (may_share)
+          tellers.back() = &*std::find_if(states_.begin(), states_.end(),
+                                          [&](State const& other) { return state.shares_memory(other); });
+      }
+      return tellers;
+    }
+
     std::vector<State> states_;
     bool has_started_ = false;
   };
