@@ -217,6 +217,7 @@ class LoadBehindGap {
   LoadState const& load() const { return load_; }
   void put(LoadState const& load) { load_ = load; }
   double half_gap() const { return half_gap_; }
+  double drag_per_s() const { return drag_per_s_; }
   Flank const& flank() const { return flank_; }
   Grease const& grease() const { return grease_; }
   GapSubSteps const& sub_steps() const { return sub_steps_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "kernels/dispatch-inl.hpp"
@@ -25,6 +26,7 @@ struct EightLaws {
   Eight half_gap{};
   Eight square{}, push_per_s{}, decay{}, ringing{}, per_square{}, lag{}, per_ringing{};  // of the flank
   Eight film_push_per_s{}, per_film{};                                                   // of the grease
+  Eight drag_per_s{};
 };
 
 struct EightSubSteps {
@@ -32,9 +34,16 @@ struct EightSubSteps {
   double most = 1.0;  // of count
 };
 
+// of the motors, one each or one for all
+struct Motions {
+  double const *dq = nullptr, *ddq = nullptr;
+  bool is_common = false;
+};
+
 struct EightLoads {
   Eight y{}, dy{}, side{};
-  Eight now{}, jerk{};  // what drives them
+  Eight weight{}, drive{};  // where the joint is
+  Eight now{}, jerk{};      // what drives them in a step
   Eight event{};        // 1 where contact begins or ends, and nothing was changed
 };
 
@@ -53,6 +62,16 @@ inline constexpr D d;
 
 HWY_INLINE V set(double value) { return hn::Set(d, value); }
 HWY_INLINE V of(Eight const& values, std::size_t lane) { return hn::LoadU(d, values.data() + lane); }
+
+HWY_INLINE V of(double const* values, bool is_common, std::size_t lane) {
+  return is_common ? set(*values) : hn::LoadU(d, values + lane);
+}
+
+// LoadBehindGap::drive_of
+HWY_INLINE V drive_of(EightLaws const& laws, EightLoads const& loads, Motions const& at, std::size_t k) {
+  V const pulled = hn::Add(of(at.ddq, at.is_common, k), of(loads.weight, k));
+  return hn::Add(pulled, hn::Mul(of(laws.drag_per_s, k), of(at.dq, at.is_common, k)));
+}
 
 struct Places {
   V y, dy;
@@ -150,14 +169,25 @@ void drive_on(EightSubSteps const& steps, EightLoads& loads) {
     hn::StoreU(hn::Add(of(loads.now, k), hn::Mul(of(loads.jerk, k), of(steps.time_s, k))), d, loads.now.data() + k);
 }
 
-// LoadBehindGap::push
-void push_of_loads(EightLaws const& laws, EightLoads const& loads, double* push) {
+// the joint comes to `at` within a step
+void drive_to(EightLaws const& laws, Motions const& at, double step_s, EightLoads& loads) {
+  for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
+    V const from = of(loads.drive, k), to = drive_of(laws, loads, at, k);
+    hn::StoreU(from, d, loads.now.data() + k);
+    hn::StoreU(hn::Div(hn::Sub(to, from), set(step_s)), d, loads.jerk.data() + k);
+    hn::StoreU(to, d, loads.drive.data() + k);
+  }
+}
+
+// LoadBehindGap::push less what a load that is fixed to the motor would need there
+void pull_of_loads(EightLaws const& laws, EightLoads const& loads, Motions const& at, double* pull) {
   for (std::size_t k = 0; k < gap_lanes; k += hn::MaxLanes(d)) {
     V const side = of(loads.side, k), dy = of(loads.dy, k);
     V const beyond = hn::Sub(of(loads.y, k), hn::Mul(side, of(laws.half_gap, k)));
     V const of_grease = hn::Mul(of(laws.film_push_per_s, k), dy);
     auto const flies = hn::Eq(side, hn::Zero(d));
-    hn::StoreU(hn::Neg(hn::IfThenElse(flies, of_grease, push_of_flank(laws, k, beyond, dy))), d, push + k);
+    V const push = hn::Neg(hn::IfThenElse(flies, of_grease, push_of_flank(laws, k, beyond, dy)));
+    hn::StoreU(hn::Sub(push, drive_of(laws, loads, at, k)), d, pull + k);
   }
 }
 
@@ -170,7 +200,8 @@ namespace {
 
 TORQUESCOPE_EXPORT(whole_sub_step);
 TORQUESCOPE_EXPORT(drive_on);
-TORQUESCOPE_EXPORT(push_of_loads);
+TORQUESCOPE_EXPORT(drive_to);
+TORQUESCOPE_EXPORT(pull_of_loads);
 
 class LoadsBehindGap final : public EffectMemory {
  public:
@@ -184,47 +215,45 @@ class LoadsBehindGap final : public EffectMemory {
 
   void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
     std::vector<double> const weights = weights_on(input.motion.q);
-    Eight push{};
+    Eight pull{};
     for (Eigen::Index i = 0; i < input.size(); ++i) {
-      JointState const now = input.state(i);
-      std::fill(weight_.begin(), weight_.end(), weights[static_cast<std::size_t>(i)]);
-      if (i == 0)
-        for (std::size_t lane = 0; lane < loads_.size(); ++lane) start(lane, now);
-      else
-        follow([&](std::size_t) { return now; }, input.motion.time_s[i] - input.motion.time_s[i - 1]);
+      Motions const at{&input.motion.dq[i], &input.motion.ddq[i], true};
       for (std::size_t block = 0; block < blocks_.size(); ++block) {
-        TORQUESCOPE_DISPATCH(push_of_loads)(blocks_[block].laws, blocks_[block].loads, push.data());
-        for (std::size_t k = 0; k < lanes_of(block); ++k) {
-          std::size_t const lane = block * gap_lanes + k;
-          out(i, static_cast<Eigen::Index>(lane)) = push[k] - drive_[lane];
+        auto& [laws, loads] = blocks_[block];
+        if (i > 0) {
+          if (!weights.empty()) loads.weight.fill(weights[static_cast<std::size_t>(i)]);
+          follow(block, at, input.motion.time_s[i] - input.motion.time_s[i - 1]);
+        } else {
+          start(block, [&](std::size_t) { return input.state(0); });
         }
+        TORQUESCOPE_DISPATCH(pull_of_loads)(laws, loads, at, pull.data());
+        for (std::size_t k = 0; k < lanes_of(block); ++k)
+          out(i, static_cast<Eigen::Index>(block * gap_lanes + k)) = pull[k];
       }
     }
   }
 
   void advance(JointStates const& at, double step_s) override {
-    if (!has_started_) {
-      has_started_ = true;
-      for (std::size_t lane = 0; lane < loads_.size(); ++lane) start(lane, at.state(lane));
-      return;
+    bool const has_started = std::exchange(has_started_, true);
+    for (std::size_t block = 0; block < blocks_.size(); ++block) {
+      if (has_started) {
+        Room room;
+        weigh(block, at);
+        follow(block, motions(at, block, room), step_s);
+      } else {
+        start(block, [&](std::size_t lane) { return at.state(lane); });
+      }
     }
-    if (loads_.front().has_weight()) {
-      kernels::cosine_sine_of_multiple(1.0, at.q.data(), loads_.size(), cosine_.data(), sine_.data());
-      for (std::size_t lane = 0; lane < loads_.size(); ++lane)
-        weight_[lane] = loads_.front().weight(cosine_[lane], sine_[lane]);
-    }
-    follow([&](std::size_t lane) { return at.state(lane); }, step_s);
   }
 
   void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
     TORQUESCOPE_EXPECT(linear.size() == 1 && out.size() == loads_.size());
-    Eight push{};
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
-      TORQUESCOPE_DISPATCH(push_of_loads)(blocks_[block].laws, blocks_[block].loads, push.data());
-      for (std::size_t k = 0; k < lanes_of(block); ++k) {
-        std::size_t const lane = block * gap_lanes + k;
-        out[lane] = 0.0 + linear[0] * (push[k] - loads_[lane].drive_of(at.state(lane), weight_[lane]));
-      }
+      Room room;
+      Eight pull;
+      auto const& [laws, loads] = blocks_[block];
+      TORQUESCOPE_DISPATCH(pull_of_loads)(laws, loads, motions(at, block, room), pull.data());
+      for (std::size_t k = 0; k < lanes_of(block); ++k) out[block * gap_lanes + k] = 0.0 + linear[0] * pull[k];
     }
   }
 
@@ -234,11 +263,14 @@ class LoadsBehindGap final : public EffectMemory {
     EightLaws laws{};
     EightLoads loads{};
   };
+  // for motions of a block that is not full
+  struct Room {
+    Eight dq, ddq;
+  };
 
   void add(LoadBehindGap const& fresh) {
     std::size_t const k = loads_.size() % gap_lanes;
     loads_.push_back(fresh);
-    for (auto* one : {&weight_, &cosine_, &sine_, &drive_}) one->push_back(0.0);
     if (k == 0) blocks_.emplace_back();
     EightLaws& laws = blocks_.back().laws;
     Flank const& flank = fresh.flank();
@@ -252,48 +284,60 @@ class LoadsBehindGap final : public EffectMemory {
     laws.per_ringing[k] = flank.per_ringing();
     laws.film_push_per_s[k] = fresh.grease().push_per_s();
     laws.per_film[k] = fresh.grease().per_film();
+    laws.drag_per_s[k] = fresh.drag_per_s();
   }
 
   std::size_t lanes_of(std::size_t block) const { return std::min(gap_lanes, loads_.size() - block * gap_lanes); }
 
-  // what all loads of one motion weigh
+  Motions motions(JointStates const& at, std::size_t block, Room& room) const {
+    std::size_t const first = block * gap_lanes, lanes = lanes_of(block);
+    if (lanes == gap_lanes) return {at.dq.data() + first, at.ddq.data() + first};
+    room.dq.fill(0.0);
+    room.ddq.fill(0.0);
+    std::copy_n(at.dq.data() + first, lanes, room.dq.begin());
+    std::copy_n(at.ddq.data() + first, lanes, room.ddq.begin());
+    return {room.dq.data(), room.ddq.data()};
+  }
+
+  // what all loads of one motion weigh; empty: nothing
   std::vector<double> weights_on(Eigen::VectorXd const& q) const {
     LoadBehindGap const& any = loads_.front();
+    if (!any.has_weight()) return {};
     auto const n = static_cast<std::size_t>(q.size());
-    std::vector<double> weights(n, 0.0);
-    if (!any.has_weight()) return weights;
-    std::vector<double> cosine(n), sine(n);
+    std::vector<double> weights(n), cosine(n), sine(n);
     kernels::cosine_sine_of_multiple(1.0, q.data(), n, cosine.data(), sine.data());
     for (std::size_t i = 0; i < n; ++i) weights[i] = any.weight(cosine[i], sine[i]);
     return weights;
   }
 
-  void start(std::size_t lane, JointState const& state) {
-    loads_[lane].start(state);
-    take(lane);
-    weight_[lane] = loads_[lane].load().weight;
-    drive_[lane] = loads_[lane].load().drive;
+  void weigh(std::size_t block, JointStates const& at) {
+    LoadBehindGap const& any = loads_.front();
+    if (!any.has_weight()) return;
+    Eight cosine, sine;
+    std::size_t const lanes = lanes_of(block);
+    kernels::cosine_sine_of_multiple(1.0, at.q.data() + block * gap_lanes, lanes, cosine.data(), sine.data());
+    for (std::size_t k = 0; k < lanes; ++k) blocks_[block].loads.weight[k] = any.weight(cosine[k], sine[k]);
   }
 
-  // weights are known; state_of(lane)
   template <typename StateOf>
-  void follow(StateOf const& state_of, double step_s) {
-    auto const& steps = sub_steps_in(step_s);
-    for (std::size_t lane = 0; lane < loads_.size(); ++lane) {
-      EightLoads& loads = blocks_[lane / gap_lanes].loads;
-      double const end = loads_[lane].drive_of(state_of(lane), weight_[lane]);
-      loads.now[lane % gap_lanes] = drive_[lane];
-      loads.jerk[lane % gap_lanes] = (end - drive_[lane]) / step_s;
-      drive_[lane] = end;
+  void start(std::size_t block, StateOf const& state_of) {
+    for (std::size_t k = 0; k < lanes_of(block); ++k) {
+      LoadBehindGap& load = loads_[block * gap_lanes + k];
+      load.start(state_of(block * gap_lanes + k));
+      take(block, k);
+      blocks_[block].loads.weight[k] = load.load().weight;
+      blocks_[block].loads.drive[k] = load.load().drive;
     }
-    auto const sub_step = TORQUESCOPE_DISPATCH(whole_sub_step);
-    auto const drive = TORQUESCOPE_DISPATCH(drive_on);
-    for (std::size_t block = 0; block < blocks_.size(); ++block) {
-      auto& [laws, loads] = blocks_[block];
-      for (double part = 0.0; part < steps[block].most; part += 1.0) {
-        if (sub_step(laws, steps[block], part, loads)) meet_events(block, step_s);
-        drive(steps[block], loads);
-      }
+  }
+
+  // weights are known
+  void follow(std::size_t block, Motions const& at, double step_s) {
+    auto& [laws, loads] = blocks_[block];
+    EightSubSteps const& steps = sub_steps_in(step_s)[block];
+    TORQUESCOPE_DISPATCH(drive_to)(laws, at, step_s, loads);
+    for (double part = 0.0; part < steps.most; part += 1.0) {
+      if (TORQUESCOPE_DISPATCH(whole_sub_step)(laws, steps, part, loads)) meet_events(block, step_s);
+      TORQUESCOPE_DISPATCH(drive_on)(steps, loads);
     }
   }
 
@@ -323,25 +367,23 @@ class LoadsBehindGap final : public EffectMemory {
     EightLoads const& loads = blocks_[block].loads;
     for (std::size_t k = 0; k < lanes_of(block); ++k) {
       if (loads.event[k] == 0.0) continue;
-      std::size_t const lane = block * gap_lanes + k;
-      loads_[lane].divide(step_s);
-      loads_[lane].put({{loads.y[k], loads.dy[k]}, loads.side[k], weight_[lane], drive_[lane]});
-      loads_[lane].sub_step({loads.now[k], loads.jerk[k]});
-      take(lane);
+      LoadBehindGap& load = loads_[block * gap_lanes + k];
+      load.divide(step_s);
+      load.put({{loads.y[k], loads.dy[k]}, loads.side[k], loads.weight[k], loads.drive[k]});
+      load.sub_step({loads.now[k], loads.jerk[k]});
+      take(block, k);
     }
   }
 
-  void take(std::size_t lane) {
-    LoadState const& load = loads_[lane].load();
-    EightLoads& loads = blocks_[lane / gap_lanes].loads;
-    std::size_t const k = lane % gap_lanes;
+  void take(std::size_t block, std::size_t k) {
+    LoadState const& load = loads_[block * gap_lanes + k].load();
+    EightLoads& loads = blocks_[block].loads;
     loads.y[k] = load.at.y;
     loads.dy[k] = load.at.dy;
     loads.side[k] = load.side;
   }
 
   std::vector<LoadBehindGap> loads_{};  // one per lane: its law, and what one event needs
-  std::vector<double> weight_{}, cosine_{}, sine_{}, drive_{};
   std::vector<Block> blocks_{};
   RememberedSteps<std::vector<EightSubSteps>> remembered_{};
   bool has_started_ = false;

@@ -30,6 +30,12 @@ struct EightLoads {
   Eight y{}, dy{}, ddq{};              // relative to the motor; the motor's acceleration
 };
 
+// of the motors. Not copied into an array of eight: a vector loaded from what single numbers were just stored into waits for them
+struct Accelerations {
+  double const* first = nullptr;
+  bool is_common = false;
+};
+
 // straight springs in one part of a step
 struct EightSwings {
   Eight parts{}, step_s{}, faded{}, cosine{}, sine{};
@@ -51,6 +57,10 @@ inline constexpr D d;
 
 HWY_INLINE V of(Eight const& values, std::size_t lane) { return hn::LoadU(d, values.data() + lane); }
 HWY_INLINE V set(double value) { return hn::Set(d, value); }
+// one for all lanes, or one each
+HWY_INLINE V of(Accelerations const& ddq, std::size_t lane) {
+  return ddq.is_common ? set(*ddq.first) : hn::LoadU(d, ddq.first + lane);
+}
 
 // acceleration of the load by what the spring has more than a straight one
 HWY_INLINE V stiffened(V square, V per_square, V y) {
@@ -60,12 +70,12 @@ HWY_INLINE V stiffened(V square, V per_square, V y) {
 
 }  // namespace
 
-void advance_loads(EightLoads& loads, EightSwings const& swings, double const* ddq, double step_s) {
+void advance_loads(EightLoads& loads, EightSwings const& swings, Accelerations const& ddq, double step_s) {
   for (std::size_t lane = 0; lane < spring_lanes; lane += hn::MaxLanes(d)) {
     V const square = of(loads.square, lane), decay = of(loads.decay, lane), ringing = of(loads.ringing, lane);
     V const per_square = of(loads.per_square, lane), part_s = of(swings.step_s, lane), parts = of(swings.parts, lane);
     V const faded = of(swings.faded, lane), cosine = of(swings.cosine, lane), sine = of(swings.sine, lane);
-    V const half_s = hn::Mul(set(0.5), part_s), end = hn::LoadU(d, ddq + lane);
+    V const half_s = hn::Mul(set(0.5), part_s), end = of(ddq, lane);
     V y = of(loads.y, lane), dy = of(loads.dy, lane), now = of(loads.ddq, lane);
     V const jerk = hn::Div(hn::Sub(end, now), set(step_s));
     // what remains after the motion that follows a straight acceleration rings freely
@@ -96,13 +106,13 @@ void advance_loads(EightLoads& loads, EightSwings const& swings, double const* d
 }
 
 // of a load of one unit on the motor that has come to this acceleration, beside what a rigid one would need
-void pull_of_loads(EightLoads const& loads, double const* ddq, double* pull) {
+void pull_of_loads(EightLoads const& loads, Accelerations const& ddq, double* pull) {
   for (std::size_t lane = 0; lane < spring_lanes; lane += hn::MaxLanes(d)) {
     V const square = of(loads.square, lane), y = of(loads.y, lane);
     V const damped = hn::Mul(hn::Mul(set(2.0), of(loads.decay, lane)), of(loads.dy, lane));
     V const straight = hn::Add(damped, hn::Mul(square, y));
     V const pushed = hn::Add(straight, stiffened(square, of(loads.per_square, lane), y));
-    hn::StoreU(hn::Sub(hn::Neg(pushed), hn::LoadU(d, ddq + lane)), d, pull + lane);
+    hn::StoreU(hn::Sub(hn::Neg(pushed), of(ddq, lane)), d, pull + lane);
   }
 }
 
@@ -127,19 +137,19 @@ class LoadsOnSpring final : public EffectMemory {
   }
 
   void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
-    Eight ddq{}, pull{};
+    Eight pull{};
     for (Eigen::Index i = 0; i < input.size(); ++i) {
-      ddq.fill(input.motion.ddq[i]);
+      Accelerations const ddq{&input.motion.ddq[i], true};
       double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
       auto const* swings = i == 0 ? nullptr : &swings_in(step_s);
       for (std::size_t block = 0; block < blocks_.size(); ++block) {
-        if (i == 0)
-          start(blocks_[block], ddq.data());
+        if (swings == nullptr)
+          start(blocks_[block], ddq);
         else
-          TORQUESCOPE_DISPATCH(advance_loads)(blocks_[block], (*swings)[block], ddq.data(), step_s);
-        TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], ddq.data(), pull.data());
-        std::size_t const first = block * spring_lanes, last = std::min(springs_.size(), first + spring_lanes);
-        for (std::size_t lane = first; lane < last; ++lane) out(i, static_cast<Eigen::Index>(lane)) = pull[lane - first];
+          TORQUESCOPE_DISPATCH(advance_loads)(blocks_[block], (*swings)[block], ddq, step_s);
+        TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], ddq, pull.data());
+        for (std::size_t k = 0; k < lanes_of(block); ++k)
+          out(i, static_cast<Eigen::Index>(block * spring_lanes + k)) = pull[k];
       }
     }
   }
@@ -147,11 +157,12 @@ class LoadsOnSpring final : public EffectMemory {
   void advance(JointStates const& at, double step_s) override {
     auto const* swings = has_started_ ? &swings_in(step_s) : nullptr;
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
-      Eight const ddq = accelerations(at, block);
+      Eight room;
+      Accelerations const ddq = accelerations(at, block, room);
       if (swings == nullptr)
-        start(blocks_[block], ddq.data());
+        start(blocks_[block], ddq);
       else
-        TORQUESCOPE_DISPATCH(advance_loads)(blocks_[block], (*swings)[block], ddq.data(), step_s);
+        TORQUESCOPE_DISPATCH(advance_loads)(blocks_[block], (*swings)[block], ddq, step_s);
     }
     has_started_ = true;
   }
@@ -159,11 +170,9 @@ class LoadsOnSpring final : public EffectMemory {
   void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
     TORQUESCOPE_EXPECT(linear.size() == 1 && out.size() == springs_.size());
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
-      Eight const ddq = accelerations(at, block);
-      Eight pull{};
-      TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], ddq.data(), pull.data());
-      std::size_t const first = block * spring_lanes, last = std::min(springs_.size(), first + spring_lanes);
-      for (std::size_t lane = first; lane < last; ++lane) out[lane] = 0.0 + linear[0] * pull[lane - first];
+      Eight room, pull;
+      TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], accelerations(at, block, room), pull.data());
+      for (std::size_t k = 0; k < lanes_of(block); ++k) out[block * spring_lanes + k] = 0.0 + linear[0] * pull[k];
     }
   }
 
@@ -185,21 +194,27 @@ class LoadsOnSpring final : public EffectMemory {
     }
   }
 
+  std::size_t lanes_of(std::size_t block) const {
+    return std::min(spring_lanes, springs_.size() - block * spring_lanes);
+  }
+
   // as if the acceleration had been the same for long
-  static void start(EightLoads& block, double const* ddq) {
+  static void start(EightLoads& block, Accelerations const& ddq) {
     for (std::size_t k = 0; k < spring_lanes; ++k) {
-      block.ddq[k] = ddq[k];
-      block.y[k] = -ddq[k] / block.square[k];
+      block.ddq[k] = ddq.is_common ? *ddq.first : ddq.first[k];
+      block.y[k] = -block.ddq[k] / block.square[k];
       block.dy[k] = 0.0;
     }
   }
 
-  Eight accelerations(JointStates const& at, std::size_t block) const {
-    Eight ddq{};
-    std::size_t const last = springs_.size() - 1;
-    for (std::size_t k = 0; k < spring_lanes; ++k)
-      ddq[k] = at.ddq[static_cast<Eigen::Index>(std::min(last, block * spring_lanes + k))];
-    return ddq;
+  // room: for those of a block that is not full
+  Accelerations accelerations(JointStates const& at, std::size_t block, Eight& room) const {
+    double const* const first = at.ddq.data() + block * spring_lanes;
+    std::size_t const lanes = lanes_of(block);
+    if (lanes == spring_lanes) return {first, false};
+    room.fill(first[lanes - 1]);
+    std::copy_n(first, lanes, room.begin());
+    return {room.data(), false};
   }
 
   std::vector<EightSwings> const& swings_in(double step_s) {
