@@ -172,7 +172,21 @@ RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::s
   return std::move(refinement).take();
 }
 
-// the point of the grid that explains most, of the plausible ones
+}  // namespace
+
+ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::int64_t members) {
+  auto const* choice = find_optimiser(optimiser);
+  TORQUESCOPE_EXPECT(choice != nullptr);
+  Section section;
+  section.settings.push_back({"population", OptionValue{members}});
+  std::vector<Problem> problems;
+  ShapeSearch search;
+  search.make = choice->prepare(section, {}, problems);
+  search.seed = seed;
+  TORQUESCOPE_EXPECT(problems.empty());
+  return search;
+}
+
 std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
                                                 Eigen::VectorXd const& mismatch, int threads) {
   std::vector<std::size_t> points;
@@ -193,42 +207,23 @@ std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns,
   return static_cast<std::size_t>(most - gains.begin());
 }
 
-}  // namespace
-
-ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::int64_t members) {
-  auto const* choice = find_optimiser(optimiser);
-  TORQUESCOPE_EXPECT(choice != nullptr);
-  Section section;
-  section.settings.push_back({"population", OptionValue{members}});
-  std::vector<Problem> problems;
-  ShapeSearch search;
-  search.make = choice->prepare(section, {}, problems);
-  search.seed = seed;
-  TORQUESCOPE_EXPECT(problems.empty());
-  return search;
+RefinedEffect refine_plausible_from(CandidateColumns const& columns, EffectScan const& scan, std::size_t point,
+                                    Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
+  return refined_from({columns, scan, point, mismatch, true}, scan, point, search, threads);
 }
 
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
-                                              Eigen::VectorXd const& mismatch, std::span<ShapeSearch const> searches,
-                                              int threads) {
+                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
   auto const point = best_plausible_point(columns, scan, mismatch, threads);
   if (!point) return std::nullopt;
-  std::optional<RefinedEffect> best;
-  std::int64_t evaluations = 0;
-  for (ShapeSearch const& search : searches) {
-    auto found = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
-    evaluations += found.evaluations;
-    if (!best || found.gain > best->gain) best = std::move(found);
-  }
-  best->evaluations = evaluations;
-  return best;
+  return refine_plausible_from(columns, scan, *point, mismatch, search, threads);
 }
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
-  auto plausible = refine_plausible(columns, scan, mismatch, {&search, 1}, threads);
+  auto plausible = refine_plausible(columns, scan, mismatch, search, threads);
   if (!plausible || plausible->gain < nearly_as_good * best.gain) return best;
   plausible->evaluations += best.evaluations;
   return std::move(*plausible);
