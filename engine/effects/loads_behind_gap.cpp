@@ -191,6 +191,12 @@ void pull_of_loads(EightLaws const& laws, EightLoads const& loads, Motions const
   }
 }
 
+// of eight loads of this size
+void put_torques(double const* pull, double size, double* torque) {
+  for (std::size_t lane = 0; lane < gap_lanes; lane += hn::MaxLanes(d))
+    hn::StoreU(hn::Add(hn::Zero(d), hn::Mul(set(size), hn::LoadU(d, pull + lane))), d, torque + lane);
+}
+
 }  // namespace torquescope::load_behind_gap::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -202,6 +208,7 @@ TORQUESCOPE_EXPORT(whole_sub_step);
 TORQUESCOPE_EXPORT(drive_on);
 TORQUESCOPE_EXPORT(drive_to);
 TORQUESCOPE_EXPORT(pull_of_loads);
+TORQUESCOPE_EXPORT(put_torques);
 
 class LoadsBehindGap final : public EffectMemory {
  public:
@@ -253,7 +260,8 @@ class LoadsBehindGap final : public EffectMemory {
       Eight pull;
       auto const& [laws, loads] = blocks_[block];
       TORQUESCOPE_DISPATCH(pull_of_loads)(laws, loads, motions(at, block, room), pull.data());
-      for (std::size_t k = 0; k < lanes_of(block); ++k) out[block * gap_lanes + k] = 0.0 + linear[0] * pull[k];
+      TORQUESCOPE_DISPATCH(put_torques)(pull.data(), linear[0], pull.data());
+      std::copy_n(pull.begin(), lanes_of(block), out.begin() + static_cast<std::ptrdiff_t>(block * gap_lanes));
     }
   }
 

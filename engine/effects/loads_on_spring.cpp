@@ -116,6 +116,12 @@ void pull_of_loads(EightLoads const& loads, Accelerations const& ddq, double* pu
   }
 }
 
+// of eight loads of this size
+void put_torques(double const* pull, double size, double* torque) {
+  for (std::size_t lane = 0; lane < spring_lanes; lane += hn::MaxLanes(d))
+    hn::StoreU(hn::Add(hn::Zero(d), hn::Mul(set(size), hn::LoadU(d, pull + lane))), d, torque + lane);
+}
+
 }  // namespace torquescope::load_on_spring::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -125,6 +131,7 @@ namespace {
 
 TORQUESCOPE_EXPORT(advance_loads);
 TORQUESCOPE_EXPORT(pull_of_loads);
+TORQUESCOPE_EXPORT(put_torques);
 
 class LoadsOnSpring final : public EffectMemory {
  public:
@@ -172,7 +179,8 @@ class LoadsOnSpring final : public EffectMemory {
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
       Eight room, pull;
       TORQUESCOPE_DISPATCH(pull_of_loads)(blocks_[block], accelerations(at, block, room), pull.data());
-      for (std::size_t k = 0; k < lanes_of(block); ++k) out[block * spring_lanes + k] = 0.0 + linear[0] * pull[k];
+      TORQUESCOPE_DISPATCH(put_torques)(pull.data(), linear[0], pull.data());
+      std::copy_n(pull.begin(), lanes_of(block), out.begin() + static_cast<std::ptrdiff_t>(block * spring_lanes));
     }
   }
 

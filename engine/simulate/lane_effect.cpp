@@ -8,6 +8,7 @@
 #include "engine/base/contract.hpp"
 #include "engine/effects/instant_effect.hpp"
 #include "engine/effects/memory_effect.hpp"
+#include "engine/simulate/lane_step.hpp"
 #include "kernels/elementary.hpp"
 
 namespace torquescope {
@@ -55,15 +56,11 @@ class CatalogueEffect final : public LaneEffect {
     JointStates const now = states_of(at, load, time_s);
     advance(now, at.step_s);
     if (is_dry_friction_) {
-      add_to(demand.forward, sliding(now, 1.0));
-      add_to(demand.backward, sliding(now, -1.0));
+      add_lanes(sliding(now, 1.0).data(), demand.forward);
+      add_lanes(sliding(now, -1.0).data(), demand.backward);
     } else {
       // with the acceleration of the step before, what goes with the acceleration would lag behind it
-      LaneTorques const coasting = torques(accelerated(now, none));
-      LaneTorques per_acceleration = torques(accelerated(now, one));
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) per_acceleration[lane] -= coasting[lane];
-      add_to(demand.smooth, coasting);
-      add_to(demand.inertia, per_acceleration);
+      add_straight(torques(accelerated(now, none)).data(), torques(accelerated(now, one)).data(), demand);
     }
   }
 
@@ -93,7 +90,7 @@ class CatalogueEffect final : public LaneEffect {
     LaneTorques time_s;
     JointStates const now = states_of(tick, load, time_s);
     advance(now, tick.step_s);
-    add_to(channel, torques(now));
+    add_lanes(torques(now).data(), channel);
   }
 
   void advance(JointStates const& at, double step_s) {
@@ -112,10 +109,6 @@ class CatalogueEffect final : public LaneEffect {
 
   static JointStates accelerated(JointStates const& at, LaneTorques const& ddq) {
     return {at.time_s, at.q, at.dq, of_lanes(ddq.data()), at.load_torque, at.motor_torque};
-  }
-
-  static void add_to(double* sum, LaneTorques const& torque) {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += torque[lane];
   }
 
   // memory as it stands

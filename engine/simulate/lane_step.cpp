@@ -60,6 +60,19 @@ void load(double inertia, LaneDryFriction const& friction, double const* held, d
   }
 }
 
+void add(double const* torque, double* sum) {
+  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d))
+    hn::StoreU(hn::Add(hn::LoadU(d, sum + lane), hn::LoadU(d, torque + lane)), d, sum + lane);
+}
+
+void straight(double const* coasting, double const* at_one, LaneDemand& demand) {
+  for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
+    V const smooth = hn::LoadU(d, coasting + lane), slope = hn::Sub(hn::LoadU(d, at_one + lane), smooth);
+    hn::StoreU(hn::Add(hn::LoadU(d, demand.smooth + lane), smooth), d, demand.smooth + lane);
+    hn::StoreU(hn::Add(hn::LoadU(d, demand.inertia + lane), slope), d, demand.inertia + lane);
+  }
+}
+
 }  // namespace torquescope::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -68,6 +81,8 @@ namespace torquescope {
 namespace {
 TORQUESCOPE_EXPORT(foresee);
 TORQUESCOPE_EXPORT(load);
+TORQUESCOPE_EXPORT(add);
+TORQUESCOPE_EXPORT(straight);
 }  // namespace
 
 void foresee_lanes(LaneState const& state, LaneInstant& at) {
@@ -78,6 +93,12 @@ void foresee_lanes(LaneState const& state, LaneInstant& at) {
 void load_lanes(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
                 LaneDemand const& demand, LaneState const& state, LaneTorques& torques) {
   TORQUESCOPE_DISPATCH(load)(inertia, friction, held, level, demand, state, torques);
+}
+
+void add_lanes(double const* torque, double* sum) { TORQUESCOPE_DISPATCH(add)(torque, sum); }
+
+void add_straight(double const* coasting, double const* at_one, LaneDemand& demand) {
+  TORQUESCOPE_DISPATCH(straight)(coasting, at_one, demand);
 }
 
 }  // namespace torquescope

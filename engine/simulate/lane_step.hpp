@@ -23,4 +23,10 @@ struct LaneDryFriction {
 void load_lanes(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
                 LaneDemand const& demand, LaneState const& state, LaneTorques& torques);
 
+// sum += torque
+void add_lanes(double const* torque, double* sum);
+
+// a torque that is straight in the acceleration, told at 0 and at 1
+void add_straight(double const* coasting, double const* at_one, LaneDemand& demand);
+
 }  // namespace torquescope
