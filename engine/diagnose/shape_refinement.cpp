@@ -56,8 +56,7 @@ class Refinement {
       std::vector<BoundedGain> gains(members);
       for_shapes_together(members, threads, [&](std::size_t first, std::size_t last) {
         auto const at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-        auto const groups =
-            columns_.group_of_each(effect_, {shapes.begin() + at(first), shapes.begin() + at(last)});
+        auto const groups = columns_.group_of_each(effect_, {shapes.begin() + at(first), shapes.begin() + at(last)});
         for (std::size_t i = first; i < last; ++i) gains[i] = gain_of(groups[i - first]);
       });
       for (std::size_t i = 0; i < members; ++i) {

@@ -44,7 +44,7 @@ struct EightLoads {
   Eight y{}, dy{}, side{};
   Eight weight{}, drive{};  // where the joint is
   Eight now{}, jerk{};      // what drives them in a step
-  Eight event{};        // 1 where contact begins or ends, and nothing was changed
+  Eight event{};            // 1 where contact begins or ends, and nothing was changed
 };
 
 }  // namespace torquescope::load_behind_gap

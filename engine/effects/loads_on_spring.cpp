@@ -196,9 +196,8 @@ class LoadsOnSpring final : public EffectMemory {
       block.square[k] = omega * omega;
       block.decay[k] = spring.damping * omega;
       block.ringing[k] = omega * std::sqrt(1.0 - spring.damping * spring.damping);
-      block.per_square[k] = spring.acceleration > 0.0
-                                ? spring.hardening * std::pow(omega * omega / spring.acceleration, 2)
-                                : 0.0;
+      block.per_square[k] =
+          spring.acceleration > 0.0 ? spring.hardening * std::pow(omega * omega / spring.acceleration, 2) : 0.0;
     }
   }
 

@@ -127,8 +127,8 @@ class CatalogueEffect final : public LaneEffect {
   LaneTorques sliding(JointStates const& at, double direction) const {
     LaneTorques dq;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      dq[lane] = direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)],
-                                      std::numeric_limits<double>::min());
+      dq[lane] =
+          direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], std::numeric_limits<double>::min());
     return torques({at.time_s, at.q, of_lanes(dq.data()), at.ddq, at.load_torque, at.motor_torque});
   }
 

@@ -40,7 +40,8 @@ void foresee(LaneState const& state, LaneInstant& at) {
 void load(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
           LaneDemand const& demand, LaneState const& state, LaneTorques& torques) {
   V const most_taken = hn::Set(d, -((1.0 - least_inertia_left) * inertia)), zero = hn::Zero(d);
-  V const half = hn::Set(d, 0.5), to_forward = hn::Set(d, friction.forward), to_backward = hn::Set(d, friction.backward);
+  V const half = hn::Set(d, 0.5), to_forward = hn::Set(d, friction.forward),
+          to_backward = hn::Set(d, friction.backward);
   for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
     V const wanted = hn::LoadU(d, demand.inertia + lane), own = hn::LoadU(d, level + lane);
     V const added = hn::IfThenElse(hn::Lt(wanted, most_taken), most_taken, wanted);

@@ -43,8 +43,9 @@ class Alone {
       double const follow = -ddq_ / square + 2.0 * decay_ * jerk / (square * square), dfollow = -jerk / square;
       double const free = y_ - follow, quadrature = (dy_ - dfollow + decay_ * free) / ringing_;
       double const rung = faded * (free * cosine + quadrature * sine);
-      dy_ = faded * ((quadrature * ringing_ - decay_ * free) * cosine - (free * ringing_ + decay_ * quadrature) * sine) +
-            dfollow;
+      dy_ =
+          faded * ((quadrature * ringing_ - decay_ * free) * cosine - (free * ringing_ + decay_ * quadrature) * sine) +
+          dfollow;
       y_ = rung + follow + dfollow * step_s;
       ddq_ += jerk * step_s;
       dy_ -= 0.5 * step_s * stiffened();
@@ -61,8 +62,11 @@ class Alone {
   double ddq_ = 0.0, y_ = 0.0, dy_ = 0.0;
 };
 
-std::vector<Spring> const springs{{9.0, 0.01, 0.0, 0.0}, {14.0, 0.1, 2.0, 40.0}, {31.0, 0.2, 8.0, 15.0},
-                                  {90.0, 0.02, 1.0, 60.0}, {5.0, 0.005, 0.3, 4.0}};
+std::vector<Spring> const springs{{9.0, 0.01, 0.0, 0.0},
+                                  {14.0, 0.1, 2.0, 40.0},
+                                  {31.0, 0.2, 8.0, 15.0},
+                                  {90.0, 0.02, 1.0, 60.0},
+                                  {5.0, 0.005, 0.3, 4.0}};
 
 double acceleration(std::size_t lane, double time_s) {
   double const fast = 60.0 + 11.0 * static_cast<double>(lane);
@@ -121,11 +125,11 @@ TEST_P(ColumnsOfShapes, AreThoseOfOneShapeAfterTheOther) {
   scales.gravity_sin = 3.0;
   scales.torque_rms = 5.0;
   std::vector<double> const torque(motion.torque.data(), motion.torque.data() + motion.torque.size());
-  for (auto const& [name, shape] : {std::pair{"joint_elasticity", std::vector{9.0, 0.02, 1.0}},
-                                    std::pair{"backlash", std::vector{2e-3, 25.0, 0.1, 5.0, 0.3}},
-                                    std::pair{"breakaway_dwell", std::vector{0.3, 0.01, 0.2}},
-                                    std::pair{"presliding", std::vector{0.01}},
-                                    std::pair{"friction_lag", std::vector{0.05, 0.4, 0.5}}}) {
+  for (auto const& [name, shape] :
+       {std::pair{"joint_elasticity", std::vector{9.0, 0.02, 1.0}},
+        std::pair{"backlash", std::vector{2e-3, 25.0, 0.1, 5.0, 0.3}},
+        std::pair{"breakaway_dwell", std::vector{0.3, 0.01, 0.2}}, std::pair{"presliding", std::vector{0.01}},
+        std::pair{"friction_lag", std::vector{0.05, 0.4, 0.5}}}) {
     auto const* effect = find_effect(name);
     auto const linear = static_cast<Eigen::Index>(effect->n_linear());
     std::vector<std::vector<double>> shapes;
