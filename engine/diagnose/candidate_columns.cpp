@@ -79,8 +79,7 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
   bool const on_rows = is_fixed_frequency(effect);
   Eigen::MatrixXd all(on_rows ? record_->torque.size() : record_->motion.q.size(), linear * count);
   EffectInput const input = on_rows ? EffectInput{row_motion_, reference_.scales} : input_of(effect);
-  for (Eigen::Index i = 0; i < count; ++i)
-    effect.columns(input, shapes[static_cast<std::size_t>(i)], all.middleCols(i * linear, linear));
+  effect.columns_of_shapes(input, shapes, all);
   return on_rows ? all : pipeline_->filtered_columns(all, *record_);
 }
 
@@ -114,6 +113,26 @@ OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double 
   return orthonormal_group(columns(effect, shape), nuisance_, signs(effect));
 }
 
+std::vector<Eigen::MatrixXd> CandidateColumns::columns_of_each(Effect const& effect,
+                                                               std::vector<std::vector<double>> const& shapes) const {
+  auto const linear = static_cast<Eigen::Index>(effect.n_linear());
+  Eigen::MatrixXd const plain = plain_columns_of(effect, shapes);
+  std::vector<Eigen::MatrixXd> each;
+  for (Eigen::Index first = 0; first < plain.cols(); first += linear) {
+    each.emplace_back(plain.middleCols(first, linear));
+    pipeline_->whiten(each.back(), record_->kept_rows);
+  }
+  return each;
+}
+
+std::vector<OrthonormalGroup> CandidateColumns::group_of_each(Effect const& effect,
+                                                              std::vector<std::vector<double>> const& shapes) const {
+  std::vector<OrthonormalGroup> groups;
+  for (auto& columns : columns_of_each(effect, shapes))
+    groups.push_back(orthonormal_group(std::move(columns), nuisance_, signs(effect)));
+  return groups;
+}
+
 Eigen::MatrixXd CandidateColumns::fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const {
   auto const& model = pipeline_->model();
   std::vector<Eigen::VectorXd> found;
@@ -123,16 +142,19 @@ Eigen::MatrixXd CandidateColumns::fill_tangents(Eigen::VectorXd const& parameter
     auto const ranges = effect->shape_bounds(reference_.scales);
     auto const first = static_cast<Eigen::Index>(model.first_parameter(i));
     Eigen::VectorXd const linear = parameters.segment(first, static_cast<Eigen::Index>(effect->n_linear()));
-    Eigen::VectorXd const here = columns(*effect, shape) * linear;
+    std::vector<std::vector<double>> shapes{shape};
     for (std::size_t k = 0; k < shape.size(); ++k) {
-      std::vector<double> moved = shape;
+      shapes.push_back(shape);
+      shapes.back()[k] += shape_step(ranges[k], shape[k]);
+    }
+    std::vector<Eigen::MatrixXd> const each = columns_of_each(*effect, shapes);
+    Eigen::VectorXd const here = each.front() * linear;
+    for (std::size_t k = 0; k < shape.size(); ++k) {
       double const step = shape_step(ranges[k], shape[k]);
-      if (step == 0.0) {  // no other value could be
+      if (step == 0.0)  // no other value could be
         found.emplace_back(Eigen::VectorXd::Zero(here.size()));
-        continue;
-      }
-      moved[k] += step;
-      found.emplace_back((columns(*effect, moved) * linear - here) / step);
+      else
+        found.emplace_back((each[k + 1] * linear - here) / step);
     }
   }
   Eigen::MatrixXd tangents(record_->torque.size(), static_cast<Eigen::Index>(found.size()));

@@ -50,6 +50,11 @@ class CandidateColumns {
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
   // of several shapes: their columns go through the filter side by side
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
+  // The same to the last digit as columns() and group() of one shape after the other, which the projection of groups() is not
+  std::vector<Eigen::MatrixXd> columns_of_each(Effect const& effect,
+                                               std::vector<std::vector<double>> const& shapes) const;
+  std::vector<OrthonormalGroup> group_of_each(Effect const& effect,
+                                              std::vector<std::vector<double>> const& shapes) const;
 
  private:
   EffectInput input_of(Effect const& effect) const;

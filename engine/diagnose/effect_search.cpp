@@ -195,17 +195,17 @@ std::vector<Trial> EffectSearch::refined_trials(BothMotions const& columns, std:
 // where the shape of the recording's own motion explains a good part more than that of the common motion
 void EffectSearch::prefer_own_motion(CandidateColumns const& own, Trial& trial) {
   bool const leaves_much = trial.refined.gain < (1.0 - least_share_of_rest) * remaining_;
-  auto const search = [&](bool everywhere) {
-    auto found = refine_on_own_motion(own, trial.scan, stage().mismatch(),
-                                      {options_->shape_optimiser, setting_.seed, everywhere}, setting_.threads);
+  Eigen::VectorXd const mismatch = stage().mismatch();
+  OwnMotionShapes shapes(own, trial.scan, mismatch, options_->shape_optimiser, setting_.seed, setting_.threads);
+  auto const counted = [&](std::optional<RefinedEffect> found) {
     if (found) selection_.evaluations += found->evaluations;
     return found;
   };
-  auto found = search(leaves_much);
+  auto found = counted(leaves_much ? shapes.everywhere() : shapes.nearby());
   // a load that rings or knocks explains as much on either motion, or its shape is not found yet
   bool const is_lost = !found || found->gain < (1.0 - least_share_of_rest) * trial.refined.gain;
   if (!leaves_much && is_lost && trial.scan.effect->has_inertia())
-    if (auto further = search(true)) found = std::move(further);
+    if (auto further = counted(shapes.everywhere())) found = std::move(further);
   if (!found) return;
   if (found->gain >= trial.refined.gain + least_share_of_rest * remaining_) {
     trial.refined = std::move(*found);

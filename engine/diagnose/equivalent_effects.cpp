@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/base/parallel.hpp"
+#include "engine/diagnose/shapes_together.hpp"
 
 namespace torquescope {
 namespace {
@@ -15,9 +15,12 @@ EffectScan best_on(CandidateColumns const& columns, Effect const& effect, Eigen:
   scan.effect = &effect;
   scan.grid = shape_grid(effect, columns.scales());
   std::vector<BoundedGain> gains(scan.grid.size());
-  parallel_for(gains.size(), threads, [&](std::size_t k, int) {
-    OrthonormalGroup const group = columns.group(effect, scan.grid.point(k));
-    gains[k] = bounded_gain(group, group.q.transpose() * signal);
+  for_shapes_together(gains.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<std::vector<double>> shapes;
+    for (std::size_t k = first; k < last; ++k) shapes.push_back(scan.grid.point(k));
+    auto const groups = columns.group_of_each(effect, shapes);
+    for (std::size_t k = first; k < last; ++k)
+      gains[k] = bounded_gain(groups[k - first], groups[k - first].q.transpose() * signal);
   });
   auto const best =
       std::max_element(gains.begin(), gains.end(), [](auto const& a, auto const& b) { return a.gain < b.gain; });

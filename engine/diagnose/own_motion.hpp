@@ -31,8 +31,32 @@ struct OwnMotionSearch {
   bool everywhere = false;
 };
 
-// own: columns on the recording's motion; scan: of the effect, with its grid. Nothing for an effect without memory, or one that
-// explains nothing there
+// The searches of one effect, each made once: that of the whole bounds begins with what is next to the grid's best point
+class OwnMotionShapes {
+ public:
+  // own: columns on the recording's motion; scan: of the effect, with its grid; all of them outlive this
+  OwnMotionShapes(CandidateColumns const& own, EffectScan const& scan, Eigen::VectorXd const& mismatch,
+                  std::string optimiser, std::uint64_t seed, int threads);
+
+  // nothing for an effect without memory, or one that explains nothing there
+  std::optional<RefinedEffect> const& nearby();
+  std::optional<RefinedEffect> everywhere();  // counts the evaluations of nearby() as well
+
+ private:
+  ShapeSearch longer_search() const;
+
+  CandidateColumns const& own_;
+  EffectScan const& scan_;
+  Eigen::VectorXd const& mismatch_;
+  std::string optimiser_;
+  std::uint64_t seed_;
+  int threads_;
+  bool is_made_ = false;
+  std::optional<std::size_t> point_{};
+  std::optional<RefinedEffect> nearby_{};
+};
+
+// one of them
 std::optional<RefinedEffect> refine_on_own_motion(CandidateColumns const& own, EffectScan const& scan,
                                                   Eigen::VectorXd const& mismatch, OwnMotionSearch const& how,
                                                   int threads);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
-#include "engine/base/parallel.hpp"
+#include "engine/diagnose/shapes_together.hpp"
 
 namespace torquescope {
 namespace {
@@ -50,15 +50,19 @@ class Refinement {
       std::size_t const members = optimiser->batch_size();
       std::vector<double> candidates(members * d), fitness(members);
       optimiser->ask({candidates.data(), members, d});
-      std::vector<std::pair<std::vector<double>, BoundedGain>> found(members);
-      parallel_for(members, threads, [&](std::size_t i, int) {
-        std::vector<double> shape(d);
-        for (std::size_t k = 0; k < d; ++k) shape[k] = from_unit(ranges_[k], candidates[i * d + k]);
-        BoundedGain gain = gain_at(shape);
-        fitness[i] = -gain.gain;
-        found[i] = {std::move(shape), std::move(gain)};
+      std::vector<std::vector<double>> shapes(members, std::vector<double>(d));
+      for (std::size_t i = 0; i < members; ++i)
+        for (std::size_t k = 0; k < d; ++k) shapes[i][k] = from_unit(ranges_[k], candidates[i * d + k]);
+      std::vector<BoundedGain> gains(members);
+      for_shapes_together(members, threads, [&](std::size_t first, std::size_t last) {
+        auto const at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+        auto const groups = columns_.group_of_each(effect_, {shapes.begin() + at(first), shapes.begin() + at(last)});
+        for (std::size_t i = first; i < last; ++i) gains[i] = gain_of(groups[i - first]);
       });
-      for (auto& [shape, gain] : found) keep(shape, gain);
+      for (std::size_t i = 0; i < members; ++i) {
+        fitness[i] = -gains[i].gain;
+        keep(shapes[i], gains[i]);
+      }
       optimiser->tell({candidates.data(), members, d}, fitness);
     }
   }
@@ -80,8 +84,9 @@ class Refinement {
   }
 
  private:
-  BoundedGain gain_at(std::vector<double> const& shape) const {
-    OrthonormalGroup const group = columns_.group(effect_, shape);
+  BoundedGain gain_at(std::vector<double> const& shape) const { return gain_of(columns_.group(effect_, shape)); }
+
+  BoundedGain gain_of(OrthonormalGroup const& group) const {
     return boxed_gain(group, inner_products(group.q, mismatch_), least_, most_);
   }
 
@@ -114,16 +119,22 @@ class Refinement {
   std::vector<double> stepped(double damping) {
     std::size_t const d = ranges_.size();
     Eigen::Index const linear = best_.parameters.size();
-    Eigen::MatrixXd const here = columns_.columns(effect_, best_.shape);
+    std::vector<std::vector<double>> shapes{best_.shape};
+    std::vector<double> steps;
+    for (std::size_t k = 0; k < d; ++k) {
+      double const unit = to_unit(ranges_[k], best_.shape[k]);
+      steps.push_back(unit < 0.999 ? 1e-3 : -1e-3);
+      shapes.push_back(best_.shape);
+      shapes.back()[k] = from_unit(ranges_[k], unit + steps.back());
+    }
+    std::vector<Eigen::MatrixXd> const each = columns_.columns_of_each(effect_, shapes);
+    Eigen::MatrixXd const& here = each.front();
     Eigen::MatrixXd jacobian(mismatch_.size(), linear + static_cast<Eigen::Index>(d));
     for (Eigen::Index k = 0; k < linear; ++k) jacobian.col(k) = without_nuisance(here.col(k));
     for (std::size_t k = 0; k < d; ++k) {
-      std::vector<double> moved = best_.shape;
-      double const unit = to_unit(ranges_[k], best_.shape[k]);
-      double const step = unit < 0.999 ? 1e-3 : -1e-3;
-      moved[k] = from_unit(ranges_[k], unit + step);
-      Eigen::VectorXd const there = columns_.columns(effect_, moved) * best_.parameters;
-      jacobian.col(linear + static_cast<Eigen::Index>(k)) = without_nuisance((there - here * best_.parameters) / step);
+      Eigen::VectorXd const there = each[k + 1] * best_.parameters;
+      jacobian.col(linear + static_cast<Eigen::Index>(k)) =
+          without_nuisance((there - here * best_.parameters) / steps[k]);
       ++best_.evaluations;
     }
     Eigen::VectorXd const left = without_nuisance(mismatch_) - jacobian.leftCols(linear) * best_.parameters;
@@ -160,21 +171,6 @@ RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::s
   return std::move(refinement).take();
 }
 
-// the point of the grid that explains most, of the plausible ones
-std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
-                                                Eigen::VectorXd const& mismatch, int threads) {
-  std::vector<double> gains(scan.grid.size(), 0.0);
-  parallel_for(gains.size(), threads, [&](std::size_t k, int) {
-    auto const shape = scan.grid.point(k);
-    if (!scan.effect->is_plausible(shape, columns.scales())) return;
-    OrthonormalGroup const group = columns.group(*scan.effect, shape);
-    gains[k] = bounded_gain(group, inner_products(group.q, mismatch)).gain;
-  });
-  auto const most = std::max_element(gains.begin(), gains.end());
-  if (most == gains.end() || *most <= 0.0) return std::nullopt;
-  return static_cast<std::size_t>(most - gains.begin());
-}
-
 }  // namespace
 
 ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::int64_t members) {
@@ -190,27 +186,43 @@ ShapeSearch shape_search(std::string const& optimiser, std::uint64_t seed, std::
   return search;
 }
 
+std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
+                                                Eigen::VectorXd const& mismatch, int threads) {
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < scan.grid.size(); ++k)
+    if (scan.effect->is_plausible(scan.grid.point(k), columns.scales())) points.push_back(k);
+  std::vector<double> gains(scan.grid.size(), 0.0);
+  for_shapes_together(points.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<std::vector<double>> shapes;
+    for (std::size_t i = first; i < last; ++i) shapes.push_back(scan.grid.point(points[i]));
+    auto const groups = columns.group_of_each(*scan.effect, shapes);
+    for (std::size_t i = first; i < last; ++i) {
+      auto const& group = groups[i - first];
+      gains[points[i]] = bounded_gain(group, inner_products(group.q, mismatch)).gain;
+    }
+  });
+  auto const most = std::max_element(gains.begin(), gains.end());
+  if (most == gains.end() || *most <= 0.0) return std::nullopt;
+  return static_cast<std::size_t>(most - gains.begin());
+}
+
+RefinedEffect refine_plausible_from(CandidateColumns const& columns, EffectScan const& scan, std::size_t point,
+                                    Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
+  return refined_from({columns, scan, point, mismatch, true}, scan, point, search, threads);
+}
+
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
-                                              Eigen::VectorXd const& mismatch, std::span<ShapeSearch const> searches,
-                                              int threads) {
+                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads) {
   auto const point = best_plausible_point(columns, scan, mismatch, threads);
   if (!point) return std::nullopt;
-  std::optional<RefinedEffect> best;
-  std::int64_t evaluations = 0;
-  for (ShapeSearch const& search : searches) {
-    auto found = refined_from({columns, scan, *point, mismatch, true}, scan, *point, search, threads);
-    evaluations += found.evaluations;
-    if (!best || found.gain > best->gain) best = std::move(found);
-  }
-  best->evaluations = evaluations;
-  return best;
+  return refine_plausible_from(columns, scan, *point, mismatch, search, threads);
 }
 
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads) {
   RefinedEffect best = refined_from({columns, scan, scan.best_point, mismatch}, scan, scan.best_point, search, threads);
   if (scan.effect->is_plausible(best.shape, columns.scales())) return best;
-  auto plausible = refine_plausible(columns, scan, mismatch, {&search, 1}, threads);
+  auto plausible = refine_plausible(columns, scan, mismatch, search, threads);
   if (!plausible || plausible->gain < nearly_as_good * best.gain) return best;
   plausible->evaluations += best.evaluations;
   return std::move(*plausible);

@@ -14,7 +14,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/diagnose/candidate_scan.hpp"
@@ -57,10 +56,15 @@ struct RefinedEffect {
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads);
 
-// the best that it could have and that any of the searches finds, begun at the grid's point that explains most of the mismatch on these
-// columns' motion; nothing where none explains any
+// the best that it could have, begun at the grid's point that explains most of the mismatch on these columns' motion; nothing where none
+// explains any
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
-                                              Eigen::VectorXd const& mismatch, std::span<ShapeSearch const> searches,
-                                              int threads);
+                                              Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads);
+
+// the same in two steps, for several searches from one point
+std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns, EffectScan const& scan,
+                                                Eigen::VectorXd const& mismatch, int threads);
+RefinedEffect refine_plausible_from(CandidateColumns const& columns, EffectScan const& scan, std::size_t point,
+                                    Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads);
 
 }  // namespace torquescope

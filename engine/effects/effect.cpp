@@ -63,6 +63,17 @@ bool Effect::is_plain_term() const {
   return takes_shape(0) && !has_memory() && !needs_baseline() && acts_on() == ActsOn::joint;
 }
 
+void Effect::columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,
+                               Eigen::Ref<Eigen::MatrixXd> out) const {
+  auto const linear = static_cast<Eigen::Index>(n_linear());
+  TORQUESCOPE_EXPECT(out.cols() == linear * static_cast<Eigen::Index>(shapes.size()));
+  Eigen::Index first = 0;
+  for (auto const& shape : shapes) {
+    columns(input, shape, out.middleCols(first, linear));
+    first += linear;
+  }
+}
+
 double Effect::torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const {
   return runner(parameters, scales)->torque(state, 0.0);
 }

@@ -170,6 +170,9 @@ class Effect {
 
   virtual void columns(EffectInput const& input, std::span<double const> shape,
                        Eigen::Ref<Eigen::MatrixXd> out) const = 0;
+  // of several shapes, one beside the other: the same to the last digit
+  virtual void columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,
+                                 Eigen::Ref<Eigen::MatrixXd> out) const;
   // all parameters, linear ones first; without shapes: the plain form
   virtual std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const = 0;
   // torque at one instant; of an effect with memory, as if it began here; sign(0) = 0

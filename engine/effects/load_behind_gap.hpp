@@ -48,7 +48,6 @@ class Grease {
   // changes nothing in this time, and would cancel all digits
   bool is_thin(double time_s) const { return film_per_s_ * time_s < 1e-6; }
   double push_per_s() const { return push_per_s_; }
-  double film_per_s() const { return film_per_s_; }
   double per_film() const { return per_film_; }  // infinite without any: thin
 
  private:
@@ -234,7 +233,6 @@ class LoadBehindGap {
     load_.side = side_at(load_.at);
   }
   DryFriction const& dry() const { return dry_; }
-  double drag_per_s() const { return drag_per_s_; }
 
   // what a load that is fixed to the motor would need, but for its dry friction
   double drive(JointState const& state) const { return drive_of(state, load_.weight); }
@@ -261,6 +259,7 @@ class LoadBehindGap {
   LoadState const& load() const { return load_; }
   void put(LoadState const& load) { load_ = load; }
   double half_gap() const { return half_gap_; }
+  double drag_per_s() const { return drag_per_s_; }
   Flank const& flank() const { return flank_; }
   Grease const& grease() const { return grease_; }
   GapSubSteps const& sub_steps() const { return sub_steps_; }

@@ -31,6 +31,15 @@ void MemoryEffect::columns(EffectInput const& input, std::span<double const> sha
   memory(shape, input.scales, 1)->columns(input, out);
 }
 
+void MemoryEffect::columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,
+                                     Eigen::Ref<Eigen::MatrixXd> out) const {
+  TORQUESCOPE_EXPECT(out.rows() == input.size() && out.cols() == static_cast<Eigen::Index>(n_linear() * shapes.size()));
+  if (shapes.empty()) return;
+  auto const all = memory(shapes.front(), input.scales, 1);
+  for (std::size_t i = 1; i < shapes.size(); ++i) all->append(*memory(shapes[i], input.scales, 1));
+  all->columns(input, out);
+}
+
 std::unique_ptr<EffectRunner> MemoryEffect::runner(std::span<double const> parameters,
                                                    JointScales const& scales) const {
   TORQUESCOPE_EXPECT(parameters.size() == n_linear() + n_shape());

@@ -6,13 +6,19 @@
 //   void advance(JointState const& state, double step_s)                                    step_s > 0
 //   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
 //
+// Shared     a class whose memory does not depend on all of its shapes may say so, and is told once for those that share it:
+//   bool shares_memory(State const& other) const        both remember the same after the same motion
+//   void remember(State const& other)                   what the other does
+//
 // Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or time
 // Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
 //            them and not once for each: a twin takes 50 000 steps per second
 // Threads    an EffectMemory is used by one thread
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/effect.hpp"
@@ -20,11 +26,14 @@
 
 namespace torquescope {
 
-// the states behind the columns of one effect at one shape, one per lane
+// the states behind the columns of one effect, one per lane: of one shape for twins, of one shape each for columns
 class EffectMemory {
  public:
   virtual ~EffectMemory() = default;
-  // of one lane that starts with the motion; out: input.size() x linear parameters
+  // `other`, of the same effect and one lane as this, becomes the lane after the last
+  virtual void append(EffectMemory const& other) = 0;
+  // of lanes that start with the motion; out: input.size() x linear parameters of each lane.
+  // A state waits for itself from sample to sample, so that several take hardly longer than one
   virtual void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) = 0;
   // the lanes have come to `at`; they start with the first call
   virtual void advance(JointStates const& at, double step_s) = 0;
@@ -36,6 +45,8 @@ class MemoryEffect : public Effect {
   using Effect::Effect;
   bool has_memory() const final { return true; }
   void columns(EffectInput const& input, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override;
+  void columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,
+                         Eigen::Ref<Eigen::MatrixXd> out) const override;
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
   // of several joints with one shape
   virtual std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
@@ -45,19 +56,32 @@ class MemoryEffect : public Effect {
 // what a file in effects/ returns as memory(): `lanes` copies of a state that has not started
 template <typename State>
 std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
+  constexpr bool may_share = requires(State state) { state.shares_memory(state); };
   class Lanes final : public EffectMemory {
    public:
     Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
 
+    void append(EffectMemory const& other) override {
+      auto const& added = static_cast<Lanes const&>(other).states_;
+      states_.insert(states_.end(), added.begin(), added.end());
+    }
+
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
+      std::vector<State const*> const tellers = who_remember();
       for (Eigen::Index i = 0; i < input.size(); ++i) {
         JointState const now = input.state(i);
-        if (i == 0)
-          states_.front().start(now);
-        else
-          states_.front().advance(now, input.motion.time_s[i] - input.motion.time_s[i - 1]);
-        auto const row = states_.front().row(now);
-        for (std::size_t k = 0; k < row.size(); ++k) out(i, static_cast<Eigen::Index>(k)) = row[k];
+        double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
+        Eigen::Index column = 0;
+        for (std::size_t lane = 0; lane < states_.size(); ++lane) {
+          State& state = states_[lane];
+          if (i == 0)
+            state.start(now);
+          else if (tellers[lane] == &state)
+            state.advance(now, step_s);
+          else if constexpr (may_share)
+            state.remember(*tellers[lane]);
+          for (double const value : state.row(now)) out(i, column++) = value;
+        }
       }
     }
 
@@ -84,6 +108,18 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
+    // for each lane the first that shares its memory
+    std::vector<State const*> who_remember() const {
+      std::vector<State const*> tellers;
+      for (State const& state : states_) {
+        tellers.push_back(&state);
+        if constexpr (may_share)
+          tellers.back() = &*std::find_if(states_.begin(), states_.end(),
+                                          [&](State const& other) { return state.shares_memory(other); });
+      }
+      return tellers;
+    }
+
     std::vector<State> states_;
     bool has_started_ = false;
   };

@@ -8,6 +8,7 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/random_stream.hpp"
 #include "engine/simulate/lane_noise.hpp"
+#include "engine/simulate/lane_step.hpp"
 
 namespace torquescope {
 namespace {
@@ -100,41 +101,6 @@ LaneInstant instant_of(LaneState const& state, double time_s, double step_s, dou
   return at;
 }
 
-// half a step on, straight ahead; a velocity does not turn in it
-void foresee(LaneInstant& at) {
-  double const half = 0.5 * at.step_s;
-  at.time_s += half;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    double const dq = at.dq[lane] + half * at.ddq[lane];
-    at.q[lane] += half * at.dq[lane];
-    at.dq[lane] = dq * at.dq[lane] > 0.0 ? dq : 0.0;
-  }
-}
-
-// An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
-// beyond this share that stays goes by the acceleration of the step before.
-constexpr double least_inertia_left = 0.05;
-
-// held: torque that acts during the tick; friction: level of the joint's own
-void load_lanes(TwinJoint const& joint, double const* held, double const* friction, LaneDemand const& demand,
-                LaneState const& state, LaneTorques& torques) {
-  double const most_taken = (1.0 - least_inertia_left) * joint.lanes.inertia;
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    torques.added_inertia[lane] = std::max(demand.inertia[lane], -most_taken);
-    double const lagging = (demand.inertia[lane] - torques.added_inertia[lane]) * state.ddq[lane];
-    torques.held[lane] = held[lane] - demand.smooth[lane] - lagging;
-    double forward = friction[lane] * joint.coulomb_forward + demand.forward[lane];
-    double backward = friction[lane] * joint.coulomb_backward + demand.backward[lane];
-    // friction that an effect turned into a drive holds nothing at rest; what slides keeps the torque of its own branch
-    if (forward < backward) {
-      double const dq = state.dq[lane];
-      forward = backward = dq > 0.0 ? forward : dq < 0.0 ? backward : 0.5 * (forward + backward);
-    }
-    torques.forward[lane] = forward;
-    torques.backward[lane] = backward;
-  }
-}
-
 }  // namespace
 
 TwinLoop noiseless(TwinLoop loop) {
@@ -194,6 +160,9 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   draw_starts(address, group, loop_, track_, state.q);
   std::fill_n(state.dq, twin_lanes, track_.start_velocity);
   LaneTorques torques;
+  LaneDryFriction const dry{joint_.coulomb_forward, joint_.coulomb_backward};
+  LaneInstant at;  // in the middle of a step
+  at.step_s = step_s_;
   bool const any_follows_steps =
       std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
   bool const any_follows_ticks =
@@ -240,22 +209,23 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     LaneDemand of_tick;
     if (any_follows_ticks) {
       LaneInstant middle = instant_of(state, time_s, tick_s, command);
-      foresee(middle);
+      foresee_lanes(state, middle);
       for (auto const& effect : effects)
         if (!effect->follows_steps()) effect->add(middle, of_tick);
     }
     if (!any_follows_steps) {
-      load_lanes(joint_, noise, friction.level(), of_tick, state, torques);
+      load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), of_tick, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
       continue;
     }
+    std::copy_n(command, twin_lanes, at.motor_torque);
     for (std::size_t step = 0; step < steps_per_tick_; ++step) {
-      LaneInstant at = instant_of(state, time_s + static_cast<double>(step) * step_s_, step_s_, command);
-      foresee(at);
+      at.time_s = time_s + static_cast<double>(step) * step_s_;
+      foresee_lanes(state, at);
       LaneDemand demand = of_tick;
       for (auto const& effect : effects)
         if (effect->follows_steps()) effect->add(at, demand);
-      load_lanes(joint_, noise, friction.level(), demand, state, torques);
+      load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), demand, state, torques);
       advance_lanes(joint_.lanes, torques, step_s_, 1, state);
     }
   }

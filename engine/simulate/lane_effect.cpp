@@ -8,12 +8,21 @@
 #include "engine/base/contract.hpp"
 #include "engine/effects/instant_effect.hpp"
 #include "engine/effects/memory_effect.hpp"
+#include "engine/simulate/lane_step.hpp"
 #include "kernels/elementary.hpp"
 
 namespace torquescope {
 namespace {
 
 using LaneTorques = std::array<double, twin_lanes>;
+
+// the same in all lanes
+constexpr LaneTorques filled(double value) {
+  LaneTorques all{};
+  for (double& lane : all) lane = value;
+  return all;
+}
+constexpr LaneTorques none = filled(0.0), one = filled(1.0);
 
 class CatalogueEffect final : public LaneEffect {
  public:
@@ -44,19 +53,16 @@ class CatalogueEffect final : public LaneEffect {
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;
     LaneTorques const load = load_torques(at);
-    advance(at, load);
-    LaneInstant trial = at;
-    if (is_dry_friction_) return add_sliding(trial, at, load, demand);
+    LaneTorques time_s;
+    JointStates const now = states_of(at, load, time_s);
+    advance(now, at.step_s);
+    if (is_dry_friction_) return add_sliding(now, demand);
     // with the acceleration of the step before, what goes with the acceleration would lag behind it
-    std::fill_n(trial.ddq, twin_lanes, 0.0);
-    LaneTorques const coasting = torques(trial, load);
-    std::fill_n(trial.ddq, twin_lanes, 1.0);
-    LaneTorques per_acceleration = torques(trial, load);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) per_acceleration[lane] -= coasting[lane];
-    add_to(demand.inertia, per_acceleration);
-    if (!is_partly_dry_) return add_to(demand.smooth, coasting);
-    std::fill_n(trial.ddq, twin_lanes, 0.0);
-    add_sliding(trial, at, load, demand);
+    JointStates const coasts = accelerated(now, none);
+    LaneTorques const coasting = torques(coasts), at_one = torques(accelerated(now, one));
+    if (!is_partly_dry_) return add_straight(coasting.data(), at_one.data(), demand);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) demand.inertia[lane] += at_one[lane] - coasting[lane];
+    add_sliding(coasts, demand);
   }
 
   void shift_position(LaneInstant const& tick, double* position) override {
@@ -80,60 +86,56 @@ class CatalogueEffect final : public LaneEffect {
     return load;
   }
 
-  static JointState state_of(LaneInstant const& at, LaneTorques const& load, std::size_t lane) {
-    return {at.time_s, at.q[lane], at.dq[lane], at.ddq[lane], load[lane], at.motor_torque[lane]};
-  }
-
   void shift(LaneInstant const& tick, double* channel) {
     LaneTorques const load = load_torques(tick);
-    advance(tick, load);
-    add_to(channel, torques(tick, load));
+    LaneTorques time_s;
+    JointStates const now = states_of(tick, load, time_s);
+    advance(now, tick.step_s);
+    add_lanes(torques(now).data(), channel);
   }
 
-  void advance(LaneInstant const& at, LaneTorques const& load) {
-    LaneTorques time_s;
-    if (memory_) memory_->advance(states_of(at, load, time_s), at.step_s);
-    for (std::size_t lane = 0; lane < runners_.size(); ++lane)
-      runners_[lane]->advance(state_of(at, load, lane), at.step_s);
+  void advance(JointStates const& at, double step_s) {
+    if (memory_) memory_->advance(at, step_s);
+    for (std::size_t lane = 0; lane < runners_.size(); ++lane) runners_[lane]->advance(at.state(lane), step_s);
   }
+
+  static JointStates::Quantity of_lanes(double const* values) { return {values, twin_lanes}; }
 
   // time_s: room for what the lanes have in common
   static JointStates states_of(LaneInstant const& at, LaneTorques const& load, LaneTorques& time_s) {
     time_s.fill(at.time_s);
-    auto const of_lanes = [](double const* values) { return JointStates::Quantity(values, twin_lanes); };
     return {of_lanes(time_s.data()), of_lanes(at.q),        of_lanes(at.dq),
             of_lanes(at.ddq),        of_lanes(load.data()), of_lanes(at.motor_torque)};
   }
 
-  static void add_to(double* sum, LaneTorques const& torque) {
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += torque[lane];
+  static JointStates accelerated(JointStates const& at, LaneTorques const& ddq) {
+    return {at.time_s, at.q, at.dq, of_lanes(ddq.data()), at.load_torque, at.motor_torque};
   }
 
   // memory as it stands
-  LaneTorques torques(LaneInstant const& at, LaneTorques const& load) const {
-    LaneTorques found{};
-    LaneTorques time_s;
-    JointStates const states = states_of(at, load, time_s);
+  LaneTorques torques(JointStates const& at) const {
+    LaneTorques found;
     if (law_ != nullptr)
-      law_->torques(states, parameters_, scales_, found);
+      law_->torques(at, parameters_, scales_, found);
     else if (memory_)
-      memory_->torques(states, linear_, found);
+      memory_->torques(at, linear_, found);
     else
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-        found[lane] = runners_[lane]->torque(state_of(at, load, lane));
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) found[lane] = runners_[lane]->torque(at.state(lane));
     return found;
   }
 
-  void add_sliding(LaneInstant& trial, LaneInstant const& at, LaneTorques const& load, LaneDemand& demand) const {
-    add_to(demand.forward, sliding(trial, at, load, 1.0));
-    add_to(demand.backward, sliding(trial, at, load, -1.0));
+  void add_sliding(JointStates const& at, LaneDemand& demand) const {
+    add_lanes(sliding(at, 1.0).data(), demand.forward);
+    add_lanes(sliding(at, -1.0).data(), demand.backward);
   }
 
   // the branch that moves in `direction`, continued to rest
-  LaneTorques sliding(LaneInstant& trial, LaneInstant const& at, LaneTorques const& load, double direction) const {
+  LaneTorques sliding(JointStates const& at, double direction) const {
+    LaneTorques dq;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      trial.dq[lane] = direction * std::max(direction * at.dq[lane], std::numeric_limits<double>::min());
-    return torques(trial, load);
+      dq[lane] =
+          direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], std::numeric_limits<double>::min());
+    return torques({at.time_s, at.q, of_lanes(dq.data()), at.ddq, at.load_torque, at.motor_torque});
   }
 
   ActsOn acts_on_;

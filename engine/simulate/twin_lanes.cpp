@@ -36,6 +36,32 @@ inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
 // two vectors in flight hide half of each other's latency; more would spill with AVX2's 16 registers
 inline constexpr std::size_t n_vectors = vector_lanes * 2 <= twin_lanes ? 2 : 1;
 
+// sine, cosine: of the angle, where there is a weight
+template <bool has_weight>
+HWY_INLINE void accelerate(LaneJoint const& joint, LaneTorques const& torques, LaneState const& state,
+                           double const* sine, double const* cosine, LaneAccelerations& a) {
+  V const one = hn::Set(d, 1.0), inertia = hn::Set(d, joint.inertia), viscous = hn::Set(d, joint.viscous);
+  V const gravity_sin = hn::Set(d, joint.gravity_sin), gravity_cos = hn::Set(d, joint.gravity_cos);
+  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+    V const per_inertia = hn::Div(one, hn::Add(inertia, hn::Load(d, torques.added_inertia + lane)));
+    V const held = hn::Load(d, torques.held + lane);
+    hn::Store(hn::Mul(viscous, per_inertia), d, a.damping + lane);
+    hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.forward + lane)), per_inertia), d, a.held_forward + lane);
+    hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.backward + lane)), per_inertia), d, a.held_backward + lane);
+    hn::Store(hn::Load(d, state.q + lane), d, a.from + lane);
+    if constexpr (has_weight) {
+      V const s = hn::Load(d, sine + lane), c = hn::Load(d, cosine + lane);
+      V const weight = hn::Add(hn::Mul(gravity_sin, s), hn::Mul(gravity_cos, c));
+      V const slope = hn::Sub(hn::Mul(gravity_sin, c), hn::Mul(gravity_cos, s));
+      hn::Store(hn::Mul(weight, per_inertia), d, a.weight + lane);
+      hn::Store(hn::Mul(slope, per_inertia), d, a.weight_slope + lane);
+    } else {
+      hn::Store(hn::Zero(d), d, a.weight + lane);
+      hn::Store(hn::Zero(d), d, a.weight_slope + lane);
+    }
+  }
+}
+
 template <bool has_weight>
 struct Field {
   V held_forward, held_backward, damping;
@@ -157,10 +183,16 @@ void advance(LaneAccelerations const& accelerations, double step_s, std::size_t 
   }
 }
 
-void advance_light(LaneAccelerations const& a, double step_s, std::size_t steps, LaneState& state) {
+void advance_light(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+                   LaneState& state) {
+  LaneAccelerations a;
+  accelerate<false>(joint, torques, state, nullptr, nullptr, a);
   advance<false>(a, step_s, steps, state);
 }
-void advance_heavy(LaneAccelerations const& a, double step_s, std::size_t steps, LaneState& state) {
+void advance_heavy(LaneJoint const& joint, LaneTorques const& torques, double const* sine, double const* cosine,
+                   double step_s, std::size_t steps, LaneState& state) {
+  LaneAccelerations a;
+  accelerate<true>(joint, torques, state, sine, cosine, a);
   advance<true>(a, step_s, steps, state);
 }
 
@@ -176,29 +208,11 @@ TORQUESCOPE_EXPORT(advance_heavy);
 
 void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state) {
-  bool const has_weight = joint.gravity_sin != 0.0 || joint.gravity_cos != 0.0;
-  LaneAccelerations a;
-  alignas(64) double per_inertia[twin_lanes];
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    per_inertia[lane] = 1.0 / (joint.inertia + torques.added_inertia[lane]);
-    a.damping[lane] = joint.viscous * per_inertia[lane];
-    a.held_forward[lane] = (torques.held[lane] - torques.forward[lane]) * per_inertia[lane];
-    a.held_backward[lane] = (torques.held[lane] - torques.backward[lane]) * per_inertia[lane];
-    a.from[lane] = state.q[lane];
-    a.weight[lane] = 0.0;
-    a.weight_slope[lane] = 0.0;
-  }
-  if (has_weight) {
-    alignas(64) double sine[twin_lanes], cosine[twin_lanes];
-    kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      a.weight[lane] = (joint.gravity_sin * sine[lane] + joint.gravity_cos * cosine[lane]) * per_inertia[lane];
-      a.weight_slope[lane] = (joint.gravity_sin * cosine[lane] - joint.gravity_cos * sine[lane]) * per_inertia[lane];
-    }
-    TORQUESCOPE_DISPATCH(advance_heavy)(a, step_s, steps, state);
-  } else {
-    TORQUESCOPE_DISPATCH(advance_light)(a, step_s, steps, state);
-  }
+  if (joint.gravity_sin == 0.0 && joint.gravity_cos == 0.0)
+    return TORQUESCOPE_DISPATCH(advance_light)(joint, torques, step_s, steps, state);
+  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
+  kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
+  TORQUESCOPE_DISPATCH(advance_heavy)(joint, torques, sine, cosine, step_s, steps, state);
 }
 
 }  // namespace torquescope

@@ -38,6 +38,14 @@ class AgeingContact {
     age_s_ = age_s_ * std::exp(-renewed) + grown_s;
   }
 
+  bool shares_memory(AgeingContact const& other) const {
+    return distance_ == other.distance_ && rest_speed_ == other.rest_speed_;
+  }
+  void remember(AgeingContact const& other) {
+    q_ = other.q_;
+    age_s_ = other.age_s_;
+  }
+
   std::array<double, 2> row(JointState const& state) const {
     double const dwells = age_s_ / dwell_s_, sign = sign_(state.dq);
     return {-sign * std::expm1(-dwells), sign * std::log1p(dwells)};

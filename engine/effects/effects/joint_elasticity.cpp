@@ -16,96 +16,10 @@
 // Confused   delay, actuator_lag far below f
 // Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
-#include "engine/effects/memory_effect.hpp"
-#include "engine/effects/remembered_steps.hpp"
+#include "engine/effects/loads_on_spring.hpp"
 
 namespace torquescope::effects {
 namespace {
-
-class LoadOnSpring {
- public:
-  // acceleration: a; 0: the spring is straight
-  LoadOnSpring(double frequency_hz, double damping, double hardening, double acceleration)
-      : omega_(2.0 * std::numbers::pi * frequency_hz),
-        decay_(damping * omega_),
-        ringing_(omega_ * std::sqrt(1.0 - damping * damping)),
-        per_square_(acceleration > 0.0 ? hardening * std::pow(omega_ * omega_ / acceleration, 2) : 0.0) {}
-
-  // as if the acceleration had been the same for long
-  void start(JointState const& state) {
-    ddq_ = state.ddq;
-    y_ = -ddq_ / (omega_ * omega_);
-    dy_ = 0.0;
-  }
-
-  void advance(JointState const& state, double step_s) {
-    if (step_s != whole_step_s_) {
-      whole_step_s_ = step_s;
-      swing_ = steps_.of(step_s, [this](double whole_s) { return swing_in(whole_s); });
-    }
-    double const jerk = (state.ddq - ddq_) / step_s;
-    for (int part = 0; part < swing_.parts; ++part) {
-      dy_ -= 0.5 * swing_.step_s * stiffened();
-      coast(jerk);
-      dy_ -= 0.5 * swing_.step_s * stiffened();
-    }
-    ddq_ = state.ddq;
-  }
-
-  std::array<double, 1> row(JointState const& state) const {
-    return {-(2.0 * decay_ * dy_ + omega_ * omega_ * y_ + stiffened()) - state.ddq};
-  }
-
- private:
-  // a straight spring in one part of a step
-  struct Swing {
-    int parts = 1;
-    double step_s = 0.0, faded = 1.0, cosine = 1.0, sine = 0.0;
-  };
-
-  static constexpr double most_stiffening = 25.0;  // times as stiff as unloaded: no gear goes further
-
-  // acceleration of the load by what the spring has more than a straight one
-  double stiffened() const { return omega_ * omega_ * y_ * std::min(per_square_ * y_ * y_, most_stiffening); }
-
-  // one part of the step on a straight spring
-  void coast(double jerk) {
-    double const square = omega_ * omega_;
-
-    // what remains after the motion that follows a straight acceleration rings freely
-    double const follow = -ddq_ / square + 2.0 * decay_ * jerk / (square * square);
-    double const dfollow = -jerk / square;
-    double const free = y_ - follow, dfree = dy_ - dfollow;
-    double const quadrature = (dfree + decay_ * free) / ringing_;
-    auto const& [parts, step_s, faded, cosine, sine] = swing_;
-    double const rung = faded * (free * cosine + quadrature * sine);
-    double const drung =
-        faded * ((quadrature * ringing_ - decay_ * free) * cosine - (free * ringing_ + decay_ * quadrature) * sine);
-
-    y_ = rung + follow + dfollow * step_s;
-    dy_ = drung + dfollow;
-    ddq_ += jerk * step_s;
-  }
-
-  Swing swing_in(double whole_s) const {
-    // kicks are stable up to 2 rad of the stiffest spring's swing
-    double const stiffest = per_square_ > 0.0 ? omega_ * std::sqrt(most_stiffening) * whole_s : 0.0;
-    int const parts = std::max(1, static_cast<int>(std::ceil(stiffest)));
-    double const step_s = whole_s / parts;
-    return {parts, step_s, std::exp(-decay_ * step_s), std::cos(ringing_ * step_s), std::sin(ringing_ * step_s)};
-  }
-
-  double omega_, decay_, ringing_, per_square_;
-  RememberedSteps<Swing> steps_{};
-  double whole_step_s_ = 0.0;
-  Swing swing_{};  // of that step
-  double ddq_ = 0.0, y_ = 0.0, dy_ = 0.0;
-};
 
 class JointElasticity final : public MemoryEffect {
  public:
@@ -131,7 +45,7 @@ class JointElasticity final : public MemoryEffect {
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
     double const acceleration = scales.inertia > 0.0 ? scales.torque_rms / scales.inertia : 0.0;
-    return memory_of(LoadOnSpring(shape[0], shape[1], shape[2], acceleration), lanes);
+    return load_on_spring::loads_on_spring({shape[0], shape[1], shape[2], acceleration}, lanes);
   }
 };
 
