@@ -113,9 +113,9 @@ std::string timing_sentence(double late_s, double rate_hz) {
   if (late_s == 0.0) return "";
   bool const is_late = late_s > 0.0;
   return fmt::format(
-      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, and was put right ({} recording.delay_s does so for "
-      "good): when in its sample a drive reads it is not known. If yours is known to read it with the position, this "
-      "is a fault of the channel or a lag of the drive.",
+      "The torque comes {:.2g} ms {} its rows, {:.2g} of a sample, as it does where drive and log are not in step, and "
+      "was "
+      "put right ({} recording.delay_s does so for good); only where both are read together is it a lag.",
       1e3 * std::abs(late_s), is_late ? "after" : "before", std::abs(late_s) * rate_hz,
       is_late ? "as much less in" : "as much more in");
 }

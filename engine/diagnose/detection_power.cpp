@@ -34,9 +34,7 @@ std::string power_sentence(ModelStage const& stage) {
   std::string const others =
       fmt::format("Missing torque that the model's own terms do not imitate would have shown from {} of the torque on",
                   percent_text(any));
-  if (share > 1.0)
-    return others +
-           "; Stribeck friction, hard to see on this motion, only where it is larger than the Coulomb friction itself.";
+  if (share > 1.0) return others + "; Stribeck friction can hardly be seen on this motion.";
   return fmt::format("{}; Stribeck friction from {} of the Coulomb friction on.", others, percent_text(share));
 }
 

@@ -303,6 +303,10 @@ bool EffectSearch::take(Trial const& trial) {
     note_refusal(effect, "twins with it do not follow the reference");
     return false;
   }
+  if (is_far_too_large(*whole, before->reference().scales)) {
+    note_refusal(effect, "would have to be more than twice as large as it can be");
+    return false;
+  }
   double const unit = selection_.energy_unit;
   selection_.accepted.push_back({effect, trial.scan, trial.q, trial.refined.gain / unit, trial.cv.gain / unit,
                                  trial.region_share, trial.instead});

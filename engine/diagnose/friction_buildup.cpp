@@ -140,7 +140,7 @@ class SecondLook {
     auto next = make_stage(own, draft->model());
     auto baseline = baseline_with_reversals();
     progress_told(setting_.twins);
-    if (!next || !baseline ||
+    if (!next || !baseline || is_far_too_large(*next, before().reference().scales) ||
         energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - confirmed_share * refined.gain)
       return false;
     put(trial, found, std::move(*baseline), std::move(*next));

@@ -138,6 +138,20 @@ std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStag
   return make_stage(own, stage.model());
 }
 
+bool is_far_too_large(ModelStage const& stage, JointScales const& before) {
+  constexpr double far = 2.0;
+  auto const& effects = stage.model().effects();
+  if (effects.empty()) return false;
+  Effect const& effect = *effects.back().effect;
+  auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(effects.size() - 1));
+  auto const own = effect.linear_bounds(stage.reference().scales), other = effect.linear_bounds(before);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    double const most = std::max(own[k].upper, other[k].upper);
+    if (most > 0.0 && stage.parameters()[first + static_cast<Eigen::Index>(k)] > far * most) return true;
+  }
+  return false;
+}
+
 double energy_unit_under(ModelStage const& stage, RecordPipeline const& other) {
   auto const& rows = stage.comparison.rows;
   auto const& record = stage.comparison.recording;

@@ -68,6 +68,11 @@ std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel mod
 // that the weights of one stage are too coarse for the next
 std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
 
+// Whether the last effect of the stage, as corrected by its own twins, is more than twice as large as it can be: a bound on a
+// linear parameter is told in sizes of the joint, by this stage or by the one before, whichever says more. Least squares on two columns that
+// are nearly the same finds such pairs, and no joint has them
+bool is_far_too_large(ModelStage const& stage, JointScales const& before);
+
 // energy of a stage's mismatch under another one's weights, over that under its own: what a unit of energy has become
 double energy_unit_under(ModelStage const& stage, RecordPipeline const& other);
 
