@@ -68,6 +68,19 @@ TEST_F(ModelStageOfACoarseEncoder, FindsAnEffectThatIsSmallerThanItsBias) {
   }
 }
 
+TEST_F(ModelStageOfACoarseEncoder, IsFarTooLargeBeyondTwiceTheBoundOfEitherStage) {
+  Recording const recording = with(0.002, 1);
+  ModelStage stage = make_stage(setting_of(recording), with_effect()).value();
+  JointScales const before = plain.reference().scales;
+  double const most = stage.model().effects().back().effect->linear_bounds(before).front().upper;
+  ASSERT_GT(most, 0.0);
+  EXPECT_FALSE(is_far_too_large(stage, before));
+  stage.twin->baseline.parameters[4] = 1.9 * most;
+  EXPECT_FALSE(is_far_too_large(stage, before));
+  stage.twin->baseline.parameters[4] = 2.1 * most;
+  EXPECT_TRUE(is_far_too_large(stage, before));
+}
+
 TEST_F(ModelStageOfACoarseEncoder, FitsWithinBoundsWhatIsNothingWithoutItsBias) {
   Recording recording = clean;
   recording.torque.array() -= 0.01 * recording.torque.array().cube();
