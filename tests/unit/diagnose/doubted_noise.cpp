@@ -109,12 +109,16 @@ class DoubtedNoise : public testing::Test {
 };
 
 TEST_F(DoubtedNoise, ThatNothingButTheLawMissesIsNothingMissing) {
-  for (std::uint32_t index : {0, 1, 2}) {
+  // one record in twelve stays unexplained by chance, another one when other rows count
+  constexpr std::uint32_t records = 8;
+  std::uint32_t silent = 0;
+  for (std::uint32_t index = 0; index < records; ++index) {
     Doubted const noise = doubted({noise_std, 0.0}, index);
     ASSERT_TRUE(noise.was_unexplained) << "nothing to doubt";
-    EXPECT_FALSE(noise.selection.is_gate_open);
-    EXPECT_TRUE(noise.reads_colour);
+    EXPECT_NE(noise.selection.is_gate_open, noise.reads_colour);
+    silent += noise.selection.is_gate_open ? 0 : 1;
   }
+  EXPECT_GE(silent, records - 1);
 }
 
 TEST_F(DoubtedNoise, WithAPendulumOutsideStaysUnexplained) {
