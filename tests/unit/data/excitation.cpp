@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -78,7 +79,7 @@ TEST(HeldRows, AreThoseOfAnEvenGridAndNotOfACoarseSignal) {
   auto const torque = sampled(20000, [](double t) { return std::sin(3 * t) + 0.2 * std::sin(11 * t); });
   auto const held = [&](Eigen::VectorXd values, Eigen::Index rows) {
     for (Eigen::Index i = 0; i < values.size(); ++i)
-      values[i] = values[(i + 3) / rows * rows == 0 ? 0 : (i + 3) / rows * rows - 3];
+      values[i] = values[std::max<Eigen::Index>(0, (i + 3) / rows * rows - 3)];
     return held_rows(numbers(values));
   };
   EXPECT_EQ(held(torque, 1), 1);
