@@ -65,12 +65,16 @@ Error disagree(std::string const& label, std::size_t run, std::size_t generation
 }  // namespace
 
 SavedRuns::SavedRuns(SavedRunsRequest const& request) {
-  for (auto const& folder : request.folders)
-    for (auto const& name : segments_in(folder)) {
+  auto const look = [&](SegmentFile const& file) {
+    if (accept(file, request)) file.verify();
+  };
+  for (auto const& folder : request.folders) {
+    auto const names = segments_in(folder);
+    auto const harmless = harmless_segments(names, look);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      auto const& name = names[i];
       try {
-        look_at_segment(name, [&](SegmentFile const& file) {
-          if (accept(file, request)) file.verify();
-        });
+        if (!harmless[i]) look_at_segment(name, look);
         SegmentFile const file(name);
         if (!accept(file, request)) continue;
         files_.push_back(name);
@@ -81,6 +85,7 @@ SavedRuns::SavedRuns(SavedRunsRequest const& request) {
         warnings_.push_back(error.problems().front().what + "; its generations run again");
       }
     }
+  }
   for (auto& [label, runs] : runs_)
     for (auto& [run, pieces] : runs)
       std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {

@@ -260,4 +260,29 @@ void look_at_segment(std::filesystem::path const& name, std::function<void(Segme
   });
 }
 
+std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& names,
+                                    std::function<void(SegmentFile const&)> const& look) {
+  std::vector<bool> harmless(names.size(), false);
+  if (names.empty()) return harmless;
+  ConfinedLimits limits{.processor_seconds = 0};
+  for (auto const& name : names) limits.processor_seconds += limits_for_file(name, 60).processor_seconds;
+  auto const read = [&] {
+    std::string answers(names.size(), 'n');
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      try {
+        look(SegmentFile(names[i]));
+        answers[i] = 'y';
+      } catch (Error const&) {
+      }
+    }
+    return answers;
+  };
+  try {
+    std::string const answers = run_confined(read, limits, [](std::string const& how) { return Problem{.what = how}; });
+    for (std::size_t i = 0; i < names.size(); ++i) harmless[i] = answers[i] == 'y';
+  } catch (Error const&) {  // one of them ended it
+  }
+  return harmless;
+}
+
 }  // namespace torquescope

@@ -77,4 +77,9 @@ class SegmentFile {
 // crashes, loops or takes too much memory
 void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look);
 
+// The same for many, in one process: a process costs as much as a small segment. Whether each was read without complaint; what
+// was not is to be looked at by itself, which says why
+std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& names,
+                                    std::function<void(SegmentFile const&)> const& look);
+
 }  // namespace torquescope

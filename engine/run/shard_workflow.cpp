@@ -88,9 +88,13 @@ JobStatus read_status(std::filesystem::path const& segment_folder) {
   JobStatus status;
   std::map<std::string, Covered> estimators;
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
-  for (auto const& name : segments_in(segment_folder)) {
+  auto const opened = [](SegmentFile const&) {};
+  auto const names = segments_in(segment_folder);
+  auto const harmless = harmless_segments(names, opened);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto const& name = names[i];
     try {
-      look_at_segment(name, [](SegmentFile const&) {});
+      if (!harmless[i]) look_at_segment(name, opened);
       SegmentFile const file(name);
       auto const& origin = file.origin();
       status.job_name = origin.job_name;
