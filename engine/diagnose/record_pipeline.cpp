@@ -6,6 +6,7 @@
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/spline_motion.hpp"
+#include "engine/diagnose/held_torque.hpp"
 #include "engine/diagnose/joint_fit.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
 #include "engine/diagnose/unknown_start.hpp"
@@ -176,7 +177,7 @@ ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
   Eigen::MatrixXd signals = model_.columns(record.motion, record.drive);
   Eigen::Index const last = signals.cols();
   signals.conservativeResize(Eigen::NoChange, last + 1);
-  signals.col(last) = record.motion.torque;
+  signals.col(last) = acting_torque(record.motion.torque);
   signals = filtered_columns(signals, record);
   record.torque = signals.col(last);
   signals.conservativeResize(Eigen::NoChange, last);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/contract.hpp"
+#include "engine/diagnose/held_torque.hpp"
 #include "engine/diagnose/reversal_mask.hpp"
 
 namespace torquescope {
@@ -43,9 +44,10 @@ Eigen::VectorXd beyond_terms(Recording const& recording, ProcessedRecord const& 
 SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& pipeline) {
   TORQUESCOPE_EXPECT(recording.simulated_torque.size() == recording.torque.size());
 
-  // the simulator seen through the terms of the model, on the same rows as the joint itself
+  // the simulator seen through the terms of the model, on the same rows as the joint itself. It says what the motion of a row needs,
+  // where the joint's torque is held
   Recording simulated = recording;
-  simulated.torque = recording.simulated_torque;
+  simulated.torque = torque_to_hold(recording.simulated_torque);
   ProcessedRecord const of_simulator = pipeline.process(simulated);
   ProcessedRecord const of_joint = pipeline.process(recording);
 
@@ -59,7 +61,7 @@ SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& 
 
   gap.recording = recording;
   gap.recording.simulated_torque.resize(0);
-  gap.recording.torque -= beyond_terms(recording, of_simulator, pipeline.model().regressor());
+  gap.recording.torque -= torque_to_hold(beyond_terms(recording, of_simulator, pipeline.model().regressor()));
   return gap;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/error.hpp"
+#include "engine/diagnose/held_torque.hpp"
 #include "engine/diagnose/scaled_solution.hpp"
 #include "engine/diagnose/unseen_floor.hpp"
 #include "engine/diagnose/unseen_nuisances.hpp"
@@ -157,7 +158,7 @@ TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipel
   trace.recording = recording.name;
   trace.rate_hz = pipeline.kept_rate_hz();
   trace.time_s = pipeline.picked(before.motion.time_s);
-  trace.torque = pipeline.filtered(before.motion.torque);
+  trace.torque = pipeline.filtered(acting_torque(before.motion.torque));
   trace.velocity = pipeline.picked(before.motion.dq);
   trace.position = pipeline.picked(before.motion.q);
   trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);

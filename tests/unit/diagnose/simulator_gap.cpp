@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "engine/diagnose/held_torque.hpp"
 #include "unit/diagnose/clean_records.hpp"
 
 using namespace torquescope;
@@ -59,7 +60,7 @@ TEST(SimulatorGap, LeavesTheResidualOfTheDifferenceAndTheParametersOfTheJoint) {
   EXPECT_EQ(gap.recording.simulated_torque.size(), 0);
 
   Recording difference = recording;
-  difference.torque -= recording.simulated_torque;
+  difference.torque -= torque_to_hold(recording.simulated_torque);
   auto const of_gap = pipeline.process(gap.recording);
   // what two joints differ by is none itself: its parameters have no bounds
   auto const of_difference = pipeline.prepare(difference);
