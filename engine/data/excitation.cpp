@@ -176,7 +176,7 @@ std::vector<DataWarning> excitation_warnings(Excitation const& facts, char const
     warn("the motion never reverses: friction at reversals cannot be seen");
   if (facts.torque_held_rows > 1)
     warn(fmt::format(
-        "the torque changes on every {}th row only: it comes {:.2g} rows late on average; log it at its own rate",
+        "the torque changes on one row in {} only: it comes {:.2g} rows late on average; log it at its own rate",
         facts.torque_held_rows, 0.5 * static_cast<double>(facts.torque_held_rows - 1)));
   return warnings;
 }

@@ -151,6 +151,12 @@ struct ForwardSimulation {
   double encoder_step = 0.0;
 };
 
+// An unseen recording that is predicted worse than any twin of it, although its model explains the training recording (unseen_transfer.hpp)
+struct UnseenBeyond {
+  std::string recording;
+  double relerr = unknown, usual = unknown, most = unknown;  // its own; of twins on average and at most
+};
+
 struct JointDiagnosis {
   int joint = 1;
   std::string unit_position, unit_torque;  // "rad", "N m"
@@ -166,6 +172,7 @@ struct JointDiagnosis {
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::string refutation{};  // of names that unseen recordings spoke against: a clause; told in the reason, not stored
+  std::vector<UnseenBeyond> unseen_beyond{};  // where training shows nothing; told in the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
   std::vector<std::string> nuisances{};  // what was refitted on the head of the unseen recording
   std::vector<TorqueTrace> traces{};     // the unseen recordings, else the training ones

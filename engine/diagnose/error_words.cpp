@@ -91,6 +91,18 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
       percent_text(unseen), percent_text(train));
 }
 
+std::string beyond_twins_sentence(JointDiagnosis const& joint) {
+  std::string text;
+  for (UnseenBeyond const& one : joint.unseen_beyond)
+    text += fmt::format("{}But {} is predicted with a relerr of {}, where twins of it have {}, {} at most.",
+                        text.empty() ? "" : " ", one.recording, percent_text(one.relerr), percent_text(one.usual),
+                        percent_text(one.most));
+  if (text.empty()) return text;
+  return text +
+         " Something is missing that the training motion does not show: give that recording as recording.train to see "
+         "what.";
+}
+
 std::string way_out_of_a_fault(JointDiagnosis const& joint) {
   std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
                                ? "correct the channel, or record the torque that the drive gives instead of its command"

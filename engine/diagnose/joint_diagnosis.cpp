@@ -24,6 +24,7 @@
 #include "engine/diagnose/unseen_record.hpp"
 #include "engine/diagnose/unseen_refutation.hpp"
 #include "engine/diagnose/unseen_selection.hpp"
+#include "engine/diagnose/unseen_transfer.hpp"
 
 namespace torquescope {
 namespace {
@@ -164,6 +165,10 @@ class JointWork {
       sum.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
+      if (!selection_.is_gate_open)
+        if (auto beyond = beyond_twins(recording.name, std::sqrt(result.energies.after / result.torque_energy),
+                                       result.transferred))
+          joint_.unseen_beyond.push_back(std::move(*beyond));
       twins.push_back(std::move(result.twins));
       sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
@@ -219,6 +224,7 @@ class JointWork {
   void decide(Remainder const& remainder) {
     if (!selection_.is_gate_open) {
       diagnosis_.verdict = Verdict::none;
+      if (!joint_.unseen_beyond.empty()) diagnosis_.verdict = Verdict::unexplained;
       if (auto const why = check_silence(excitation_)) hopeless(*why);
       return;
     }

@@ -69,7 +69,7 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   pipeline.restrict_to(safe);
 
   result.recording = pipeline.restricted(std::move(result.recording), safe, recording.name);
-  result.common = pipeline.restricted(std::move(result.common), safe, "twin");
+  result.common = pipeline.restricted(std::move(result.common), safe, "twins of this recording");
   auto& rows = result.rows;
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = safe;
@@ -94,7 +94,7 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
     result.twin_fits.row(static_cast<Eigen::Index>(index)) = record.parameters;
   };
   for (std::size_t i = 0; i < n_pilots; ++i)
-    if (ran_away[i] == 0) take(i, pipeline.restricted(std::move(pilots[i]), safe, "twin"));
+    if (ran_away[i] == 0) take(i, pipeline.restricted(std::move(pilots[i]), safe, "twins of this recording"));
   bool const later_ran_away =
       gather_twins(twin, pipeline, address, {n_pilots, twins}, workers,
                    {column_each(rows.twins), column_each(rows.plain_twins), row_each(result.twin_fits)},

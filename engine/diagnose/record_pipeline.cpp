@@ -1,9 +1,12 @@
 #include "engine/diagnose/record_pipeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/error.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/spline_motion.hpp"
 #include "engine/diagnose/held_torque.hpp"
@@ -126,6 +129,12 @@ void RecordPipeline::whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals,
 }
 
 void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const {
+  validate(record.kept_rows.size() > model_.size(), [&] {
+    Problem problem{ExitCode::bad_data,
+                    fmt::format("{}: only {} rows are left between reversals", name, record.kept_rows.size())};
+    problem.help = "record a longer motion with fewer reversals per second, or raise filter.parallel_cutoff_hz";
+    return problem;
+  });
   if (whitens()) {
     record.plain_columns = record.columns;
     record.plain_torque = record.torque;

@@ -37,7 +37,7 @@ std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) 
                  "widen the range of the torque channel, or record a gentler motion");
   if (facts.torque_updates > 0.0 && facts.torque_updates < fewest_updates)
     return fault(
-        fmt::format("the torque changes on every {}th row only, {:.2g} times in a period of the filter's cut-off",
+        fmt::format("the torque changes on one row in {} only, {:.2g} times in a period of the filter's cut-off",
                     facts.torque_held_rows, facts.torque_updates),
         fmt::format("log the torque as often as the position, or set filter.parallel_cutoff_hz to {:.2g} times what it "
                     "is, or less",

@@ -64,7 +64,7 @@ std::vector<ParameterEstimate> linear_parameters(NamedEffect const& effect) {
 // "0.35 N m" where one parameter is the torque and the rows have shown it; "up to 0.21 N m" otherwise
 std::string amount(JointDiagnosis const& joint, NamedEffect const& effect) {
   auto const linear = linear_parameters(effect);
-  bool const known_size = std::isfinite(effect.peak);
+  bool const known_size = std::isfinite(effect.peak) && effect.peak > 0.0;
   if (linear.size() == 1 && linear[0].unit == joint.unit_torque) {
     double const size = std::abs(linear[0].value);
     // a size that no row came near is extrapolation, not a finding
@@ -222,6 +222,7 @@ std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
 }
 
 std::string unexplained_reason(JointDiagnosis const& joint) {
+  if (!joint.unseen_beyond.empty()) return likeness_sentence(joint) + " " + beyond_twins_sentence(joint);
   auto const tested = n_tested(joint);
   std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
                                    : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
@@ -308,7 +309,7 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     append(text, joint_reason(diagnosis.verdict, joint));
     append(text, joint.timing_sentence);
-    append(text, unseen_is_other_sentence(joint));
+    if (joint.unseen_beyond.empty()) append(text, unseen_is_other_sentence(joint));
   }
   return text;
 }

@@ -58,7 +58,7 @@ Eigen::MatrixXd in_columns(std::array<Eigen::VectorXd, twin_lanes> const& signal
 
 Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz) {
   Recording recording;
-  recording.name = "twin";
+  recording.name = "twins of this recording";
   recording.rate_hz = rate_hz;
   recording.position = group.position[lane];
   recording.torque = group.torque[lane];

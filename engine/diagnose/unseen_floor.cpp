@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/diagnose/unseen_transfer.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -21,7 +23,8 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
 struct TwinResidual {
   Eigen::VectorXd left;            // empty: it ran away
   double torque = 0.0;             // norm
-  PredictionEnergies predicted{};  // where no artefact is to be taken out
+  PredictionEnergies predicted{};  // where no artefact is to be taken out, as well as
+  std::vector<double> transferred{};
 };
 
 PredictionEnergies prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
@@ -34,11 +37,16 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
                                              ModelStage const& stage, RecordedLoop const& loop,
                                              Eigen::VectorXd const& baseline, std::vector<Eigen::Index> const* rows) {
   std::vector<TwinResidual> twins(unseen_twins);
+  Eigen::MatrixXd const& fits = stage.comparison.twin_fits;
+  Eigen::MatrixXd const fit_errors = (fits.rowwise() - fits.colwise().mean()).transpose();
   for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
-    Eigen::VectorXd left = record.torque - record.columns * stage.parameters();
-    PredictionEnergies const predicted = rows == nullptr ? prediction_of(record, left, baseline) : PredictionEnergies{};
-    twins[visited.index] = {std::move(left), record.torque.norm(), predicted};
+    TwinResidual& twin = twins[visited.index];
+    twin.left = record.torque - record.columns * stage.parameters();
+    twin.torque = record.torque.norm();
+    if (rows != nullptr) return;
+    twin.predicted = prediction_of(record, twin.left, baseline);
+    twin.transferred = transfer_errors(record.columns, record.torque, twin.left, fit_errors);
   });
   return twins;
 }
@@ -77,18 +85,21 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
   Eigen::VectorXd const artefact = rows != nullptr ? mean_of(twins) : Eigen::VectorXd();
   // a twin is nearer to a mean that it is in than the recording is
   double const nearer = rows != nullptr ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
-  std::vector<PredictionEnergies> predicted;
+  TwinErrors errors;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
     if (rows == nullptr)
-      predicted.push_back(twin.predicted);
+      errors.predicted.push_back(twin.predicted);
     else
       twin.left -= artefact;
+    errors.transferred.insert(errors.transferred.end(), twin.transferred.begin(), twin.transferred.end());
     double const relerr = nearer * twin.left.norm() / twin.torque;
     sum += relerr;
     least = std::min(least, relerr);
   }
-  return {sum / n, least, std::move(predicted)};
+  errors.mean = sum / n;
+  errors.least = least;
+  return errors;
 }
 
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,

@@ -36,6 +36,8 @@ struct TwinErrors {
   double mean = unknown, least = unknown;
   // one each; empty where an artefact was taken out, which is another for the baseline
   std::vector<PredictionEnergies> predicted{};
+  // relerr of each with each fit of training's twins (unseen_transfer.hpp); empty as above
+  std::vector<double> transferred{};
 };
 
 // the twins' own fits are not used: the parameters of `stage` predict them, and those of the baseline, `baseline`, without its effects.

@@ -57,6 +57,7 @@ void account_for_twins(Recording const& recording, StageSetting const& setting, 
   TwinErrors const own = errors_in(loop);
   result.promised = own.mean;
   result.twins = own.predicted;
+  result.transferred = own.transferred;
   result.twins_ran_away = !std::isfinite(own.mean);
   double const relerr = std::sqrt(result.energies.after / result.torque_energy);
   result.floor = floor_below(relerr, own);

@@ -42,6 +42,7 @@ struct UnseenResult : UnseenPrediction {
   double promised = unknown, floor = unknown;  // relerr
   bool twins_ran_away = false;                 // of this recording, under the final model: no floor
   std::vector<PredictionEnergies> twins{};     // one each
+  std::vector<double> transferred{};           // relerr of twins with fits of training's twins (unseen_transfer.hpp)
   ForwardSimulation forward{};
 };
 

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, HopelessRecording,
                                                 e.torque_held_rows = 20;
                                                 e.torque_updates = 2.5;
                                               },
-                                              good_relerr, Verdict::data_fault, "every 20th row", "parallel_cutoff_hz"},
+                                              good_relerr, Verdict::data_fault, "one row in 20", "parallel_cutoff_hz"},
                                          Case{"NoRelation", [](Excitation&) {}, 0.97, Verdict::data_fault, "97 %",
                                               "recording.columns"}),
                          [](auto const& one) { return one.param.name; });
