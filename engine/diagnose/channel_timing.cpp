@@ -15,13 +15,6 @@ namespace {
 constexpr double certain_q = 0.05;
 constexpr double clear_z = 4.0;  // one direction, not searched for: far beyond chance
 
-// no later than a row may be for all that is known of it: one-sided 95 %
-bool is_timing(LateTorque const& found, double already_s, double rate_hz) {
-  constexpr double one_sided = 1.64;
-  double const doubt = one_sided * std::abs(found.late_s) / std::max(one_sided, found.z);
-  return (std::abs(already_s + found.late_s) - doubt) * rate_hz <= longest_timing;
-}
-
 CandidateColumns columns_of(ModelStage const& stage) {
   return {*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()};
 }
@@ -38,6 +31,15 @@ double first_gain(Selection const& selection) {
 }
 
 }  // namespace
+
+bool is_timing(LateTorque const& found, double already_s, double rate_hz) {
+  constexpr double one_sided = 1.64, surely_not_half = 0.1;
+  double const doubt = one_sided * std::abs(found.late_s) / std::max(one_sided, found.z) * rate_hz;
+  double const rows = (already_s + found.late_s) * rate_hz;
+  double const from_half = std::abs(rows - 0.5 * std::round(2.0 * rows));
+  if (rows < 0.0 && from_half > std::max(surely_not_half, doubt)) return false;
+  return std::abs(rows) - doubt <= longest_timing;
+}
 
 std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
                                             double rate_hz) {

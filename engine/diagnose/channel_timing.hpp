@@ -5,6 +5,9 @@
 //            recording. A drive whose loop is faster than its log writes the torque of the instant, which comes half a sample
 //            later to its motion, or the mean since the row before, a whole sample later; one that computes for a sample is a
 //            whole one earlier. Nobody can tell that from a channel that is late by as much
+// Lags       of a torque that acts after its row: none (held from the row on), half a sample or a whole one are what simulations and
+//            programs make that log before or after a step. Any other one, beyond doubt and a tenth of a sample, is no timing: a current
+//            loop or a filter (EMPS: 0.3 ms), which the search names like any law
 // Rule       a delay that the search names, and that is for all that is known no more than one sample (and a tenth of one, for
 //            what a current loop needs itself), is taken out of the recordings, and the search begins again; also one that explains by itself nine
 //            tenths of what was named first, or of what comes closest: when a row was
@@ -22,7 +25,11 @@
 
 namespace torquescope {
 
-// how late the torque is when it is within that; nothing when no delay is found, or a longer one
+// Whether a torque that is so late, beside what was taken out before, may have been read there: after its row no later than a sample for
+// all that is known (one-sided 95 %), before it none, half or a whole one
+bool is_timing(LateTorque const& found, double already_s, double rate_hz);
+
+// how late the torque is when it is within that; nothing when no delay is found, or one that is no timing
 // is_unexplained: what was found does not explain the recording; already_s: what was taken out before
 std::optional<double> delay_within_a_sample(Selection const& selection, bool is_unexplained, double already_s,
                                             double rate_hz);

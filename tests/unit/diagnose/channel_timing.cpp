@@ -77,8 +77,22 @@ TEST(LateTorque, IsTheTimeWithinARowThatTheTorqueWasReadAt) {
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->late_s, late_s, 0.1e-3);
     EXPECT_EQ(found->z > 4.0, late_s > 0.0) << found->z;
-    EXPECT_EQ(found->gain > 0.1 * stage.mismatch().squaredNorm(), late_s > 0.0) << found->gain << " of " << stage.mismatch().squaredNorm() << " z " << found->z << " late " << found->late_s;
+    EXPECT_EQ(found->gain > 0.1 * stage.mismatch().squaredNorm(), late_s > 0.0)
+        << found->gain << " of " << stage.mismatch().squaredNorm() << " z " << found->z << " late " << found->late_s;
   }
+}
+
+TEST(ChannelTiming, IsAnyTimeAfterTheRowAndHalvesBeforeIt) {
+  constexpr double surely_z = 50.0;
+  auto const rows_late = [&](double rows, double z, double already = 0.0) {
+    return is_timing({rows * 1e-3, z}, already * 1e-3, 1000.0);
+  };
+  for (double rows : {0.1, 0.3, 0.5, 1.0, -0.05, -0.45, -0.5, -0.95, -1.0})
+    EXPECT_TRUE(rows_late(rows, surely_z)) << rows;
+  for (double rows : {1.3, 2.0, -0.3, -0.7, -1.3, -1.7, -2.0}) EXPECT_FALSE(rows_late(rows, surely_z)) << rows;
+  EXPECT_TRUE(rows_late(-0.3, 2.0)) << "it may be half a row as well";
+  EXPECT_TRUE(rows_late(-0.3, surely_z, -0.2)) << "half a row with what was taken out before";
+  EXPECT_FALSE(rows_late(-0.3, surely_z, -0.4));
 }
 
 TEST(ChannelTiming, SaysWhatWasDone) {
