@@ -11,8 +11,8 @@
 // Rule       a delay that the search names, and that is for all that is known no more than one sample (and a tenth of one, for
 //            what a current loop needs itself), is taken out of the recordings, and the search begins again; also one that explains by itself nine
 //            tenths of what was named first, or of what comes closest: when a row was
-//            read is asked before any physics. Where nothing explains the recording, any delay within a sample is taken out: torque
-//            beside its rows hides what is missing; but not where the controller's law is lost by that. A longer one is a finding
+//            read is asked before any physics. Where nothing explains the recording, any that may be timing is taken out: torque
+//            beside its rows hides what is missing; but not where the controller's law is lost by that. A longer one, or such a lag, is a finding
 // Threads    free functions
 // Units      s
 

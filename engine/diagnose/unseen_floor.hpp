@@ -40,7 +40,7 @@ struct TwinErrors {
   std::vector<double> transferred{};
 };
 
-// the twins' own fits are not used: the parameters of `stage` predict them, and those of the baseline, `baseline`, without its effects.
+// the twins' own fits are not used: the parameters of `stage` predict them (for `transferred` moved as fits of training's twins are), and those of the baseline, `baseline`, without its effects.
 // loop: not tracking; rows: of the recording, when their artefact is to be taken out; none: each twin's own
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
