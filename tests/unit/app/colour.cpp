@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace colour_test {
 
 ColourFacts terminal() { return {true, "", "", "xterm"}; }
 ColourFacts pipe() { return {false, "", "", "xterm"}; }
@@ -39,5 +39,5 @@ TEST(Ink, EndsWhatItBegins) {
   EXPECT_EQ(Ink(true).bold(""), "");
 }
 
-}  // namespace
+}  // namespace colour_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
-namespace {
+namespace command_line_test {
 
 using ::testing::HasSubstr;
 
@@ -109,5 +109,5 @@ TEST(Help, OfRunNamesItsOptions) {
     EXPECT_THAT(page, HasSubstr(option));
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace torquescope

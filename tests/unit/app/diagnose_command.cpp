@@ -18,7 +18,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace diagnose_command_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -233,5 +233,5 @@ TEST_F(DiagnoseCommand, ShowPrintsTheSamePageFromTheFile) {
   EXPECT_THAT(shown, HasSubstr("\nmade\n"));
 }
 
-}  // namespace
+}  // namespace diagnose_command_test
 }  // namespace torquescope

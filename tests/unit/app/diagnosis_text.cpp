@@ -12,7 +12,7 @@
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope {
-namespace {
+namespace diagnosis_text_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -202,5 +202,5 @@ TEST(DiagnosedModelText, ShowsEveryParameterBeforeAndAfter) {
   EXPECT_THAT(text, HasSubstr("12.1 %"));
 }
 
-}  // namespace
+}  // namespace diagnosis_text_test
 }  // namespace torquescope

@@ -12,7 +12,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
-namespace {
+namespace error_text_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -152,5 +152,5 @@ TEST(ErrorJson, SurvivesBytesThatAreNoText) {
   EXPECT_NO_THROW(nlohmann::json::parse(error_json({Problem{ExitCode::bad_data, "bad \xff byte"}})));
 }
 
-}  // namespace
+}  // namespace error_text_test
 }  // namespace torquescope

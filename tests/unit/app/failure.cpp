@@ -8,7 +8,7 @@
 #include "engine/base/contract.hpp"
 
 namespace torquescope {
-namespace {
+namespace failure_test {
 
 template <class Thrown>
 Problem problem_of(Thrown thrown) {
@@ -36,5 +36,5 @@ TEST(Failure, OfAnyOtherKindIsOurs) {
   EXPECT_EQ(problem_of(7).code, ExitCode::internal);
 }
 
-}  // namespace
+}  // namespace failure_test
 }  // namespace torquescope

@@ -5,7 +5,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace page_builder_test {
 
 namespace fs = std::filesystem;
 
@@ -36,5 +36,5 @@ TEST_F(PageProgram, OfTheVariableComesFirst) {
 
 TEST_F(PageProgram, MayBeMissing) { EXPECT_EQ(find_page_program("", folder_ / "bin/torquescope"), std::nullopt); }
 
-}  // namespace
+}  // namespace page_builder_test
 }  // namespace torquescope

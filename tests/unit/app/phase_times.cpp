@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace phase_times_test {
 
 ProgressUpdate update(char const* stage, std::int64_t done, char const* counted = "clean twins") {
   ProgressUpdate made;
@@ -46,5 +46,5 @@ TEST(PhaseTimes, AddUpToTheWallTime) {
   EXPECT_DOUBLE_EQ(phases[3].seconds, 7.0);   // until all was written
 }
 
-}  // namespace
+}  // namespace phase_times_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "engine/app/terminal/colour.hpp"
 
 namespace torquescope {
-namespace {
+namespace plain_text_test {
 
 TEST(Printable, LeavesLettersOfEveryLanguage) { EXPECT_EQ(printable("Größe 力 π"), "Größe 力 π"); }
 
@@ -67,5 +67,5 @@ TEST(Texts, OfCountsBytesAndSeconds) {
   EXPECT_EQ(seconds_text(std::numeric_limits<double>::quiet_NaN()), "? s");
 }
 
-}  // namespace
+}  // namespace plain_text_test
 }  // namespace torquescope

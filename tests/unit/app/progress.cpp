@@ -6,7 +6,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
-namespace {
+namespace progress_test {
 
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
@@ -129,5 +129,5 @@ TEST(ProgressBar, LeavesNothingWhenTheRunFails) {
   EXPECT_THAT(text.back(), EndsWith(" \r"));
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace torquescope

@@ -12,7 +12,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
-namespace {
+namespace result_tables_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -126,5 +126,5 @@ TEST(Quantile, LiesBetweenItsNeighbours) {
   EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 
-}  // namespace
+}  // namespace result_tables_test
 }  // namespace torquescope

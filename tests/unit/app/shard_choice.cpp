@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 
 namespace torquescope {
-namespace {
+namespace shard_choice_test {
 
 using Variables = std::map<std::string, std::string>;
 
@@ -75,5 +75,5 @@ TEST(ShardText, IsIOfN) {
     EXPECT_NE(no_shard(bad), "") << bad;
 }
 
-}  // namespace
+}  // namespace shard_choice_test
 }  // namespace torquescope

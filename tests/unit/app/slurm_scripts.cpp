@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace slurm_scripts_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -43,5 +43,5 @@ TEST(ShellWord, IsOneWordWhateverItHolds) {
   EXPECT_EQ(shell_word("$(rm -r x); 'y'"), "'$(rm -r x); '\\''y'\\'''");
 }
 
-}  // namespace
+}  // namespace slurm_scripts_test
 }  // namespace torquescope

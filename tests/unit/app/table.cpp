@@ -8,7 +8,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
-namespace {
+namespace table_test {
 
 using Align = TextTable::Align;
 
@@ -47,5 +47,5 @@ TEST(Numbers, HaveFourDigitsAndNaNIsNothing) {
   EXPECT_EQ(rough_number(8.3e-12), "8e-12");
 }
 
-}  // namespace
+}  // namespace table_test
 }  // namespace torquescope

@@ -13,7 +13,7 @@
 #include "engine/base/packed_bytes.hpp"
 
 namespace torquescope {
-namespace {
+namespace confined_test {
 
 Problem broke_off(std::string const& how) {
   Problem problem;
@@ -107,5 +107,5 @@ TEST(PackedBytes, ComeBackAndNeverReadBeyondTheirEnd) {
   }
 }
 
-}  // namespace
+}  // namespace confined_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "engine/base/digest_pair.hpp"
 
 namespace torquescope {
-namespace {
+namespace digest_test {
 
 TEST(Digest, IsSha256OfTheStandard) {
   // FIPS 180-4, examples
@@ -78,5 +78,5 @@ TEST(Digest, TellsWhereATextEnds) {
   EXPECT_EQ(Digest().numbers(numbers).raw(), Digest().bytes(numbers.data(), 16).raw());
 }
 
-}  // namespace
+}  // namespace digest_test
 }  // namespace torquescope

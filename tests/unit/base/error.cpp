@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace error_test {
 
 TEST(ClosestName, FindsSlipsOfTheFinger) {
   std::vector<std::string> const names{"cutoff_hz", "order", "decimate_to_hz"};
@@ -23,5 +23,5 @@ TEST(Validate, ThrowsTheProblemOnlyWhenItDoesNotHold) {
   }
 }
 
-}  // namespace
+}  // namespace error_test
 }  // namespace torquescope

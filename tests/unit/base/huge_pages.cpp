@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace huge_pages_test {
 
 TEST(HugePages, LeaveNeighboursAndValuesAlone) {
   std::vector<double> memory(std::size_t{3} << 20);
@@ -25,5 +25,5 @@ TEST(HugePages, OfLittleOrNothingAreNotAskedFor) {
   EXPECT_EQ(few, std::vector<double>(10, 1.0));
 }
 
-}  // namespace
+}  // namespace huge_pages_test
 }  // namespace torquescope

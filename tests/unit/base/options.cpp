@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace options_test {
 
 struct Lamp {
   double brightness = 0.5;
@@ -72,5 +72,5 @@ TEST(OptionTable, DescribesEveryOption) {
   EXPECT_EQ(descriptions[2].range, "white | warm");
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace torquescope

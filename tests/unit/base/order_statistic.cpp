@@ -10,7 +10,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace order_statistic_test {
 
 auto each_of(std::vector<double> const& values) {
   return [&values](auto const& visit) {
@@ -62,5 +62,5 @@ TEST(KthSmallest, OrdersTheSmallestAndTheLargest) {
   expect_sorted_order({limits::infinity(), 0.0, limits::denorm_min(), limits::min(), limits::max(), 1.0}, 1);
 }
 
-}  // namespace
+}  // namespace order_statistic_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace parallel_test {
 
 TEST(ParallelFor, RunsEveryIndexOnce) {
   for (int threads : {1, 2, 3}) {
@@ -53,5 +53,5 @@ TEST(ChooseThreads, NeverExceedsTheAffinityMask) {
   EXPECT_FALSE(choice.warning.empty());
 }
 
-}  // namespace
+}  // namespace parallel_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace portable_math_test {
 
 double error_in_ulp(double ours, long double exact) {
   double const rounded = static_cast<double>(exact);
@@ -52,5 +52,5 @@ TEST(NormalQuantile, InvertsTheErrorFunction) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);
 }
 
-}  // namespace
+}  // namespace portable_math_test
 }  // namespace torquescope

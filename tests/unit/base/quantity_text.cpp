@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace torquescope {
-namespace {
+namespace quantity_text_test {
 
 TEST(QuantityText, HasTwoDigitsAndNoExponentInEverydaySizes) {
   EXPECT_EQ(two_digits(0.3541), "0.35");
@@ -59,5 +59,5 @@ TEST(QuantityText, ProbabilitiesAreNeverZeroNorMoreExactThanTheTwins) {
   EXPECT_EQ(p_cell(least, false, least), "<0.005");  // no twin reached it: at most this
 }
 
-}  // namespace
+}  // namespace quantity_text_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace random_stream_test {
 
 TEST(Philox, EqualsRandom123BitForBit) {
   r123::Philox4x32 oracle;
@@ -87,5 +87,5 @@ TEST(RandomStream, BelowIsUniform) {
   for (int count : counts) EXPECT_NEAR(count, 10000, 5 * std::sqrt(10000.0 * 6 / 7));
 }
 
-}  // namespace
+}  // namespace random_stream_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace csv_test {
 
 using data_test::problem_of;
 using data_test::recording_section;
@@ -176,5 +176,5 @@ TEST(CsvReader, RandomBytesNeverEscapeAsAnythingButAnError) {
   }
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace torquescope

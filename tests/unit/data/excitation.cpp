@@ -13,7 +13,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace excitation_test {
 
 using testing::HasSubstr;
 constexpr double pi = std::numbers::pi;
@@ -160,5 +160,5 @@ TEST(Excitation, FactsOfTheRowsComeBeforeThoseOfTheResampledSignals) {
   EXPECT_EQ(facts.jitter, 0.1);
 }
 
-}  // namespace
+}  // namespace excitation_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace files_test {
 
 using data_test::problem_of;
 using data_test::recording_section;
@@ -89,5 +89,5 @@ TEST(EveryReader, HasANameAndAMeaningOfItsOwn) {
   EXPECT_EQ(names, (std::set<std::string>{"csv", "hdf5", "mat5"}));
 }
 
-}  // namespace
+}  // namespace files_test
 }  // namespace torquescope

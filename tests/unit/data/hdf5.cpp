@@ -9,7 +9,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace hdf5_test {
 
 using data_test::problem_of;
 using data_test::recording_section;
@@ -216,5 +216,5 @@ TEST(Hdf5Reader, StumpsAndEmptyFilesAreRefused) {
               }).what.ends_with("holds no columns of numbers"));
 }
 
-}  // namespace
+}  // namespace hdf5_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace mat5_test {
 
 using data_test::problem_of;
 using data_test::recording_section;
@@ -115,5 +115,5 @@ TEST(Mat5Reader, DamageNeverEscapesAsAnythingButAnError) {
   }
 }
 
-}  // namespace
+}  // namespace mat5_test
 }  // namespace torquescope

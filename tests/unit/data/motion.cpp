@@ -10,7 +10,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace motion_test {
 
 using data_test::problem_of;
 
@@ -183,5 +183,5 @@ TEST(ParallelFilter, RefusesRatesThatDoNotDivide) {
             "parallel_cutoff_hz = 500 is at half the sampling rate (500 Hz)");
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace torquescope

@@ -12,7 +12,7 @@
 #include "support/recordings_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace real_recordings_test {
 
 using test::recordings_folder;
 
@@ -144,5 +144,5 @@ TEST(BamRecordings, AllReadDespiteTheirClocks) {
   }
 }
 
-}  // namespace
+}  // namespace real_recordings_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace recording_test {
 
 using data_test::problem_of;
 using data_test::problems_of;
@@ -302,5 +302,5 @@ TEST(MakeRecording, SaturationIsCountedOnTheRows) {
   EXPECT_THAT(recording.warnings[0].text, HasSubstr("torque sits at its limit"));
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace torquescope

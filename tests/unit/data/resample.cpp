@@ -9,7 +9,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace resample_test {
 
 std::vector<double> uneven_times(std::uint32_t seed, std::size_t n, double step) {
   RandomStream stream({21, 0, RandomDomain::test}, 0, seed);
@@ -76,5 +76,5 @@ TEST(Interpolation, ErrorFallsWithTheThirdPowerOfTheStep) {
   EXPECT_GT(largest_error(0.02) / largest_error(0.005), 40.0);
 }
 
-}  // namespace
+}  // namespace resample_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
-namespace {
+namespace sampling_test {
 
 using data_test::problem_of;
 
@@ -121,5 +121,5 @@ TEST(Sampling, ClocksThatAreNoneAreRefused) {
   EXPECT_NE(counts.help.find("write rate_hz"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace sampling_test
 }  // namespace torquescope

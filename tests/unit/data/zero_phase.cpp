@@ -14,7 +14,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace zero_phase_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -206,5 +206,5 @@ TEST(ZeroPhaseColumns, LeaveSmallNumbersToOthers) {
   EXPECT_GT(half, 0.0);
 }
 
-}  // namespace
+}  // namespace zero_phase_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace ablation_test {
 
 // a loop with everything random that twins can have
 class AblationTest : public testing::Test {
@@ -63,4 +63,4 @@ TEST_F(AblationTest, MisstatedNoiseScalesAllThatIsRandomButTheEncoder) {
   EXPECT_EQ(made.loop.loop.torque_noise.std, plain.torque_noise.std);
 }
 
-}  // namespace
+}  // namespace ablation_test

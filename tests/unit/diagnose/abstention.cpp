@@ -16,7 +16,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace abstention_test {
 
 class Abstention : public testing::Test {
  protected:
@@ -235,4 +235,4 @@ TEST(LargestParts, OfASpectrumTellTheStretchThatIsNeitherWideNorTheTorquesOwn) {
   for (auto const& part : largest_parts({spectrum})) EXPECT_NE(part.where.to - part.where.from, 1.0);
 }
 
-}  // namespace
+}  // namespace abstention_test

@@ -11,7 +11,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace acting_region_test {
 
 using Interval = std::pair<double, double>;
 
@@ -103,5 +103,5 @@ TEST(ActingRegion, DoesNotDependOnTheOrderOfTheSamples) {
   EXPECT_EQ(forwards.intervals, backwards.intervals);
 }
 
-}  // namespace
+}  // namespace acting_region_test
 }  // namespace torquescope

@@ -19,7 +19,7 @@ using torquescope::find_effect;
 using torquescope::jackknife_deviations;
 using torquescope::MotionAxes;
 
-namespace {
+namespace axis_blocks_test {
 
 constexpr Eigen::Index n = 4000;
 constexpr Eigen::Index n_levels = 10;
@@ -57,8 +57,6 @@ Deviations deviations_of_drag(Eigen::VectorXd const& signal, double truth) {
           jackknife_deviations(signal(levels.order), drag(levels.order, Eigen::all), free, levels.blocks)[0],
           std::abs(fit - truth)};
 }
-
-}  // namespace
 
 TEST(AxisBlocks, AreAPermutationOfTheRowsAlongTheSpeedInBlocksThatWeighAlike) {
   MotionAxes const axes = oscillating();
@@ -103,3 +101,5 @@ TEST(AxisBlocks, ThereAreNoneForWhatGoesWithTime) {
   EXPECT_TRUE(axis_blocks(*find_effect("sensor_drift"), axes, axes.dq, n_levels).order.empty());
   EXPECT_TRUE(axis_blocks(*find_effect("periodic_disturbance"), axes, axes.dq, n_levels).order.empty());
 }
+
+}  // namespace axis_blocks_test

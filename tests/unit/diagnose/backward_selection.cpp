@@ -15,7 +15,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace backward_selection_test {
 
 class BackwardSelection : public testing::Test {
  protected:
@@ -71,8 +71,6 @@ class BackwardSelection : public testing::Test {
   Selection selection;
 };
 
-}  // namespace
-
 TEST_F(BackwardSelection, KeepsWhatIsRight) {
   accept({"gravity", "stribeck"});
   revise_selection(setting, options, selection);
@@ -97,3 +95,5 @@ TEST_F(BackwardSelection, PutsTheRightRelativeInTheWrongOnesPlace) {
   ASSERT_EQ(selection.rejected.size(), 1U);
   EXPECT_NE(selection.rejected.front().reason.find("gravity"), std::string::npos);
 }
+
+}  // namespace backward_selection_test

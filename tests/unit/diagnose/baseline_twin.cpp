@@ -13,7 +13,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace baseline_twin_test {
 
 BaselineTwin made_from(Recording const& recording, RecordPipeline const& pipeline, std::uint64_t seed = 1,
                        int threads = 2) {
@@ -23,8 +23,6 @@ BaselineTwin made_from(Recording const& recording, RecordPipeline const& pipelin
 double rms(Eigen::VectorXd const& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
-
-}  // namespace
 
 TEST(BaselineTwin, TakesTheBiasOutOfTheBaseline) {
   // a coarse encoder and little torque noise: bias, not noise, is what least squares is wrong by
@@ -172,3 +170,5 @@ TEST(BaselineTwin, FollowsAMotionThatEndsInMidMove) {
   constexpr Eigen::Index end = 20;
   EXPECT_LE(bend.tail(end).maxCoeff(), bend.head(n - 2 - 10 * end).maxCoeff());
 }
+
+}  // namespace baseline_twin_test

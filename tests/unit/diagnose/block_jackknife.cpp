@@ -9,7 +9,7 @@
 
 using torquescope::jackknife_deviations;
 
-namespace {
+namespace block_jackknife_test {
 
 constexpr Eigen::Index n = 2000;
 
@@ -26,8 +26,6 @@ Eigen::MatrixXd wave() {
   for (Eigen::Index k = 0; k < n; ++k) column(k, 0) = std::sin(0.1 * static_cast<double>(k));
   return column;
 }
-
-}  // namespace
 
 TEST(BlockJackknife, IsTheStandardErrorOfLeastSquaresWhenTheLawIsRight) {
   double mean_square = 0.0;
@@ -57,3 +55,5 @@ TEST(BlockJackknife, SaysNothingOfWhatHappensInOneBlock) {
   EXPECT_LT(found[1], 1.0);
   EXPECT_NEAR(found[0] * wave().norm(), 1.0, 0.6);
 }
+
+}  // namespace block_jackknife_test

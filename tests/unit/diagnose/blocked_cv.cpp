@@ -14,7 +14,7 @@
 #include "support/decompositions.hpp"
 
 namespace torquescope {
-namespace {
+namespace blocked_cv_test {
 
 constexpr Eigen::Index n = 1000, guard = 20;
 
@@ -132,5 +132,5 @@ TEST(BlockedGain, OfAFilteredEventInOneBlockDoesNotBlowUp) {
   EXPECT_GT(found.per_block[5], -mismatch.segment(500, 100).squaredNorm());
 }
 
-}  // namespace
+}  // namespace blocked_cv_test
 }  // namespace torquescope

@@ -15,7 +15,7 @@
 #include "support/decompositions.hpp"
 
 namespace torquescope {
-namespace {
+namespace bounded_projection_test {
 
 constexpr double rounding = 1e-10;  // of numbers of size 1
 
@@ -255,5 +255,5 @@ TEST(BoxedGain, IsTheFreeOneInsideAWideBox) {
   EXPECT_EQ(boxed_gain(group, c, -wide, wide).gain, bounded_gain(group, c).gain);
 }
 
-}  // namespace
+}  // namespace bounded_projection_test
 }  // namespace torquescope

@@ -13,7 +13,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace candidate_search_test {
 
 // a joint with Stribeck friction, compared with twins that have none
 class CandidateSearch : public testing::Test {
@@ -120,4 +120,4 @@ TEST_F(CandidateSearch, TellsAWaveOfTheSameOrderAsAnotherFormOfTheNamedOne) {
       << "of the same kind: waves of one effect stand each for itself";
 }
 
-}  // namespace
+}  // namespace candidate_search_test

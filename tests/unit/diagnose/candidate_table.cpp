@@ -9,7 +9,7 @@
 #include <cmath>
 
 namespace torquescope {
-namespace {
+namespace candidate_table_test {
 
 using ::testing::HasSubstr;
 
@@ -133,5 +133,5 @@ TEST(CandidateTable, WhatWasWithdrawnIsTheFirstLine) {
   EXPECT_NE(table[2].reason, table[1].reason);
 }
 
-}  // namespace
+}  // namespace candidate_table_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace cell_means_test {
 
 CellSums sums_over_position(MismatchRows const& rows, int threads = 1) {
   auto const cells = cells_of(rows.q, cell_edges(SignatureAxis::position, rows.q));
@@ -72,5 +72,5 @@ TEST(CellEnergies, OfACleanRecordingAndOfATwinAreEqualOnAverage) {
   EXPECT_NEAR(twin / expected, 1.0, 0.02);
 }
 
-}  // namespace
+}  // namespace cell_means_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "unit/diagnose/clean_records.hpp"
 
 namespace torquescope {
-namespace {
+namespace channel_timing_test {
 
 Recording sine_read_late(double late_s) {
   Recording recording;
@@ -105,5 +105,5 @@ TEST(ChannelTiming, SaysWhatWasDone) {
   EXPECT_EQ(timing_sentence(0.0, 1000.0), "");
 }
 
-}  // namespace
+}  // namespace channel_timing_test
 }  // namespace torquescope

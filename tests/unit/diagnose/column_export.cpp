@@ -14,7 +14,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace column_export_test {
 
 // a joint with Stribeck friction, moved twice
 class ColumnExportTest : public testing::Test {
@@ -116,4 +116,4 @@ TEST_F(ColumnExportTest, HasTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
+}  // namespace column_export_test

@@ -16,7 +16,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace doubted_noise_test {
 
 // what acts on the joint from outside
 struct Outside {
@@ -141,4 +141,4 @@ TEST_F(DoubtedNoise, WithAHumpInItsSpectrumStaysUnexplained) {
   }
 }
 
-}  // namespace
+}  // namespace doubted_noise_test

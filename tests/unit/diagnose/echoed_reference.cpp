@@ -9,7 +9,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace echoed_reference_test {
 
 constexpr double encoder_step = 1e-4;
 
@@ -52,5 +52,5 @@ TEST(EchoedReference, IsNoneWhereNoneWasRecorded) {
   EXPECT_FALSE(has_echoed_reference(recording));
 }
 
-}  // namespace
+}  // namespace echoed_reference_test
 }  // namespace torquescope

@@ -13,7 +13,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace effect_account_test {
 
 EffectAccount account_with(SimulationPlan plan, Regressor const& regressor, ShapedEffect effect) {
   Recording const recording = recorded(simulate_joint(plan, 3));
@@ -73,4 +73,4 @@ TEST(EffectAccount, TellsTheSizeThatBelongsToThePlace) {
   EXPECT_EQ(peak_in({{"load", 6.0, 7.0, "N m"}}, at, torque), 10.0);
 }
 
-}  // namespace
+}  // namespace effect_account_test

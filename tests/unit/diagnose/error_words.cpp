@@ -10,7 +10,7 @@
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope {
-namespace {
+namespace error_words_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -124,5 +124,5 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
   }
 }
 
-}  // namespace
+}  // namespace error_words_test
 }  // namespace torquescope

@@ -14,7 +14,7 @@ using torquescope::advice_for;
 using torquescope::find_effect;
 using torquescope::NamedEffect;
 
-namespace {
+namespace excitation_advice_test {
 
 NamedEffect named(std::string name, std::vector<std::string> equivalent) {
   NamedEffect effect;
@@ -57,4 +57,4 @@ TEST(ExcitationAdvice, IsSilentOfTermsThatNoMotionTellsApart) {
   EXPECT_TRUE(advice_for({named("offset", {"coulomb_negative", "coulomb_positive"})}).empty());
 }
 
-}  // namespace
+}  // namespace excitation_advice_test

@@ -12,7 +12,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace friction_buildup_test {
 
 class FrictionBuildup : public testing::Test {
  protected:
@@ -54,8 +54,6 @@ class FrictionBuildup : public testing::Test {
 
   bool found = false;
 };
-
-}  // namespace
 
 struct BuildupCase {
   double bandwidth_hz, distance;
@@ -119,3 +117,5 @@ TEST_F(FrictionBuildup, IsNotASignSmearedOverTheSpeed) {
   // it is none of the two, and no sharp sign either
   EXPECT_TRUE(selection.differs_at_reversals);
 }
+
+}  // namespace friction_buildup_test

@@ -15,7 +15,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace friction_wander_test {
 
 class FrictionWanders : public testing::Test {
  protected:
@@ -69,8 +69,6 @@ class FrictionWanders : public testing::Test {
   RecordPipeline const& pipeline = clean().pipeline;
   BaselineTwin const& made = clean().twin;
 };
-
-}  // namespace
 
 TEST_F(FrictionWanders, NotWhereItDoesNot) {
   EXPECT_LT(made.friction_wander.z, 4.0);
@@ -162,3 +160,5 @@ TEST_F(FrictionWanders, NotSoMuchThatADriftIsHidden) {
   ASSERT_EQ(selection.accepted.size(), 1U);
   EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
 }
+
+}  // namespace friction_wander_test

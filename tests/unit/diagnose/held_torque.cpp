@@ -11,7 +11,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace held_torque_test {
 
 constexpr Eigen::Index n = 400;
 
@@ -24,8 +24,6 @@ Eigen::VectorXd sampled(Function const& function) {
 
 // without the rows at the ends that stay as read, of both ways
 auto inner(Eigen::VectorXd const& values) { return values.segment(4, n - 8); }
-
-}  // namespace
 
 TEST(HeldTorque, ActsAsTheMeanOfTheSampleBeforeUpToCubics) {
   auto const cubic = [](double t) { return 2.0 - 0.3 * t + 0.02 * t * t - 1e-4 * t * t * t; };
@@ -73,3 +71,5 @@ TEST(HeldTorque, LeavesWhatIsShorterThanFourRowsAsItIs) {
   EXPECT_EQ(torque_to_hold(three), three);
   EXPECT_EQ(acting_torque(Eigen::VectorXd()).size(), 0);
 }
+
+}  // namespace held_torque_test

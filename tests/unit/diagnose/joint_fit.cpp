@@ -10,7 +10,7 @@
 #include "engine/effects/regressor.hpp"
 
 namespace torquescope {
-namespace {
+namespace joint_fit_test {
 
 struct Rows {
   Regressor regressor;
@@ -71,5 +71,5 @@ TEST(JointFit, FrictionThatWouldDriveTheJointIsAnOffset) {
   EXPECT_EQ(single.record.parameters[2], 0.0);
 }
 
-}  // namespace
+}  // namespace joint_fit_test
 }  // namespace torquescope

@@ -18,7 +18,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace joint_model_test {
 
 constexpr double stribeck_torque = 0.5, stribeck_speed = 0.3, stribeck_exponent = 1.0;
 constexpr double coulomb = 1.3;
@@ -63,8 +63,6 @@ Motion const& motion() {
   static Motion const made = differentiate(simulated(stribeck_torque, 3), clean_filter(), {});
   return made;
 }
-
-}  // namespace
 
 TEST(JointModel, WithoutEffectsIsItsRegressor) {
   JointModel const model(clean_regressor());
@@ -123,8 +121,6 @@ TEST(JointModel, TellsEffectsTheReferenceWhateverIsFitted) {
   EXPECT_EQ(told.scales.peak_speed, 3.0);
 }
 
-namespace {
-
 constexpr std::size_t twins = 48;
 constexpr Eigen::Index n_parameters = 5;
 
@@ -166,8 +162,6 @@ RecordPipeline pipeline_of(JointModel model, Recording const& recording) {
 
 // processing biases least squares (encoder, hold, filter): by less than this of one fit's standard deviations
 constexpr double few_deviations = 3.0;
-
-}  // namespace
 
 TEST(JointModel, FitsBackWhatItsTwinsWereMadeWith) {
   Recording const recording = simulated(stribeck_torque, 3);
@@ -239,3 +233,5 @@ TEST(JointModel, FitsAColumnThatTwoWavesShareOnce) {
   EXPECT_NEAR(fit[8], 0.0, 0.02);
   EXPECT_NEAR(fit[9], 0.0, 0.02);
 }
+
+}  // namespace joint_model_test

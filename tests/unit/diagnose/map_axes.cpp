@@ -9,7 +9,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace map_axes_test {
 
 std::vector<Eigen::Index> rows_per_cell(std::vector<int> const& cells) {
   std::vector<Eigen::Index> counts(n_map_cells, 0);
@@ -92,5 +92,5 @@ TEST(MapAxes, LoadIsThatAlongTheMotion) {
     EXPECT_EQ(load[i], std::copysign(1.0, made.rows.dq[i]) * made.rows.load_torque[i]);
 }
 
-}  // namespace
+}  // namespace map_axes_test
 }  // namespace torquescope

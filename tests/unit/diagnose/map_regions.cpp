@@ -9,7 +9,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace map_regions_test {
 
 constexpr int n_cells = 30;
 
@@ -104,5 +104,5 @@ TEST(UnusualRuns, OverlappingRunsOfTwoReadingsAreOne) {
   EXPECT_EQ(runs[0].last, 10);
 }
 
-}  // namespace
+}  // namespace map_regions_test
 }  // namespace torquescope

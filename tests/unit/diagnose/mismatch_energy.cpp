@@ -9,7 +9,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace mismatch_energy_test {
 
 constexpr std::uint32_t sets = 600;
 
@@ -99,5 +99,5 @@ TEST(MismatchEnergy, BelowTheNoiseHasNoRms) {
   EXPECT_EQ(found.p, 1.0);
 }
 
-}  // namespace
+}  // namespace mismatch_energy_test
 }  // namespace torquescope

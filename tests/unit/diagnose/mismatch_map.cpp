@@ -11,7 +11,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace mismatch_map_test {
 
 using test::synthetic_rows;
 using test::SyntheticRows;
@@ -287,5 +287,5 @@ TEST(MismatchMap, TakesWellUnderTheTimeOfTheTwins) {
 #endif
 }
 
-}  // namespace
+}  // namespace mismatch_map_test
 }  // namespace torquescope

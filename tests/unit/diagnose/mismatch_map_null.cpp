@@ -10,7 +10,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace mismatch_map_null_test {
 
 constexpr int recordings = 400;
 constexpr Eigen::Index twins = 99;
@@ -56,5 +56,5 @@ TEST_P(CleanRecordings, AreRejectedOnceInTwentyOnEveryAxis) {
 INSTANTIATE_TEST_SUITE_P(Noise, CleanRecordings, ::testing::Values(0.0, 0.9),
                          [](auto const& noise) { return noise.param == 0.0 ? "white" : "coloured"; });
 
-}  // namespace
+}  // namespace mismatch_map_null_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace model_stage_test {
 
 // A coarse encoder makes the acceleration noisy, so that its columns take less than their due, and what follows the
 // load gets the less of it the smaller it is
@@ -55,8 +55,6 @@ class ModelStageOfACoarseEncoder : public testing::Test {
   ModelStage const plain = make_stage(setting_of(clean), clean_regressor()).value();
 };
 
-}  // namespace
-
 TEST_F(ModelStageOfACoarseEncoder, FindsAnEffectThatIsSmallerThanItsBias) {
   // what the encoder takes is put back fivefold, and the noise with it: one record is off by half of the size
   constexpr double size = 0.002;
@@ -96,3 +94,5 @@ TEST_F(ModelStageOfACoarseEncoder, FitsWithinBoundsWhatIsNothingWithoutItsBias) 
   EXPECT_EQ(stage.twin->baseline.least_squares[4], 0.0);
   EXPECT_EQ(stage.parameters()[4], 0.0);
 }
+
+}  // namespace model_stage_test

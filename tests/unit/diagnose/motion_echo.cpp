@@ -14,7 +14,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace motion_echo_test {
 
 constexpr double follows_p = 0.005;  // what doubt_noise() asks for
 constexpr std::size_t twins = 200;   // the fewest whose p can be that small
@@ -48,8 +48,6 @@ Eigen::VectorXd on_rows(ModelStage const& stage, Eigen::VectorXd const& signal) 
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
   return seen - columns.nuisance() * (columns.nuisance().transpose() * seen);
 }
-
-}  // namespace
 
 TEST(MotionEcho, OfWhiteNoiseIsAnyOfItsTwins) {
   constexpr std::uint32_t records = 20;
@@ -89,3 +87,5 @@ TEST(MotionEcho, IsHeardOfWhatSwingsBehindTheJoint) {
     EXPECT_LT(motion_echo_p(stage), follows_p) << hertz << " Hz";
   }
 }
+
+}  // namespace motion_echo_test

@@ -9,7 +9,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace multiple_testing_test {
 
 TEST(BenjaminiHochberg, GivesTheTextbookExample) {
   // Benjamini, Hochberg 1995, section 3.2: 15 hypotheses, 4 rejected at 5 %
@@ -131,5 +131,5 @@ TEST(HierarchicalQ, FindsAtEveryLevelWhatTheTwoStepsFind) {
   }
 }
 
-}  // namespace
+}  // namespace multiple_testing_test
 }  // namespace torquescope

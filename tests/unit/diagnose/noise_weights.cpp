@@ -15,7 +15,7 @@ using torquescope::NoiseWeights;
 using torquescope::RowWhitening;
 using torquescope::test::eigenvalues;
 
-namespace {
+namespace noise_weights_test {
 
 constexpr Eigen::Index n = 300;
 constexpr double duration_s = 30.0;
@@ -42,8 +42,6 @@ NoiseWeights white_rows() {
 void apply(NoiseWeights const& weights, Eigen::Ref<Eigen::MatrixXd> signals) {
   weights.apply(signals, all_rows(), weights.wander_on(all_rows()));
 }
-
-}  // namespace
 
 TEST(NoiseWeights, AreTheInverseRootOfTheCovariance) {
   NoiseWeights const weights = white_rows().with_wander(friction(), duration_s, 1e-2);
@@ -86,3 +84,5 @@ TEST(NoiseWeights, WithoutWanderOrWithoutNoiseAreThoseOfTheRows) {
   EXPECT_TRUE(NoiseWeights().are_equal());
   EXPECT_FALSE(white_rows().are_equal());
 }
+
+}  // namespace noise_weights_test

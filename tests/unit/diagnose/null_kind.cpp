@@ -13,7 +13,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace null_kind_test {
 
 constexpr Eigen::Index n = 1500;  // a length the fast transform likes
 constexpr Eigen::Index draws = 1500;
@@ -51,8 +51,6 @@ double circular_autocovariance(Eigen::VectorXd const& x, Eigen::Index lag) {
   for (Eigen::Index i = 0; i < x.size(); ++i) sum += x[i] * x[(i + lag) % x.size()];
   return sum;
 }
-
-}  // namespace
 
 TEST(NullKind, TwinsStayTwins) {
   auto comparison = comparison_of(0.5);
@@ -153,3 +151,5 @@ TEST(NullKind, HasTheSameBitsForAnyNumberOfThreads) {
     EXPECT_NE(alone.rows.twins, other.rows.twins);
   }
 }
+
+}  // namespace null_kind_test

@@ -16,7 +16,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace own_motion_test {
 
 constexpr double load = 0.02, spring_hz = 9.0, spring_damping = 0.05;
 
@@ -142,4 +142,4 @@ TEST_F(OwnMotion, IsNotAskedOfALawWithoutMemory) {
   EXPECT_FALSE(refine_on_own_motion(columns.recording, scan_of("stribeck"), stage.mismatch(), search, 2));
 }
 
-}  // namespace
+}  // namespace own_motion_test

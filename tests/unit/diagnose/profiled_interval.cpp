@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace torquescope {
-namespace {
+namespace profiled_interval_test {
 
 ProfiledParameter at(double value, double first_step = 1e-3) { return {value, 0.0, 10.0, first_step}; }
 
@@ -47,5 +47,5 @@ TEST(ProfiledInterval, AFirstStepThatIsTooLongIsHalved) {
   EXPECT_NEAR(to, 4.0 + 0.392, 0.1);
 }
 
-}  // namespace
+}  // namespace profiled_interval_test
 }  // namespace torquescope

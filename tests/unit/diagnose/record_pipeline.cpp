@@ -14,7 +14,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace record_pipeline_test {
 
 constexpr double half_gap = 4e-4, flank_hz = 80.0, flank_damping = 0.3, film_per_s = 20.0;
 constexpr double rate_hz = 1000.0;
@@ -72,8 +72,6 @@ JointModel gap_model() {
           {{find_effect("backlash"), {half_gap, flank_hz, flank_damping, film_per_s, 0.0}}}};
 }
 
-}  // namespace
-
 TEST(RecordPipeline, DrivesALoadBehindAGapBeyondTheCutOff) {
   FilterOptions filter;
   filter.cutoff_hz = 60.0;
@@ -90,3 +88,5 @@ TEST(RecordPipeline, DrivesALoadBehindAGapBeyondTheCutOff) {
   EXPECT_LT(error, 0.15);  // a knock that comes a little early or late changes the next
   EXPECT_GT((cut - truth).norm() / truth.norm(), 3.0 * error);
 }
+
+}  // namespace record_pipeline_test

@@ -15,7 +15,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace recorded_loop_test {
 
 constexpr double newton_per_volt = 35.15065;
 // published: u = kv (kp (q_ref - q) - dq), in V
@@ -45,8 +45,6 @@ RecordedLoop loop_of(Recording const& recording) {
   return recorded_loop(recording, {record.parameters[0]}, test::clean_filter(),
                        [&](auto const& limited) { return needed_torque(record, pipeline, limited); });
 }
-
-}  // namespace
 
 TEST(RecordedLoop, KeepsTheLimitOfADriveThatGaveNoMore) {
   auto joint = limited_joint();
@@ -113,3 +111,5 @@ TEST(RecordedLoop, OfEmpsWithPulsesIsNotTakenForALaw) {
   // a tanh of the reference's velocity imitates most of the pulses; five times beyond what white noise could be is left
   EXPECT_GT(*std::max_element(acf.begin(), acf.end()), 5.0 * found.controller->white_bound);
 }
+
+}  // namespace recorded_loop_test

@@ -11,7 +11,7 @@
 #include <string>
 
 namespace torquescope {
-namespace {
+namespace recording_checks_test {
 
 constexpr double good_relerr = 0.05;
 
@@ -122,5 +122,5 @@ TEST(CheckRecording, SeesNoMotionInNumbersThatAreNone) {
   EXPECT_EQ(check_recording(facts, good_relerr)->verdict, Verdict::insufficient);
 }
 
-}  // namespace
+}  // namespace recording_checks_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace region_consistency_test {
 
 constexpr Eigen::Index n = 2000, n_twins = 40;
 
@@ -98,5 +98,5 @@ TEST(RegionConsistency, DoesNotRefuseAWeakEffectForItsNoise) {
   EXPECT_LT(refused, trials / 10);  // one in twenty is meant
 }
 
-}  // namespace
+}  // namespace region_consistency_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 using torquescope::moving_samples;
 using torquescope::resting_samples;
 
-namespace {
+namespace reversal_mask_test {
 
 constexpr double rate_hz = 1000.0;
 
@@ -22,8 +22,6 @@ Eigen::VectorXd sine() {
     dq[k] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / rate_hz);
   return dq;
 }
-
-}  // namespace
 
 TEST(ReversalMask, DropsEverythingWithin1Point6PeriodsOfTheCutoff) {
   auto const moving = moving_samples(sine(), rate_hz, 40.0);
@@ -90,3 +88,5 @@ TEST(ReversalMask, WithReversalsKeepsARestThatIsShort) {
   auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
   EXPECT_EQ(std::count(kept.begin(), kept.end(), false), 0);
 }
+
+}  // namespace reversal_mask_test

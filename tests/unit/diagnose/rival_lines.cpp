@@ -12,7 +12,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace rival_lines_test {
 
 // friction that rises with the speed as a power of it: on this motion a drag of squares and cubes explains it nearly as well
 class RivalLines : public testing::Test {
@@ -75,4 +75,4 @@ TEST_F(RivalLines, TheFirstLineStaysWhereTheOtherLeavesAsMuch) {
   EXPECT_EQ(best.left_share(), alone.left_share());
 }
 
-}  // namespace
+}  // namespace rival_lines_test

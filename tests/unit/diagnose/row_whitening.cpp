@@ -11,7 +11,7 @@
 using torquescope::RowWhitening;
 using torquescope::whitening_of;
 
-namespace {
+namespace row_whitening_test {
 
 // three stretches of rows with gaps between them
 std::vector<Eigen::Index> three_stretches(Eigen::Index each) {
@@ -52,8 +52,6 @@ Whiteness whiteness(Eigen::MatrixXd const& noise, Eigen::Index each) {
   }
   return {std::sqrt(variance), largest};
 }
-
-}  // namespace
 
 TEST(RowWhitening, MakesDifferentiatedEncoderNoiseWhiteAndAsQuietAsItsQuietestFrequency) {
   Eigen::Index const each = 400;
@@ -133,3 +131,5 @@ TEST(RowWhitening, IsNothingWithoutNoise) {
   none.apply(signal, rows);
   EXPECT_EQ(signal, before);
 }
+
+}  // namespace row_whitening_test

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace torquescope {
-namespace {
+namespace scaled_solution_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -65,5 +65,5 @@ TEST(BoundedSolution, OfAHeldCoefficientIsThatWithoutItsColumn) {
   EXPECT_TRUE((found.row(3).array() == 0.0).all());
 }
 
-}  // namespace
+}  // namespace scaled_solution_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope {
-namespace {
+namespace sentences_test {
 
 using ::testing::AllOf;
 using ::testing::EndsWith;
@@ -270,5 +270,5 @@ TEST(PlacePhrase, OfASpectrumThatIsFullSaysSo) {
   EXPECT_EQ(place_phrase(joint, {"order", 1.0, 28.0, "1/m"}), "at all wavelengths");
 }
 
-}  // namespace
+}  // namespace sentences_test
 }  // namespace torquescope

@@ -16,7 +16,7 @@
 #include "support/decompositions.hpp"
 
 namespace torquescope {
-namespace {
+namespace shape_grid_test {
 
 constexpr double rounding = 1e-12;  // relative
 
@@ -200,5 +200,5 @@ INSTANTIATE_TEST_SUITE_P(Effects, EveryWave,
                                          Wave{"position_dependent_friction", "position_friction_order", false}),
                          [](auto const& one) { return std::string(one.param.effect); });
 
-}  // namespace
+}  // namespace shape_grid_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace shared_twins_test {
 
 struct Batch {
   std::string identity;
@@ -77,8 +77,6 @@ void expect_same(Found const& one, Found const& other) {
   EXPECT_EQ(one.comparison.ran_away, other.comparison.ran_away);
 }
 
-}  // namespace
-
 TEST(SharedTwins, SayTheSameWhoeverComputedThem) {
   Found const alone = found_by(2);
   Giver giver;
@@ -109,3 +107,5 @@ TEST(SharedTwins, ThatRanAwayHaveRunAwayForEverybody) {
   Taker taker(giver.batches);
   EXPECT_TRUE(ran_away(&taker));
 }
+
+}  // namespace shared_twins_test

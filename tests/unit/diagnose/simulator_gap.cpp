@@ -14,7 +14,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace simulator_gap_test {
 
 // the motion as the user's own program makes it out of the recording: another filter than the job's
 Motion users_motion(Recording const& recording) {
@@ -47,8 +47,6 @@ Bench bench() {
 Eigen::VectorXd residual_of(Recording const& recording) {
   return clean_pipeline(recording).process(recording).residual;
 }
-
-}  // namespace
 
 TEST(SimulatorGap, LeavesTheResidualOfTheDifferenceAndTheParametersOfTheJoint) {
   auto [recording, motion, truth] = bench();
@@ -139,3 +137,5 @@ TEST(SimulatorGap, DoesNotChatterWhereTheJointRests) {
   ASSERT_GT((recording.simulated_torque.segment(from, length).array() - truth[3]).abs().maxCoeff(), 0.9 * truth[2]);
   EXPECT_LT(largest_step, 1e-3 * truth[2]);
 }
+
+}  // namespace simulator_gap_test

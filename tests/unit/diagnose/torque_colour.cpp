@@ -14,7 +14,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace torque_colour_test {
 
 constexpr double coulomb = 1.3, white_std = 0.015 * coulomb;
 
@@ -36,8 +36,6 @@ double density(double white, double slow, double corner_hz, double f, double rat
 double density(TorqueColour const& colour, double f) {
   return density(colour.white_std, colour.slow_std, colour.corner_hz, f);
 }
-
-}  // namespace
 
 TEST(TorqueColour, OfSlowNoiseIsWhatItWasMadeOf) {
   constexpr double slow_std = 0.02, corner_hz = 8.0;
@@ -116,3 +114,5 @@ TEST(TorqueColour, IsNotAskedWhereAControllerTellsIt) {
   auto const pipeline = clean_pipeline(recording);
   EXPECT_FALSE(make_baseline_twin(recording, pipeline, clean_filter(), {1e-4, 16, 1, 0}, 2).colour);
 }
+
+}  // namespace torque_colour_test

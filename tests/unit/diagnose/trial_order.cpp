@@ -10,7 +10,7 @@ using torquescope::helps_elsewhere;
 using torquescope::in_order_of_trial;
 using torquescope::Trial;
 
-namespace {
+namespace trial_order_test {
 
 Trial trial(char const* effect, double gain, double cv_gain) {
   Trial one;
@@ -27,8 +27,6 @@ std::vector<std::string> names(std::vector<Trial> const& trials) {
 }
 
 using Names = std::vector<std::string>;
-
-}  // namespace
 
 TEST(TrialOrder, MostGainFirst) {
   EXPECT_EQ(names(in_order_of_trial({trial("gravity", 2.0, 2.0), trial("stribeck", 5.0, 5.0)})),
@@ -102,3 +100,5 @@ TEST(TrialOrder, HelpsElsewhereByItsSpreadOrByHalfOfItsGain) {
   EXPECT_TRUE(helps_elsewhere({.gain = 0.6, .t = 0.5}, 1.0));
   EXPECT_FALSE(helps_elsewhere({.gain = 0.4, .t = 1.9}, 1.0));
 }
+
+}  // namespace trial_order_test

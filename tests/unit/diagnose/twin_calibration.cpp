@@ -9,15 +9,13 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace twin_calibration_test {
 
 // Kolmogorov: 1 % in the family of six statistics; p comes in steps of 1 / (twins + 1)
 double largest_distance(std::size_t records, std::size_t twins) {
   constexpr double quantile = 1.89;  // of sqrt(n) D at 1 - 0.01 / 6
   return quantile / std::sqrt(static_cast<double>(records)) + 1.0 / static_cast<double>(twins + 1);
 }
-
-}  // namespace
 
 TEST(TwinCalibration, GivesUniformPValuesOnCleanRecordings) {
   constexpr std::uint32_t records = 40;
@@ -39,3 +37,5 @@ TEST(TwinCalibration, GivesUniformPValuesOnCleanRecordings) {
   std::printf("energy ratio %.3f +- %.3f\n", mean_ratio, spread);
   EXPECT_NEAR(mean_ratio, 1.0, 3.0 * spread / std::sqrt(static_cast<double>(records)));
 }
+
+}  // namespace twin_calibration_test

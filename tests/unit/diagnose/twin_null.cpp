@@ -8,7 +8,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace twin_null_test {
 
 std::vector<double> normals(std::size_t n, std::uint32_t set) {
   std::vector<double> values(n);
@@ -82,5 +82,5 @@ TEST(StandardisedTwins, EqualsLeavingEachOneOut) {
   }
 }
 
-}  // namespace
+}  // namespace twin_null_test
 }  // namespace torquescope

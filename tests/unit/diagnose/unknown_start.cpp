@@ -8,7 +8,7 @@
 
 using torquescope::unknown_start;
 
-namespace {
+namespace unknown_start_test {
 
 // from rest: a creep of `creep` backwards for 100 samples, then strokes of 1 forwards and backwards in 400 samples each
 Eigen::VectorXd creeping_start(double creep) {
@@ -28,8 +28,6 @@ Eigen::VectorXd speed_of(Eigen::VectorXd const& q) {
 }
 
 Eigen::Index start_of(Eigen::VectorXd const& q) { return unknown_start(q, speed_of(q)); }
-
-}  // namespace
 
 TEST(UnknownStart, EndsAfterTheFirstWayWithoutATurn) {
   // 6 % of a range of 1.01 along a stroke of 1 in 400 samples, counted from the turn at sample 100
@@ -52,3 +50,5 @@ TEST(UnknownStart, IsNoneWithoutMotion) {
   EXPECT_EQ(start_of(Eigen::VectorXd::Constant(100, 0.3)), 0);
   EXPECT_EQ(start_of(Eigen::VectorXd()), 0);
 }
+
+}  // namespace unknown_start_test

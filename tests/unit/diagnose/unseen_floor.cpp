@@ -12,7 +12,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace unseen_floor_test {
 
 class UnseenFloor : public testing::Test {
  protected:
@@ -76,4 +76,4 @@ TEST_F(UnseenFloor, IsThatOfTheTrainingLawWhereTheOwnOneIsTooLoud) {
 
 TEST_F(UnseenFloor, IsUnknownWhereTwinsRunAway) { EXPECT_TRUE(std::isnan(floor_below(0.1, TwinErrors{}))); }
 
-}  // namespace
+}  // namespace unseen_floor_test

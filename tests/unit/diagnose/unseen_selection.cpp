@@ -18,7 +18,7 @@
 using namespace torquescope;
 using namespace torquescope::test;
 
-namespace {
+namespace unseen_selection_test {
 
 class UnseenSelection : public testing::Test {
  protected:
@@ -91,4 +91,4 @@ TEST_F(UnseenSelection, AsksTwinsHowMuchOfALawIsFoundWhereItIs) {
   EXPECT_LT(found.share(), least_by_chance(twins));
 }
 
-}  // namespace
+}  // namespace unseen_selection_test

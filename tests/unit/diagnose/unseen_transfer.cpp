@@ -8,14 +8,12 @@
 
 using namespace torquescope;
 
-namespace {
+namespace unseen_transfer_test {
 
 Eigen::MatrixXd normal_matrix(Eigen::Index rows, Eigen::Index columns, std::uint32_t set) {
   RandomStream stream({11, set, RandomDomain::test}, 0, 0);
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return stream.normal(); });
 }
-
-}  // namespace
 
 TEST(UnseenTransfer, ErrorsAreThoseOfPredictionsMadeOneByOne) {
   Eigen::MatrixXd const columns = normal_matrix(300, 4, 1), errors = 0.1 * normal_matrix(4, 7, 2);
@@ -41,3 +39,5 @@ TEST(UnseenTransfer, SaysNothingOfAHundredthOfTheTorqueOrWithoutTwins) {
   EXPECT_TRUE(beyond_twins("clean.csv", 0.0111, {0.001, 0.002}));
   EXPECT_FALSE(beyond_twins("clean.csv", 0.5, {}));
 }
+
+}  // namespace unseen_transfer_test

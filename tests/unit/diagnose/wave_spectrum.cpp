@@ -12,7 +12,7 @@
 #include "unit/diagnose/synthetic_rows.hpp"
 
 namespace torquescope {
-namespace {
+namespace wave_spectrum_test {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
@@ -102,5 +102,5 @@ TEST(WaveSpectrum, AJointThatStandsStillHasNoOrders) {
   for (WaveBand const& band : waves_in(grid, wave_edges(grid))) EXPECT_EQ(band.waves(), 0);
 }
 
-}  // namespace
+}  // namespace wave_spectrum_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 #include "engine/effects/effect.hpp"
 
 namespace torquescope {
-namespace {
+namespace backlash_laws_test {
 
 JointScales const plain;
 
@@ -196,5 +196,5 @@ TEST(Backlash, IsNoneWhereTheFlankWindsUpTenTimesAsFar) {
   EXPECT_TRUE(is_gap(2.5e-5, 21.0));
 }
 
-}  // namespace
+}  // namespace backlash_laws_test
 }  // namespace torquescope

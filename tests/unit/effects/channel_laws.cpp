@@ -7,7 +7,7 @@
 #include "unit/effects/smooth_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace channel_laws_test {
 
 JointScales const plain;
 
@@ -100,5 +100,5 @@ TEST(MeasurementEffects, AreToldApartFromPhysics) {
     EXPECT_EQ(find_effect(name)->acts_on(), ActsOn::joint) << name;
 }
 
-}  // namespace
+}  // namespace channel_laws_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include "unit/effects/smooth_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace effects_test {
 
 using test::columns_of;
 using test::KnownJoint;
@@ -248,5 +248,5 @@ TEST(EffectNames, AreThoseOfTheCatalogue) {
   }
 }
 
-}  // namespace
+}  // namespace effects_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "unit/effects/rich_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace joint_form_test {
 
 TEST(JointForm, PredictsTheSameTorqueWhileTheJointMoves) {
   Regressor const seed({"inertia", "viscous", "coulomb_positive", "coulomb_negative"}, JointKind::revolute);
@@ -46,5 +46,5 @@ TEST(JointForm, ExistsOnlyForTheTwoSidedModel) {
   EXPECT_FALSE(joint_form(Regressor({"coulomb_positive"}, JointKind::revolute)).has_value());
 }
 
-}  // namespace
+}  // namespace joint_form_test
 }  // namespace torquescope

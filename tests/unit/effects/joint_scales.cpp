@@ -10,7 +10,7 @@
 #include "unit/effects/smooth_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace joint_scales_test {
 
 // how many of the new units one old unit is
 struct Units {
@@ -164,5 +164,5 @@ TEST(FittedBaseline, TakesACoulombLevelOfTheWrongSignForAnOffset) {
   EXPECT_EQ(joint.baseline(motion).scales.coulomb_positive, 0.0);
 }
 
-}  // namespace
+}  // namespace joint_scales_test
 }  // namespace torquescope

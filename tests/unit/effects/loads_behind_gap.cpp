@@ -11,7 +11,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::load_behind_gap {
-namespace {
+namespace loads_behind_gap_test {
 
 class LoadsBehindGap : public kernels::EveryInstructionSet {};
 
@@ -86,5 +86,5 @@ TEST_P(LoadsBehindGap, HaveTheBitsOfOneAlone) {
 INSTANTIATE_TEST_SUITE_P(Target, LoadsBehindGap, testing::ValuesIn(kernels::supported_instruction_sets()),
                          kernels::instruction_set_of);
 
-}  // namespace
+}  // namespace loads_behind_gap_test
 }  // namespace torquescope::load_behind_gap

@@ -14,7 +14,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::load_on_spring {
-namespace {
+namespace loads_on_spring_test {
 
 class LoadsOnSpring : public kernels::EveryInstructionSet {};
 
@@ -151,5 +151,5 @@ TEST_P(ColumnsOfShapes, AreThoseOfOneShapeAfterTheOther) {
 INSTANTIATE_TEST_SUITE_P(Target, ColumnsOfShapes, testing::ValuesIn(kernels::supported_instruction_sets()),
                          kernels::instruction_set_of);
 
-}  // namespace
+}  // namespace loads_on_spring_test
 }  // namespace torquescope::load_on_spring

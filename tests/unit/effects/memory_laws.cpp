@@ -10,7 +10,7 @@
 #include "unit/effects/smooth_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace memory_laws_test {
 
 JointScales const plain;
 
@@ -287,5 +287,5 @@ TEST(JointElasticity, VanishesForAStiffJoint) {
   EXPECT_LT(phi.norm(), 1e-3 * motion.ddq.norm());  // (2 Hz / 300 Hz)^2
 }
 
-}  // namespace
+}  // namespace memory_laws_test
 }  // namespace torquescope

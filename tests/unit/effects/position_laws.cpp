@@ -8,7 +8,7 @@
 #include "unit/effects/smooth_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace position_laws_test {
 
 JointScales const plain;
 
@@ -158,5 +158,5 @@ TEST(EncoderEccentricity, AddsToThePositionInSimulation) {
               2e-3 * std::sin(0.7) + 1e-3 * std::cos(0.7) + 4e-4 * std::sin(1.4) + 3e-4 * std::cos(1.4), 1e-18);
 }
 
-}  // namespace
+}  // namespace position_laws_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "unit/effects/rich_motion.hpp"
 
 namespace torquescope {
-namespace {
+namespace regressor_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -161,5 +161,5 @@ TEST(ModelOptions, AreReadFromTheModelSection) {
   EXPECT_EQ(regressor.velocity_deadband(), 0.01);
 }
 
-}  // namespace
+}  // namespace regressor_test
 }  // namespace torquescope

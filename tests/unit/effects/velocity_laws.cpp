@@ -7,7 +7,7 @@
 #include "engine/effects/effect.hpp"
 
 namespace torquescope {
-namespace {
+namespace velocity_laws_test {
 
 JointScales const plain;  // equal Coulomb levels
 
@@ -187,5 +187,5 @@ TEST(PeriodicDisturbance, KeepsItsFrequencyWhateverTheJointDoes) {
   EXPECT_NEAR(torque("periodic_disturbance", {.time_s = 0.033 + 0.5 / 12.5}, parameters), -once, 1e-14);
 }
 
-}  // namespace
+}  // namespace velocity_laws_test
 }  // namespace torquescope

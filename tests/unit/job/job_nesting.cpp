@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace job_nesting_test {
 
 TEST(JobNesting, CountsBracketsBracesAndDotsOfOneKey) {
   EXPECT_EQ(first_too_deep("x = [[1]]", 2), std::nullopt);
@@ -30,5 +30,5 @@ TEST(JobNesting, AnOpenQuoteHidesNothingBelowItsLine) {
   EXPECT_NE(first_too_deep("x = \"open\ny = [[[[[", 4), std::nullopt);
 }
 
-}  // namespace
+}  // namespace job_nesting_test
 }  // namespace torquescope

@@ -5,7 +5,7 @@
 #include "engine/job/job.hpp"
 
 namespace torquescope {
-namespace {
+namespace job_options_test {
 
 template <class Options>
 std::vector<Problem> applied(Job const& job, std::string const& section, Options& options) {
@@ -52,5 +52,5 @@ TEST(OutputOptions, StoreSamplesUnlessTold) {
   EXPECT_FALSE(options.samples);
 }
 
-}  // namespace
+}  // namespace job_options_test
 }  // namespace torquescope

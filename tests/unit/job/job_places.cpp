@@ -6,7 +6,7 @@
 #include "engine/job/job.hpp"
 
 namespace torquescope {
-namespace {
+namespace job_places_test {
 
 char const job_text[] =
     "# a täst\n"                                        // 1
@@ -100,5 +100,5 @@ TEST(JobPlaces, PathsAreRelativeToTheJob) {
   EXPECT_EQ(job.resolve("/data/a.csv"), std::filesystem::path("/data/a.csv"));
 }
 
-}  // namespace
+}  // namespace job_places_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace job_refusals_test {
 
 using ::testing::HasSubstr;
 
@@ -121,5 +121,5 @@ TEST_F(JobFile, IsReadWhole) {
   EXPECT_EQ(std::get<std::int64_t>(job.find("experiment")->find("seed")->value), 7);
 }
 
-}  // namespace
+}  // namespace job_refusals_test
 }  // namespace torquescope

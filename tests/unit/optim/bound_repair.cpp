@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace bound_repair_test {
 
 Bounds const bounds{{-1.0, 2.0}, {1.0, 6.0}};
 std::array<double, 2> const target{0.5, 3.0};
@@ -69,5 +69,5 @@ TEST(BoundRepair, RandomCoversTheBox) {
   EXPECT_GT(most, 0.98);
 }
 
-}  // namespace
+}  // namespace bound_repair_test
 }  // namespace torquescope

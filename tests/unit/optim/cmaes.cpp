@@ -8,7 +8,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace cmaes_test {
 
 using testing::ask;
 using testing::make_optimiser;
@@ -121,5 +121,5 @@ TEST(Cmaes, EachOptionChangesTheSearch) {
   EXPECT_NE(best_after({{"sigma", 0.1}}), reference);
 }
 
-}  // namespace
+}  // namespace cmaes_test
 }  // namespace torquescope

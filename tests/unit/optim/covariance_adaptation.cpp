@@ -8,7 +8,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace covariance_adaptation_test {
 
 Eigen::MatrixXd deviates(Eigen::Index rows, Eigen::Index columns, std::uint32_t generation) {
   RandomStream random({7, 0, RandomDomain::test}, generation, 0);
@@ -122,5 +122,5 @@ TEST(CovarianceAdaptation, GoesOnFromItsNumbers) {
   EXPECT_EQ(copy.numbers(), distribution.numbers());
 }
 
-}  // namespace
+}  // namespace covariance_adaptation_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace torquescope {
-namespace {
+namespace crossover_test {
 
 constexpr std::size_t dimension = 6;
 constexpr std::array<double, dimension> target{};
@@ -68,5 +68,5 @@ TEST(BinomialCrossover, TakesEachParameterWithItsProbability) {
   for (int const count : counts_from_mutant(CR, 20000)) EXPECT_NEAR(count, draws * probability, five_deviations);
 }
 
-}  // namespace
+}  // namespace crossover_test
 }  // namespace torquescope

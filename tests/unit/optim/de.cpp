@@ -7,7 +7,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace de_test {
 
 using testing::bumpy;
 using testing::make_optimiser;
@@ -73,5 +73,5 @@ TEST(De, ReportsTheControlsOfTheJob) {
   EXPECT_GT(search->progress().PC, 0.0);
 }
 
-}  // namespace
+}  // namespace de_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace defuzzification_test {
 
 FuzzyVariable const F_narrow{"F", 1.0, 0.5, {0.3, 0.6, 0.9}};
 FuzzyVariable const F_wide{"F", 2.0, 0.5, {0.3, 0.6, 0.9}};
@@ -61,5 +61,5 @@ TEST(WeightedAverage, LiesBetweenTheMeansOfTheFiringSets) {
   EXPECT_DOUBLE_EQ(weighted_average(CR, {0.5, 0.0, 0.5}), 0.7);
 }
 
-}  // namespace
+}  // namespace defuzzification_test
 }  // namespace torquescope

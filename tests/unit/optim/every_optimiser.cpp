@@ -12,7 +12,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace every_optimiser_test {
 
 using testing::ask;
 using testing::asked_and_evaluated;
@@ -293,5 +293,5 @@ TEST(OptimiserRegistry, FindsByNameOnly) {
   EXPECT_EQ(find_optimiser("no such thing"), nullptr);
 }
 
-}  // namespace
+}  // namespace every_optimiser_test
 }  // namespace torquescope

@@ -6,7 +6,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace fade_test {
 
 using testing::make_optimiser;
 using testing::run_to_generation;
@@ -88,5 +88,5 @@ TEST(Fade, WithRawNormDependsOnTheScaleOfFitness) {
   EXPECT_GT(scaled->progress().F, plain->progress().F + 0.05);
 }
 
-}  // namespace
+}  // namespace fade_test
 }  // namespace torquescope

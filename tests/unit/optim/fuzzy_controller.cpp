@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace torquescope {
-namespace {
+namespace fuzzy_controller_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -101,5 +101,5 @@ TEST(FuzzyController, ReachesOnlyItsMeasuredRange) {
   EXPECT_NEAR(CR.most, 0.6865, three_digits);
 }
 
-}  // namespace
+}  // namespace fuzzy_controller_test
 }  // namespace torquescope

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace fuzzy_curves_test {
 
 TEST(MembershipCurves, CoverTheSixVariablesOverTheirUniverses) {
   FuzzyController const controller({});
@@ -37,5 +37,5 @@ TEST(DecisionSurface, IsTheSystemAtEveryPairOfInputs) {
   EXPECT_EQ(surface.output_name, "CR");
 }
 
-}  // namespace
+}  // namespace fuzzy_curves_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace lshade_test {
 
 using testing::ask;
 using testing::bumpy;
@@ -179,5 +179,5 @@ TEST(Lshade, EachOptionChangesTheSearch) {
   for (auto const& setting : settings) EXPECT_NE(best_after({setting}), reference) << setting.key;
 }
 
-}  // namespace
+}  // namespace lshade_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "engine/base/random_stream.hpp"
 
 namespace torquescope {
-namespace {
+namespace mamdani_test {
 
 enum Set { S, M, B };
 struct Rule {
@@ -85,5 +85,5 @@ TEST(MamdaniSystem, GrowsWithBothInputs) {
   }
 }
 
-}  // namespace
+}  // namespace mamdani_test
 }  // namespace torquescope

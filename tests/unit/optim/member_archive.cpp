@@ -6,7 +6,7 @@
 #include <array>
 
 namespace torquescope {
-namespace {
+namespace member_archive_test {
 
 RandomKey const key{7, 0, RandomDomain::test};
 
@@ -50,5 +50,5 @@ TEST(MemberArchive, LosesAnyOfItsMembersWithTheSameProbability) {
   for (int const count : lost) EXPECT_NEAR(count, 1000, 137);
 }
 
-}  // namespace
+}  // namespace member_archive_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace movement_test {
 
 Population random_population(std::uint32_t generation) {
   Population population(20, 3);
@@ -126,5 +126,5 @@ TEST(Movement, HugeFitnessDoesNotBecomeNan) {
   EXPECT_FALSE(std::isnan(moved(before, after, box, MovementNorm::raw).FC));
 }
 
-}  // namespace
+}  // namespace movement_test
 }  // namespace torquescope

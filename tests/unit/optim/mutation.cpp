@@ -9,7 +9,7 @@
 #include "engine/optim/population.hpp"
 
 namespace torquescope {
-namespace {
+namespace mutation_test {
 
 TEST(MutationRand1, PicksThreeDifferentMembersOtherThanTheTarget) {
   for (std::size_t const n : {4u, 5u, 30u}) {
@@ -58,5 +58,5 @@ TEST(MutationRand1, AddsTheScaledDifferenceToTheBase) {
   EXPECT_EQ(mutant, (std::array{1.0, 2.0}));
 }
 
-}  // namespace
+}  // namespace mutation_test
 }  // namespace torquescope

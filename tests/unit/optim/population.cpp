@@ -7,7 +7,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace population_test {
 
 RandomKey const key{7, 0, RandomDomain::test};
 
@@ -62,5 +62,5 @@ TEST(Population, KeepsItsBestInTheirOrder) {
   EXPECT_EQ(population.numbers, (std::vector{0.0, 0.0, 2.0, 20.0, 4.0, 40.0}));
 }
 
-}  // namespace
+}  // namespace population_test
 }  // namespace torquescope

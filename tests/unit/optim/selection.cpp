@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace selection_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -41,5 +41,5 @@ TEST(Selection, IsSlotBySlotAndLeavesTheRestOfATruncatedBatch) {
   EXPECT_EQ(best_index(population.fitness), 0u);
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace torquescope

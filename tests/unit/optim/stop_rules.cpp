@@ -8,7 +8,7 @@
 #include "support/optimise.hpp"
 
 namespace torquescope {
-namespace {
+namespace stop_rules_test {
 
 Bounds const box = testing::cube(2, -1.0, 1.0);
 
@@ -162,5 +162,5 @@ TEST(StopReason, HasTheNameOfItsOption) {
   EXPECT_EQ(to_string(StopReason::wall_clock), "wall_clock");
 }
 
-}  // namespace
+}  // namespace stop_rules_test
 }  // namespace torquescope

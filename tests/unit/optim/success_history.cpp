@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace success_history_test {
 
 RandomKey const key{7, 0, RandomDomain::test};
 constexpr double rounding = 1e-15;
@@ -75,5 +75,5 @@ TEST(SuccessHistory, GoesOnFromItsNumbers) {
   EXPECT_EQ(copy.numbers(), history.numbers());
 }
 
-}  // namespace
+}  // namespace success_history_test
 }  // namespace torquescope

@@ -5,7 +5,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace fitness_choice_test {
 
 using testing::HasSubstr;
 
@@ -53,5 +53,5 @@ TEST(FitnessChoice, CountsEvaluationsBeforeStatisticsAreMade) {
   EXPECT_THAT(choice.words, HasSubstr("10 evaluations do not repay statistics"));
 }
 
-}  // namespace
+}  // namespace fitness_choice_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace hac_test {
 
 using test::fit;
 
@@ -153,5 +153,5 @@ TEST(CriticalValue, IsNormalForShortMemoryAndWiderForLong) {
   EXPECT_NEAR(critical_value(149, 500), 2.834, 0.05);
 }
 
-}  // namespace
+}  // namespace hac_test
 }  // namespace torquescope

@@ -3,7 +3,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace irls_test {
 
 using test::fit;
 
@@ -96,5 +96,5 @@ TEST(Irls, IntervalsOfGaussianDataAreFivePercentWider) {
   EXPECT_NEAR(ratio, 1.0 / 0.95, 0.02);
 }
 
-}  // namespace
+}  // namespace irls_test
 }  // namespace torquescope

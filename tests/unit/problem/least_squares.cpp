@@ -9,7 +9,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace least_squares_test {
 
 using test::fit;
 using test::largest_relative_difference;
@@ -170,5 +170,5 @@ TEST(Wls, IsMoreAccurateThanOlsOnUnequalRecordings) {
   EXPECT_GT(ols, 8.0 * wls);
 }
 
-}  // namespace
+}  // namespace least_squares_test
 }  // namespace torquescope

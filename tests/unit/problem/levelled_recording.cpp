@@ -9,7 +9,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace levelled_recording_test {
 
 std::vector<double> levelled_energies(LevelledRecording const& recording, std::vector<double> const& rows) {
   auto const tiles = recording.tiles();
@@ -87,5 +87,5 @@ TEST(LevelledRecording, LeavesManyCombinationsAlone) {
   EXPECT_FALSE(LevelledRecording::make(data.phi, data.tau).has_value());
 }
 
-}  // namespace
+}  // namespace levelled_recording_test
 }  // namespace torquescope

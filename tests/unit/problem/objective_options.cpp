@@ -5,7 +5,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace objective_options_test {
 
 TEST(Losses, AreTheWordsOfTheLossOption) {
   for (auto const& choice : loss_choices()) {
@@ -49,5 +49,5 @@ TEST(FitnessScale, IsMseUnlessWritten) {
   EXPECT_EQ(fitness_scale({"squares", 0.0, "sse"}), FitnessScale::sse);
 }
 
-}  // namespace
+}  // namespace objective_options_test
 }  // namespace torquescope

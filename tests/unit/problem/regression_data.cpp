@@ -7,7 +7,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace regression_data_test {
 
 using testing::HasSubstr;
 
@@ -182,5 +182,5 @@ TEST(RegressionData, RefusesRecordingsThatKeepDifferentRates) {
   }
 }
 
-}  // namespace
+}  // namespace regression_data_test
 }  // namespace torquescope

@@ -5,7 +5,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace regressor_health_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -119,5 +119,5 @@ TEST(NotIdentifiable, WantsMoreSamplesThanParameters) {
   }
 }
 
-}  // namespace
+}  // namespace regressor_health_test
 }  // namespace torquescope

@@ -8,7 +8,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace residual_objective_test {
 
 Bounds unit_box() { return {{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}}; }
 
@@ -94,5 +94,5 @@ TEST(HuberObjective, OfWideDeltaIsSquares) {
             fitness_of(ResidualObjective(data, unit_box()), rows));
 }
 
-}  // namespace
+}  // namespace residual_objective_test
 }  // namespace torquescope

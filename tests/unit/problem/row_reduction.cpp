@@ -13,7 +13,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace row_reduction_test {
 
 constexpr Eigen::Index block_sizes[] = {1, 3, 64, 501, 1999, 2000, 5000};
 
@@ -144,5 +144,5 @@ TEST(PredictionMetrics, OfManyBlocksAreThoseOfAllRows) {
   EXPECT_NEAR(metrics.residual_std / std, 1.0, 1e-14);
 }
 
-}  // namespace
+}  // namespace row_reduction_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace single_precision_test {
 
 Bounds unit_box() { return {std::vector<double>(4, -1.0), std::vector<double>(4, 1.0)}; }
 
@@ -67,5 +67,5 @@ TEST(SinglePrecision, SaysItsErrorInTheLog) {
   EXPECT_THAT(choice.words, testing::HasSubstr("leaves 2.0e-02 of the torque"));
 }
 
-}  // namespace
+}  // namespace single_precision_test
 }  // namespace torquescope

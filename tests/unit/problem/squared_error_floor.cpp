@@ -8,7 +8,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace squared_error_floor_test {
 
 TEST(SquaredErrorFloor, IsTheMseOfOls) {
   auto const data = test::seed_data(20.0, 0.3);
@@ -50,5 +50,5 @@ TEST(Gap, OfACandidateThatIsNoNumberIsNone) {
   EXPECT_TRUE(std::isnan(floor.gap(candidate)));
 }
 
-}  // namespace
+}  // namespace squared_error_floor_test
 }  // namespace torquescope

@@ -16,7 +16,7 @@
 #include "unit/problem/joint_data.hpp"
 
 namespace torquescope {
-namespace {
+namespace sufficient_statistics_test {
 
 using testing::HasSubstr;
 
@@ -209,5 +209,5 @@ TEST(SufficientStatistics, HaveTheSameBitsOnEveryInstructionSet) {
   EXPECT_EQ(all.size(), 1u);
 }
 
-}  // namespace
+}  // namespace sufficient_statistics_test
 }  // namespace torquescope

@@ -5,7 +5,7 @@
 #include "support/simulated_job.hpp"
 
 namespace torquescope {
-namespace {
+namespace assemble_test {
 
 using test::load_job;
 using test::simulated_joint;
@@ -41,5 +41,5 @@ TEST(LoadExperiment, RefusesTwoSourcesOfDataAndNone) {
   EXPECT_THROW(load_job(fit + "[recording]\ntrain = \"a.csv\"\n" + simulated_joint), Error);
 }
 
-}  // namespace
+}  // namespace assemble_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "engine/run/job_sections.hpp"
 
 namespace torquescope {
-namespace {
+namespace catalogue_test {
 
 TEST(Catalogue, NamesEveryThingOnceAndSaysWhatItIs) {
   std::set<std::string> names;
@@ -50,5 +50,5 @@ TEST(Catalogue, DescribesAnEffectWithFamilyBoundsAndSignature) {
   FAIL() << "no stribeck";
 }
 
-}  // namespace
+}  // namespace catalogue_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include "support/simulated_job.hpp"
 
 namespace torquescope {
-namespace {
+namespace diagnose_options_test {
 
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -141,5 +141,5 @@ TEST(DiagnoseOptions, AnAblationIsReadAndWarnedAbout) {
   EXPECT_THAT(problems_of("[diagnose]\nnull = \"normal\"\ntwin_noise = 0\n", Purpose::diagnose), SizeIs(2));
 }
 
-}  // namespace
+}  // namespace diagnose_options_test
 }  // namespace torquescope

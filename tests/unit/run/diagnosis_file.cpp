@@ -14,7 +14,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace diagnosis_file_test {
 
 using ::testing::HasSubstr;
 
@@ -162,5 +162,5 @@ TEST(DiagnosisFile, AResultOfRunHasNone) {
   EXPECT_FALSE(has_diagnosis(ResultReader(folder / "R.h5")));
 }
 
-}  // namespace
+}  // namespace diagnosis_file_test
 }  // namespace torquescope

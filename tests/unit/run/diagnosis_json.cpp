@@ -12,7 +12,7 @@
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope {
-namespace {
+namespace diagnosis_json_test {
 
 using Json = nlohmann::json;
 
@@ -97,5 +97,5 @@ TEST(DiagnosisJson, SurvivesTextsThatAreNoUtf8) {
   EXPECT_NO_THROW(Json::parse(diagnosis_json(diagnosis)));
 }
 
-}  // namespace
+}  // namespace diagnosis_json_test
 }  // namespace torquescope

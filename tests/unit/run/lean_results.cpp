@@ -7,7 +7,7 @@
 #include "support/simulated_job.hpp"
 
 namespace torquescope {
-namespace {
+namespace lean_results_test {
 
 std::string const job = test::joint_model + "[filter]\nedge_s = 0\n[model.bounds]\nevery = [-1, 1]\n" +
                         test::simulated_joint +
@@ -67,5 +67,5 @@ TEST(Experiment, NeedsNoMotionOnceItIsWritten) {
   EXPECT_TRUE(rows.moves_both_ways());
 }
 
-}  // namespace
+}  // namespace lean_results_test
 }  // namespace torquescope

@@ -13,7 +13,7 @@
 #include "engine/optim/generational_search.hpp"
 
 namespace torquescope {
-namespace {
+namespace optimise_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -267,5 +267,5 @@ TEST(Optimise, StopsAtOnceWhenAsked) {
   EXPECT_EQ(generations.load(), 4);
 }
 
-}  // namespace
+}  // namespace optimise_test
 }  // namespace torquescope

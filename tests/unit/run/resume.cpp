@@ -10,7 +10,7 @@
 #include "support/simulated_job.hpp"
 
 namespace torquescope {
-namespace {
+namespace resume_test {
 
 namespace fs = std::filesystem;
 
@@ -111,5 +111,5 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
   EXPECT_GT(partial.attribute<double>("/runs/fade", "mse_median"), 0.0);
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace torquescope

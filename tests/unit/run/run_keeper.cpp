@@ -15,7 +15,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace run_keeper_test {
 
 HistoryShape const shape{5, 9, 4, 2};  // runs, generations, members, parameters
 
@@ -232,5 +232,5 @@ TEST_F(Keeping, TwoAccountsOfOneRunMustAgree) {
   }
 }
 
-}  // namespace
+}  // namespace run_keeper_test
 }  // namespace torquescope

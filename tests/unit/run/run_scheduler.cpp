@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace run_scheduler_test {
 
 // one result per run of a group
 auto each(std::size_t first, std::size_t count, auto const& result_of) {
@@ -79,5 +79,5 @@ TEST(TeamSize, SplitsAPopulationOnlyWhenThereAreFewerRunsThanThreads) {
   EXPECT_EQ(team_size(0, 4), 1);
 }
 
-}  // namespace
+}  // namespace run_scheduler_test
 }  // namespace torquescope

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace torquescope {
-namespace {
+namespace run_summary_test {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -33,5 +33,5 @@ TEST(Mean, AveragesRuns) {
   EXPECT_EQ(mean({a, b}), Eigen::VectorXd(Eigen::Vector2d(2.0, 0.0)));
 }
 
-}  // namespace
+}  // namespace run_summary_test
 }  // namespace torquescope

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace torquescope {
-namespace {
+namespace search_box_test {
 
 Setting range(std::string const& key, std::vector<double> const& values) {
   return {key, values, {"job.toml", 9, 1, 7, ""}, {"job.toml", 9, 11, 9, ""}};
@@ -40,5 +40,5 @@ TEST(SearchBox, TellsEveryProblemAtOnce) {
   EXPECT_NE(problems[2].help.find("viscous = [-1.0, 1.0]"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace search_box_test
 }  // namespace torquescope

@@ -19,7 +19,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace twin_folder_test {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -220,5 +220,5 @@ TEST_F(SharedTwins, FailAsTheyWouldAlone) {
   }
 }
 
-}  // namespace
+}  // namespace twin_folder_test
 }  // namespace torquescope

@@ -10,7 +10,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace autoregression_test {
 
 // x_k = 1.5 x_(k-1) - 0.8 x_(k-2) + n_k
 Eigen::VectorXd ringing_noise(Eigen::Index n) {
@@ -19,8 +19,6 @@ Eigen::VectorXd ringing_noise(Eigen::Index n) {
   for (Eigen::Index k = 2; k < x.size(); ++k) x[k] = 1.5 * x[k - 1] - 0.8 * x[k - 2] + random.normal();
   return x.tail(n);
 }
-
-}  // namespace
 
 TEST(Autoregression, FindsTheLawOfARingingNoise) {
   Eigen::Index const n = 40000;
@@ -48,3 +46,5 @@ TEST(Autoregression, OfNothingIsNothing) {
   EXPECT_EQ(found.innovation, 0.0);
   EXPECT_TRUE(found.past.empty());
 }
+
+}  // namespace autoregression_test

@@ -14,7 +14,7 @@
 using namespace torquescope;
 using torquescope::test::plant;
 
-namespace {
+namespace clean_twin_test {
 
 constexpr double encoder_step = 2.0 * 3.14159265358979323846 / 400000.0;
 std::vector<std::string> const terms{"inertia", "viscous", "coulomb", "offset", "gravity"};
@@ -57,8 +57,6 @@ CleanTwin twin_of(SimulatedRecording const& recording) {
 double rms(Eigen::VectorXd const& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
-
-}  // namespace
 
 class EveryTwin : public testing::TestWithParam<std::string> {};
 
@@ -237,3 +235,5 @@ TEST(CleanTwin, FeedsForwardWhatItsLawSays) {
     EXPECT_DOUBLE_EQ(group.torque[0][k],
                      friction * std::tanh(0.5 * (r[k] - r[k - 2]) / width) + gravity * std::cos(r[k + 1]));
 }
+
+}  // namespace clean_twin_test

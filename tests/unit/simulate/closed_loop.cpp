@@ -13,7 +13,7 @@ using namespace torquescope;
 using torquescope::test::plant;
 using torquescope::test::seed_plant;
 
-namespace {
+namespace closed_loop_test {
 
 // a joint dominated by its friction: the torque of the inertia is 0.045 N m at most, friction up to 0.26
 SimulationPlan crs_plan(std::string const& kind = "p_velocity") {
@@ -30,8 +30,6 @@ SimulationPlan crs_plan(std::string const& kind = "p_velocity") {
 double rms(Eigen::VectorXd const& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
-
-}  // namespace
 
 class EveryLoop : public testing::TestWithParam<std::string> {};
 
@@ -219,3 +217,5 @@ TEST(ClosedLoop, GivesTheSameBitsWhateverWasSimulatedBefore) {
   EXPECT_NE(simulate_joint(plan, 9).sha256, first.sha256);
   EXPECT_EQ(first.sha256.size(), 64u);
 }
+
+}  // namespace closed_loop_test

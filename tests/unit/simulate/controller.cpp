@@ -7,7 +7,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace controller_test {
 
 ControllerOptions of_kind(std::string const& kind) {
   ControllerOptions options;
@@ -30,8 +30,6 @@ double step_response(ControllerOptions const& options, double inertia, double du
   }
   return 1.0 - q;
 }
-
-}  // namespace
 
 class EveryController : public testing::TestWithParam<std::string> {};
 
@@ -158,3 +156,5 @@ TEST(ControllerCheck, RefusesWhatCannotWork) {
   options.velocity_cutoff_hz = 500.0;
   EXPECT_EQ(count(options), 1u);
 }
+
+}  // namespace controller_test

@@ -13,7 +13,7 @@
 using namespace torquescope;
 using torquescope::test::plant;
 
-namespace {
+namespace controller_fit_test {
 
 constexpr double torque_noise = 0.02;
 
@@ -49,11 +49,9 @@ SimulatedRecording thinned(SimulatedRecording const& whole, Eigen::Index factor)
   return few;
 }
 
-}  // namespace
+class EveryIdentifiedController : public testing::TestWithParam<std::string> {};
 
-class EveryController : public testing::TestWithParam<std::string> {};
-
-TEST_P(EveryController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) {
+TEST_P(EveryIdentifiedController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) {
   auto const recording = simulate_joint(loop_plan(GetParam()), 3);
   auto const found = fit(recording);
   EXPECT_TRUE(found.is_white) << found.remark;
@@ -70,7 +68,7 @@ TEST_P(EveryController, IsIdentifiedWithTheTorqueNoiseAsItsRemainder) {
     EXPECT_EQ(found.law.integral, 0.0);
 }
 
-TEST_P(EveryController, IsIdentifiedBehindAVelocityFilter) {
+TEST_P(EveryIdentifiedController, IsIdentifiedBehindAVelocityFilter) {
   auto plan = loop_plan(GetParam());
   plan.controller.velocity_cutoff_hz = 100.0;
   plan.noise.torque_std = 0.002;
@@ -79,7 +77,7 @@ TEST_P(EveryController, IsIdentifiedBehindAVelocityFilter) {
   EXPECT_GT(found.lags, 3);
 }
 
-TEST_P(EveryController, GivesWayAtItsTorqueLimit) {
+TEST_P(EveryIdentifiedController, GivesWayAtItsTorqueLimit) {
   auto plan = loop_plan(GetParam());
   plan.controller.torque_limit = 1.5;
   // no integral: what stops it at the limit is not in any recording
@@ -96,7 +94,7 @@ TEST_P(EveryController, GivesWayAtItsTorqueLimit) {
   EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryController, testing::Values("pd", "pid", "p_velocity"));
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryIdentifiedController, testing::Values("pd", "pid", "p_velocity"));
 
 TEST(ControllerFit, FindsAReferenceThatIsLoggedLate) {
   // a reference with corners: a smooth one is as well extrapolated from its neighbouring samples
@@ -204,3 +202,5 @@ TEST(ControllerFit, FindsNoLimitBelowTheTorqueThatWasReached) {
     EXPECT_LT(found.law.least, recording.torque.minCoeff() + 6.0 * torque_noise) << seed;
   }
 }
+
+}  // namespace controller_fit_test

@@ -12,7 +12,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace exact_motion_test {
 
 // the study of the seed: 10 s at 200 Hz within the speed and acceleration of the CRS A465
 SimulationPlan seed_plan() {
@@ -44,8 +44,6 @@ Fit least_squares(SimulatedRecording const& recording) {
 }
 
 double const seed_parameters[] = {0.0036, 0.0164, 0.0089, -0.2582};
-
-}  // namespace
 
 TEST(ExactMotion, LeastSquaresFindsTheParametersOfNoiselessData) {
   auto const fit = least_squares(simulate_joint(seed_plan(), 42));
@@ -152,3 +150,5 @@ TEST(SimulatedRecording, NamesItsColumnsAsAJobWould) {
   EXPECT_EQ(channels,
             (std::vector<std::string>{"time", "reference", "position", "torque", "", "velocity", "acceleration", ""}));
 }
+
+}  // namespace exact_motion_test

@@ -11,7 +11,7 @@ using namespace torquescope;
 using torquescope::test::plant;
 using torquescope::test::seed_plant;
 
-namespace {
+namespace joint_plant_test {
 
 JointState simulate(
     JointPlant const& joint, JointState state, double duration_s, int steps,
@@ -26,8 +26,6 @@ double halving_ratio(JointPlant const& joint, JointState const& start, double du
   double const exact = end(400000).q;
   return (end(500).q - exact) / (end(1000).q - exact);
 }
-
-}  // namespace
 
 TEST(JointPlant, ViscousStepResponseIsTheAnalyticOne) {
   double const inertia = 0.0036, viscous = 0.0164, u = 0.05;
@@ -166,3 +164,5 @@ TEST(JointPlant, StartsAgainTheOtherWayWithinOneStep) {
   EXPECT_DOUBLE_EQ(end.dq, -2.0 * 0.75);
   EXPECT_DOUBLE_EQ(end.q, 0.5 * 0.25 - 0.5 * 2.0 * 0.75 * 0.75);
 }
+
+}  // namespace joint_plant_test

@@ -11,7 +11,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace lane_effect_test {
 
 constexpr double rate_hz = 1000.0;
 constexpr Eigen::Index samples = 2000;
@@ -92,8 +92,6 @@ LaneInstant some_instant() {
   }
   return at;
 }
-
-}  // namespace
 
 TEST(LaneEffect, OfASensorAddsToItsOwnChannelOnly) {
   LaneInstant const at = some_instant();
@@ -192,3 +190,5 @@ TEST(Backlash, OfALoadHeavierThanItsMotorDoesNotRunAway) {
     EXPECT_NEAR(speed / together, 1.0, 0.02) << share;
   }
 }
+
+}  // namespace lane_effect_test

@@ -7,7 +7,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace noise_test {
 
 RandomKey const key{11, 0, RandomDomain::simulation};
 
@@ -22,8 +22,6 @@ double autocovariance(std::vector<double> const& values, std::size_t lag) {
   for (std::size_t i = lag; i < values.size(); ++i) sum += values[i] * values[i - lag];
   return sum / static_cast<double>(values.size() - lag);
 }
-
-}  // namespace
 
 TEST(AddressedNoise, DependsOnTheAddressOnly) {
   double const first = addressed_normal(key, NoiseStream::torque_white, 77);
@@ -77,3 +75,5 @@ TEST(ColouredNoise, IsStationaryFromTheFirstSample) {
   }
   EXPECT_NEAR(sum / recordings, 1.0, 5.0 * std::sqrt(2.0 / recordings));
 }
+
+}  // namespace noise_test

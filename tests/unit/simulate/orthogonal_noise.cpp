@@ -9,7 +9,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace orthogonal_noise_test {
 
 RandomKey const key{21, 0, RandomDomain::simulation};
 
@@ -20,8 +20,6 @@ Eigen::MatrixXd random_regressor(Eigen::Index n, Eigen::Index p) {
         addressed_normal({99, 0, RandomDomain::test}, NoiseStream::torque_white, static_cast<std::size_t>(i));
   return phi;
 }
-
-}  // namespace
 
 TEST(OrthogonalNoise, NoColumnCanSeeIt) {
   Eigen::MatrixXd phi = random_regressor(500, 4);
@@ -49,3 +47,5 @@ TEST(OrthogonalNoise, OtherwiseLooksWhite) {
   double const lag_1 = noise.head(n - 1).dot(noise.tail(n - 1)) / n;
   EXPECT_NEAR(lag_1, 0.0, 5.0 / std::sqrt(double(n)));
 }
+
+}  // namespace orthogonal_noise_test

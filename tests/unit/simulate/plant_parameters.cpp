@@ -11,7 +11,7 @@ using namespace torquescope;
 using testing::HasSubstr;
 using torquescope::test::section;
 
-namespace {
+namespace plant_parameters_test {
 
 using Parameters = std::initializer_list<std::pair<std::string, OptionValue>>;
 
@@ -27,8 +27,6 @@ std::vector<Problem> dynamics_problems_of(Parameters parameters, double step_s =
   check_plant_dynamics(read_plant(written, JointKind::revolute, problems), 0.0, step_s, written, problems);
   return problems;
 }
-
-}  // namespace
 
 TEST(PlantParameters, KeepTheirValuesAndUnits) {
   auto const truth = truth_values(torquescope::test::seed_plant(), JointKind::revolute);
@@ -114,3 +112,5 @@ TEST(PlantDynamics, RefuseDecayFasterThanTheStep) {
   EXPECT_TRUE(dynamics_problems_of({{"inertia", 0.1}, {"viscous", 10.0}}, 1e-3).empty());
   EXPECT_EQ(dynamics_problems_of({{"inertia", 0.1}, {"viscous", 1000.0}}, 1e-3).size(), 1u);
 }
+
+}  // namespace plant_parameters_test

@@ -9,7 +9,7 @@
 
 using namespace torquescope;
 
-namespace {
+namespace reference_test {
 
 RandomKey key_of(std::uint64_t seed, std::uint32_t run = 0) { return {seed, run, RandomDomain::simulation}; }
 
@@ -37,8 +37,6 @@ ReferenceOptions of_kind(std::string const& kind) {
 }
 
 constexpr double duration_s = 40.0;
-
-}  // namespace
 
 class EveryReference : public testing::TestWithParam<std::string> {};
 
@@ -193,3 +191,5 @@ TEST(ReferenceCheck, RefusesWhatCannotBeRecorded) {
   options.speeds = {};
   EXPECT_EQ(count(options), 1u);
 }
+
+}  // namespace reference_test

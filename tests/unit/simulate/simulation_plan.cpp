@@ -9,7 +9,7 @@ using namespace torquescope;
 using testing::HasSubstr;
 using torquescope::test::section;
 
-namespace {
+namespace simulation_plan_test {
 
 Section const plant = section("simulate.plant", {{"inertia", 0.1}, {"coulomb", 0.2}});
 
@@ -23,8 +23,6 @@ Reading read(SimulationSections sections, JointKind joint = JointKind::revolute)
   reading.plan = read_simulation(sections, joint, reading.problems);
   return reading;
 }
-
-}  // namespace
 
 TEST(SimulationPlan, APlantIsEnough) {
   auto const reading = read({.plant = &plant});
@@ -107,3 +105,5 @@ TEST(SimulationPlan, RefusesRecordingsTooShortOrTooLong) {
   EXPECT_GE(read({.simulate = &few, .plant = &plant}).problems.size(), 1u);
   EXPECT_EQ(read({.simulate = &many, .plant = &plant}).problems.size(), 1u);
 }
+
+}  // namespace simulation_plan_test

@@ -54,7 +54,7 @@ TEST(Turns, OfManyAnglesHaveTheBitsOfEach) {
   }
 }
 
-namespace {
+namespace turns_test {
 
 // as the polynomials are written, one rounding per multiply-add
 double plain_sine(double turns) {
@@ -92,8 +92,6 @@ long double long_sine(double turns, double quarter) {
   long double const within = static_cast<long double>(turns) - std::floor(static_cast<long double>(turns) + 0.5L);
   return std::sin(2.0L * std::numbers::pi_v<long double> * (within + quarter));
 }
-
-}  // namespace
 
 TEST(Turns, AreWithinTheErrorTheyPromise) {
   long double largest = 0.0L;
@@ -141,3 +139,5 @@ TEST(Turns, LinesAreAddedWithTheSameBitsOnEveryInstructionSet) {
   }
   kernels::release_instruction_set();
 }
+
+}  // namespace turns_test

@@ -16,7 +16,7 @@
 using namespace torquescope;
 using torquescope::test::plant;
 
-namespace {
+namespace twin_lanes_test {
 
 constexpr double inertia = 0.04, viscous = 0.2, coulomb = 1.3, weight_sin = 0.8, weight_cos = 0.3;
 constexpr double tick_s = 1e-3;
@@ -68,8 +68,6 @@ double largest_error(std::size_t steps_per_tick) {
     largest = std::max(largest, std::abs(state.q[lane] - exact[lane]));
   return largest;
 }
-
-}  // namespace
 
 TEST(TwinLanes, FollowThePlantThroughSlidingTurningAndSticking) {
   // 1 s without any controller to pull them together; an encoder step is 1e-5
@@ -130,3 +128,5 @@ TEST(TwinLanes, HaveTheSameBitsOnEveryInstructionSet) {
   }
   kernels::release_instruction_set();
 }
+
+}  // namespace twin_lanes_test

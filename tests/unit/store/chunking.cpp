@@ -5,7 +5,7 @@
 #include <cstdint>
 
 namespace torquescope {
-namespace {
+namespace chunking_test {
 
 using Shape = std::vector<std::size_t>;
 
@@ -38,5 +38,5 @@ TEST(ChunkOfArray, NeverExceedsOneMebibyteNorWastesMoreThanItsParts) {
 
 TEST(ChunkOfArray, IsTheWholeArrayWhenItIsSmall) { EXPECT_EQ(chunk_of_array({1000, 4}, 8), (Shape{1000, 4})); }
 
-}  // namespace
+}  // namespace chunking_test
 }  // namespace torquescope

@@ -11,7 +11,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace content_digest_test {
 
 TEST(ContentDigest, IsTheSameForTheSameContent) {
   test::TemporaryFolder const folder;
@@ -141,5 +141,5 @@ TEST(ContentDigest, DiffersForAnythingAReaderCouldTellApart) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(digests[i], digests[j]) << i << " and " << j;
 }
 
-}  // namespace
+}  // namespace content_digest_test
 }  // namespace torquescope

@@ -15,7 +15,7 @@ extern "C" char const* __lsan_default_suppressions();
 extern "C" char const* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace torquescope {
-namespace {
+namespace damage_test {
 
 // everything a program could take from the file, as one text; throws Error as the reader does
 void collect(ResultReader const& reader, std::string const& path, std::string& all) {
@@ -127,5 +127,5 @@ TEST(DamagedResult, NamesTheDatasetAndSparesTheOthers) {
   EXPECT_THAT(message([&] { reader.verify(); }), testing::HasSubstr(expected));
 }
 
-}  // namespace
+}  // namespace damage_test
 }  // namespace torquescope

@@ -16,7 +16,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace disk_full_test {
 
 constexpr int could_not_prepare = 99;
 
@@ -126,5 +126,5 @@ TEST(DiskFull, SaysWhatToDo) {
   EXPECT_EQ(code, 0);
 }
 
-}  // namespace
+}  // namespace disk_full_test
 }  // namespace torquescope

@@ -9,7 +9,7 @@
 #include <set>
 
 namespace torquescope {
-namespace {
+namespace disk_writer_test {
 
 constexpr std::size_t room = 8192;
 
@@ -169,5 +169,5 @@ TEST(DiskWriter, NeedsNoThreadWhenNothingIsPut) {
   EXPECT_EQ(writer.error(), 0);
 }
 
-}  // namespace
+}  // namespace disk_writer_test
 }  // namespace torquescope

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace torquescope {
-namespace {
+namespace fletcher32_test {
 
 // word by word, as it is defined
 std::uint32_t plain(std::span<std::byte const> bytes) {
@@ -51,5 +51,5 @@ TEST(Fletcher32, DoesNotOverflowNorTakeOnesForZeros) {
   }
 }
 
-}  // namespace
+}  // namespace fletcher32_test
 }  // namespace torquescope

@@ -13,7 +13,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace number_file_test {
 
 namespace fs = std::filesystem;
 
@@ -80,5 +80,5 @@ TEST(NumberFile, ThatIsNoFileIsNeitherReadNorWaitedFor) {
 
 TEST(NumberFile, ThatCannotBeWrittenIsSaid) { EXPECT_THROW(write_number_file("/nowhere/at/all", key, numbers), Error); }
 
-}  // namespace
+}  // namespace number_file_test
 }  // namespace torquescope

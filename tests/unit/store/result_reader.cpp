@@ -12,7 +12,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace result_reader_test {
 
 using testing::HasSubstr;
 
@@ -205,5 +205,5 @@ TEST(ResultReader, ListsWhatThereIsAndSaysWhatIsNot) {
               HasSubstr("in /job: attribute \"name\" is a text, not a number"));
 }
 
-}  // namespace
+}  // namespace result_reader_test
 }  // namespace torquescope

@@ -19,7 +19,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace result_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -316,5 +316,5 @@ TEST(ResultWriter, HoldsCallersToTheirPromises) {
 }
 #endif
 
-}  // namespace
+}  // namespace result_writer_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include <set>
 
 namespace torquescope {
-namespace {
+namespace run_blocks_test {
 
 // seven runs of two numbers, three in a block; what came out, by block
 struct Collected {
@@ -57,5 +57,5 @@ TEST(RunBlocks, FillsWhatNeverCame) {
     EXPECT_TRUE(std::isnan(value));
 }
 
-}  // namespace
+}  // namespace run_blocks_test
 }  // namespace torquescope

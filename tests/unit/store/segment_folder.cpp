@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace segment_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -56,5 +56,5 @@ TEST(RemoveSegments, TakesSegmentsAndWhatTheDeadLeftAndNothingElse) {
   for (auto const* mine : {"notes.txt", "notes.tmp.txt"}) EXPECT_TRUE(fs::exists(parts / mine));
 }
 
-}  // namespace
+}  // namespace segment_folder_test
 }  // namespace torquescope

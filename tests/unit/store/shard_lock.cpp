@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace shard_lock_test {
 
 namespace fs = std::filesystem;
 
@@ -45,5 +45,5 @@ TEST(ShardLock, OfADeadProcessIsTaken) {
 
 TEST(ShardLock, ThatCannotBeMadeStopsNobody) { EXPECT_NO_THROW(ShardLock("/nowhere/at/all/R.h5", {})); }
 
-}  // namespace
+}  // namespace shard_lock_test
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace temp_file_test {
 
 class Numbers {
  public:
@@ -103,5 +103,5 @@ TEST(TempFile, LeavesNothingWhenItIsGivenUpWhileItsThreadWrites) {
   EXPECT_EQ(folder.n_files(), 0U);
 }
 
-}  // namespace
+}  // namespace temp_file_test
 }  // namespace torquescope

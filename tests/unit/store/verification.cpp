@@ -12,7 +12,7 @@
 #include "unit/store/example_result.hpp"
 
 namespace torquescope {
-namespace {
+namespace verification_test {
 
 constexpr char job_text[] = "[experiment]\nname = \"small\"\n";
 
@@ -60,5 +60,5 @@ TEST(Verification, ProvenanceHasADigestApart) {
   EXPECT_EQ(ResultReader(folder / "A.h5").attribute<std::string>("/", "provenance_sha256"), a.provenance.sha256);
 }
 
-}  // namespace
+}  // namespace verification_test
 }  // namespace torquescope

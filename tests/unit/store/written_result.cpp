@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
-namespace {
+namespace written_result_test {
 
 std::vector<double> const short_numbers{1.5, -2.0, 3.25, 4.0, 5.0, 6.0};
 std::vector<double> const long_numbers(100'000, 0.5);
@@ -85,5 +85,5 @@ TEST(WrittenResult, RefusesWhatIsNotThere) {
   EXPECT_THROW(written.find_attribute<double>("/no", "no"), Error);
 }
 
-}  // namespace
+}  // namespace written_result_test
 }  // namespace torquescope
