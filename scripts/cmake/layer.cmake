@@ -82,7 +82,7 @@ endif()
 # what preset tsan builds and runs: the tests labelled `threads`
 add_custom_target(threaded_tests)
 
-# test_program(TARGET SOURCE... ): a program of tests, whatever they test
+# test_program(TARGET SOURCE...): a program of tests, whatever they test
 function(test_program target)
   add_executable(${target} ${ARGN})
   target_link_libraries(${target} PRIVATE torquescope_flags test_support GTest::gtest GTest::gmock)
@@ -100,7 +100,8 @@ endfunction()
 # (namespace damage_test), because files compiled together share their unnamed one
 function(tests_together folder)
   string(REPLACE "/" "_" flat ${folder})
-  test_program(test_${flat} ${PROJECT_SOURCE_DIR}/tests/support/one_file_main.cpp)
+  test_program(test_${flat})
+  target_link_libraries(test_${flat} PRIVATE one_file_main)
   compile_together(test_${flat} 6)
   set(TESTS_TOGETHER test_${flat} PARENT_SCOPE)
 endfunction()
