@@ -73,7 +73,7 @@ function(choices target kind)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/choices)
 endfunction()
 
-# half of the time of linking 170 tests; Debian's binutils bring it
+# half of the time of linking the tests; Debian's binutils bring it
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   include(CheckLinkerFlag)
   check_linker_flag(CXX -fuse-ld=gold TORQUESCOPE_GOLD)
