@@ -68,7 +68,9 @@ class PowerLoss(shimmed.ShimmedTest):
                 except study.subprocess.TimeoutExpired:
                     process.send_signal(signal.SIGTERM)
             ended = study.Ended(process)
-            self.assertIn(ended.code, (0, 75), ended.err)
+            # told to stop before it listens, a process ends as any: on a busy machine that may take as long as a run
+            early = () if seconds is None else (-signal.SIGTERM,)
+            self.assertIn(ended.code, (0, 75, *early), ended.err)
         steps = read_log(log)
         os.remove(log)
         return Story(folder, asked, steps)
