@@ -87,6 +87,8 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   result.share = std::max(0.0, final.energy.excess) / first;
   result.is_significant =
       final.energy.z > smallest_z && mismatch_share(final) > smallest_mismatch_share && result.share > worth_a_word;
+  bool const explains_most = 1.0 - result.share >= enough_named;
+  result.is_named_enough = explains_most || final.energy.z <= surely_left_z;
   result.is_most_left = !selection.accepted.empty() && result.share > most_of_the_whole &&
                         final.energy.z > surely_left_z &&
                         share_in_torque_itself(*selection.baseline, final) > most_of_the_whole;
@@ -94,8 +96,7 @@ Remainder judge_remainder(Selection const& selection, ModelStage const& final) {
   if (!result.is_significant) return result;
   CandidateColumns const columns(*final.pipeline, final.comparison, final.reference(), final.parameters());
   result.axes = generic_axes(columns, final.energy.excess);
-  bool const is_named_enough = 1.0 - result.share >= enough_named;
-  if (!is_named_enough && result.axes.front().share > some_structure) result.is_unexplained = true;
+  if (!explains_most && result.axes.front().share > some_structure) result.is_unexplained = true;
   // weaker axes follow the strongest one: on a short motion everything is a function of everything
   auto const& strongest = result.axes.front();
   if (strongest.share > most_of_what_is_left && !is_axis_of(final.model(), strongest)) result.is_unexplained = true;

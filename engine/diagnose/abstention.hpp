@@ -23,6 +23,7 @@ struct Remainder {
   double share = 0.0;  // of the first excess that the final model leaves
   bool is_significant = false;
   std::vector<GenericAxis> axes{};  // of what is left, strongest first; empty when nothing is
+  bool is_named_enough = true;      // the names explain two thirds, or what they leave may be chance (z below 3)
   bool is_unexplained = false;
   bool is_most_left = false;  // the reason for that: the names explain less than half
 };

@@ -20,6 +20,10 @@ constexpr double least_share_of_rest = 0.25;
 constexpr double worth_another = 0.03;  // of the whole: what judge_remainder() finds worth a word
 constexpr std::size_t n_refined = 5;
 
+bool is_drift_of_friction(Effect const& effect) {
+  return effect.is_dry_friction() && effect.family() == EffectFamily::time;
+}
+
 }  // namespace
 
 EffectSearch::EffectSearch(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress)
@@ -122,7 +126,9 @@ bool EffectSearch::opens(CandidateColumns const& columns, std::vector<EffectScan
   for (std::size_t i = 0; i < scans.size(); ++i)
     if (q[i] <= options_->q) found = std::max(found, scans[i].gain);
   remaining_ = std::max(stage().energy.excess, found);
-  bool const is_clear = is_significant(stage()) || energy_share(stage(), found) > smallest_mismatch_share;
+  double const drift = largest_drift_share(columns, scans, q);
+  bool const is_clear =
+      is_significant(stage()) || std::max(energy_share(stage(), found), drift) > smallest_mismatch_share;
   // what a first name leaves is as certain as the name: to be worth another it must be more than a word's worth of the whole
   bool const may_be_faint = found > 0.0 && !is_clear && (is_first || found > worth_another * selection_.whole());
   double const certain = may_be_faint ? largest_certain_share(columns, scans, q) : 0.0;
@@ -152,9 +158,23 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
   return energy_share(stage(), largest);
 }
 
+// Of changes of dry friction over time, beyond chance: what they take from the mismatch in the torque itself, as a share of the whole
+// torque. Rows weighed by how much friction may wander make little of it, whatever its size
+double EffectSearch::largest_drift_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                                         std::vector<double> const& q) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].is_testable || q[i] > options_->q || scans[i].gain <= 0.0) continue;
+    if (!is_drift_of_friction(*scans[i].effect)) continue;
+    SizedEffect const found{*scans[i].effect, scans[i].shape, scans[i].parameters};
+    largest = std::max(largest, gain_in_torque_itself(stage(), columns, found));
+  }
+  return energy_share(stage(), largest);
+}
+
 // of a change of dry friction over time, of which weighed rows make little
 bool EffectSearch::is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const {
-  if (!refined.effect->is_dry_friction() || refined.effect->family() != EffectFamily::time) return false;
+  if (!is_drift_of_friction(*refined.effect)) return false;
   double const whole = excess_in_torque_itself(*selection_.baseline);
   double const gain = gain_in_torque_itself(stage(), columns, {*refined.effect, refined.shape, refined.parameters});
   return whole > 0.0 && gain >= least_share_of_rest * whole;

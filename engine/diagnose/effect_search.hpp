@@ -54,6 +54,8 @@ class EffectSearch {
   bool opens(CandidateColumns const& columns, std::vector<EffectScan> const& scans, std::vector<double> const& q);
   double largest_certain_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                                std::vector<double> const& q) const;
+  double largest_drift_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
+                             std::vector<double> const& q) const;
   bool is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const;
   std::vector<Trial> refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                     std::vector<double> const& q);

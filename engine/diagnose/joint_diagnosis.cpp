@@ -21,6 +21,7 @@
 #include "engine/diagnose/recording_checks.hpp"
 #include "engine/diagnose/sentences.hpp"
 #include "engine/diagnose/simulator_gap.hpp"
+#include "engine/diagnose/unseen_range.hpp"
 #include "engine/diagnose/unseen_record.hpp"
 #include "engine/diagnose/unseen_refutation.hpp"
 #include "engine/diagnose/unseen_selection.hpp"
@@ -110,7 +111,7 @@ class JointWork {
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
-    check_on_unseen(setting);
+    check_on_unseen(setting, remainder);
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
@@ -149,28 +150,22 @@ class JointWork {
     place_ = std::move(named.place);
   }
 
-  void check_on_unseen(StageSetting const& setting) {
+  void check_on_unseen(StageSetting const& setting, Remainder const& remainder) {
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
-    UnseenEnergies sum;
-    double torque = 0.0, floor = 0.0;
+    UnseenSum sum;
+    double floor = 0.0;
     bool has_twins = false;
-    std::vector<std::vector<PredictionEnergies>> twins;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : unseen_) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
-      torque += result.torque_energy;
-      sum.found += result.energies;
+      sum.add(result);
       floor += result.floor * result.floor * result.torque_energy;
-      // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
-      sum.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
       if (!selection_.is_gate_open)
         if (auto beyond = beyond_twins(recording.name, std::sqrt(result.energies.after / result.torque_energy),
                                        result.transferred))
           joint_.unseen_beyond.push_back(std::move(*beyond));
-      twins.push_back(std::move(result.twins));
-      sum.blocks.insert(sum.blocks.end(), result.blocks.begin(), result.blocks.end());
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
@@ -182,14 +177,18 @@ class JointWork {
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
-    joint_.validation_relerr = std::sqrt(sum.found.before / torque);
-    joint_.augmented_validation_relerr = std::sqrt(sum.found.after / torque);
+    UnseenEnergies const energies = sum.energies();
+    double const torque = sum.torque_energy();
+    joint_.validation_relerr = std::sqrt(energies.found.before / torque);
+    joint_.augmented_validation_relerr = std::sqrt(energies.found.after / torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
-    sum.twins = over_recordings(twins);
-    is_refuted_ = must_carry_over(selection_.accepted) && speak_against(sum);
+    NamesAre const names = remainder.is_named_enough ? NamesAre::all : NamesAre::a_part;
+    is_refuted_ = must_carry_over(selection_.accepted) && speak_against(energies, names);
+    if (is_refuted_ && !remainder.is_unexplained && names == NamesAre::all)
+      kept_to_ = spoils_only_beyond(setting, unseen_, selection_);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / sum.found.before;
+      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / energies.found.before;
     }
   }
 
@@ -236,6 +235,7 @@ class JointWork {
     }
     if (remainder.is_unexplained || is_refuted_) {
       diagnosis_.verdict = Verdict::unexplained;
+      if (kept_to_) hopeless(too_narrow(joint_, *kept_to_));
       withdraw(remainder);
       return;
     }
@@ -252,7 +252,9 @@ class JointWork {
   // nothing that was named stands
   void withdraw(Remainder const& remainder) {
     std::string why = "it leaves too much that has a structure of its own";
-    if (!remainder.is_unexplained) {
+    if (kept_to_) {
+      why = "unseen data go beyond the training motion, and there it does not hold";
+    } else if (!remainder.is_unexplained) {
       joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
       why = "unseen data keep too little of what its own twins promise";
     } else if (remainder.is_most_left) {
@@ -280,8 +282,9 @@ class JointWork {
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop
   double parameter_share_ = 0.0;
-  double torque_late_s_ = 0.0;  // taken out of all recordings (channel_timing.hpp)
-  bool is_refuted_ = false;     // what was named, by unseen recordings
+  double torque_late_s_ = 0.0;            // taken out of all recordings (channel_timing.hpp)
+  bool is_refuted_ = false;               // what was named, by unseen recordings
+  std::optional<MotionRange> kept_to_{};  // by training, when they do so only beyond it
   bool unseen_twins_ran_away_ = false;
 };
 

@@ -2,7 +2,8 @@
 // The whole diagnosis of one joint: checks, search, abstention, unseen recordings, verdict.
 //
 // Verdict    data_fault, insufficient   the recording cannot carry a diagnosis (recording_checks.hpp), the baseline cannot be
-//                                       fitted or simulated, or all that is missing is a fault of a channel
+//                                       fitted or simulated; what was named fails on unseen recordings only where they go
+//                                       beyond the training motion (unseen_range.hpp); or all that is missing is a fault of a channel
 //            none                       no gate opened (forward_selection.hpp)
 //            unexplained                something is missing and nothing fits. Or the named effects are withdrawn: they explain
 //                                       less than half of it, in weighed rows and in the torque itself, and the rest is beyond

@@ -35,16 +35,16 @@ PredictionEnergies prediction_of(ProcessedRecord const& twin, Eigen::VectorXd co
 
 std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
                                              ModelStage const& stage, RecordedLoop const& loop,
-                                             Eigen::VectorXd const& baseline, std::vector<Eigen::Index> const* rows) {
+                                             Eigen::VectorXd const& baseline, TwinRows const& rows) {
   std::vector<TwinResidual> twins(unseen_twins);
   Eigen::MatrixXd const& fits = stage.comparison.twin_fits;
   Eigen::MatrixXd const fit_errors = (fits.rowwise() - fits.colwise().mean()).transpose();
-  for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
+  for_each_unseen_twin(recording, setting, stage, loop, rows.only, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     TwinResidual& twin = twins[visited.index];
     twin.left = record.torque - record.columns * stage.parameters();
     twin.torque = record.torque.norm();
-    if (rows != nullptr) return;
+    if (rows.without_artefact) return;
     twin.predicted = prediction_of(record, twin.left, baseline);
     twin.transferred = transfer_errors(record.columns, record.torque, twin.left, fit_errors);
   });
@@ -77,18 +77,17 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
 }
 
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& baseline,
-                              std::vector<Eigen::Index> const* rows) {
+                              RecordedLoop const& loop, Eigen::VectorXd const& baseline, TwinRows const& rows) {
   auto twins = residuals_of_twins(recording, setting, stage, loop, baseline, rows);
   auto const n = static_cast<double>(twins.size());
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd const artefact = rows != nullptr ? mean_of(twins) : Eigen::VectorXd();
+  Eigen::VectorXd const artefact = rows.without_artefact ? mean_of(twins) : Eigen::VectorXd();
   // a twin is nearer to a mean that it is in than the recording is
-  double const nearer = rows != nullptr ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
+  double const nearer = rows.without_artefact ? std::sqrt((n + 1.0) / (n - 1.0)) : 1.0;
   TwinErrors errors;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
-    if (rows == nullptr)
+    if (!rows.without_artefact)
       errors.predicted.push_back(twin.predicted);
     else
       twin.left -= artefact;
@@ -104,7 +103,7 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
 
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                                     RecordedLoop const& loop, std::vector<Eigen::Index> const& rows) {
-  return mean_of(residuals_of_twins(recording, setting, stage, loop, {}, &rows));
+  return mean_of(residuals_of_twins(recording, setting, stage, loop, {}, {&rows, true}));
 }
 
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop) {

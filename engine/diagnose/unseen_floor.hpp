@@ -40,12 +40,17 @@ struct TwinErrors {
   std::vector<double> transferred{};
 };
 
+// rows of twins: none: each twin's own
+struct TwinRows {
+  std::vector<Eigen::Index> const* only = nullptr;
+  bool without_artefact = false;  // theirs is to be taken out
+};
+
 // the twins' own fits are not used: the parameters of `stage` predict them (for `transferred` moved as fits of training's twins are), and those of the baseline, `baseline`, without its effects.
-// loop: not tracking; rows: of the recording, when their artefact is to be taken out; none: each twin's own
+// loop: not tracking
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& baseline,
-                              std::vector<Eigen::Index> const* rows = nullptr);
+                              RecordedLoop const& loop, Eigen::VectorXd const& baseline, TwinRows const& rows = {});
 
 // [rows]; empty where a twin ran away
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,

@@ -50,9 +50,11 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 // what its twins leave, and whether that is a floor of it
 void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                        ModelStage const& stage, RecordedLoop const& loop, UnseenResult& result) {
+  TwinRows rows;
+  if (!result.within.empty()) rows.only = &result.within;
+  if (!result.rows.empty()) rows = {&result.rows, true};
   auto const errors_in = [&](RecordedLoop const& one) {
-    return unseen_twin_errors(recording, setting, stage, one, baseline.parameters(),
-                              result.rows.empty() ? nullptr : &result.rows);
+    return unseen_twin_errors(recording, setting, stage, one, baseline.parameters(), rows);
   };
   TwinErrors const own = errors_in(loop);
   result.promised = own.mean;
@@ -106,12 +108,20 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
 }
 
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                         ModelStage const& augmented, Artefact const& artefact) {
+                         ModelStage const& augmented, Artefact const& artefact, MotionRange const* within) {
   UnseenPrediction result;
-  RecordPipeline const plain = pipeline_for(setting, recording, baseline);
+  RecordPipeline plain = pipeline_for(setting, recording, baseline);
   RecordPipeline full = pipeline_for(setting, recording, augmented);
-  ProcessedRecord const before = plain.prepare(recording);
+  ProcessedRecord before = plain.prepare(recording);
   check_rows(before, recording.name);
+  result.all_rows = result.n_rows = static_cast<Eigen::Index>(before.kept_rows.size());
+  if (within != nullptr) {
+    result.within = rows_within(*within, before, plain);
+    result.n_rows = static_cast<Eigen::Index>(result.within.size());
+    if (result.n_rows < fewest_rows) return result;
+    plain.restrict_to(result.within);
+    before = plain.prepare(recording);
+  }
   full.restrict_to(before.kept_rows);
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
@@ -185,7 +195,7 @@ ForwardSimulation simulate_forward(Recording const& recording, std::optional<Rec
 
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented) {
-  return predict(from_zero(recording), setting, baseline, augmented, {});
+  return predict(from_zero(recording), setting, baseline, augmented, {}, nullptr);
 }
 
 std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetting const& setting,
@@ -212,7 +222,7 @@ std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetti
 }
 
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented) {
+                          ModelStage const& augmented, MotionRange const* within) {
   Recording const recording = from_zero(given);
   auto const loop = loop_of(recording, setting, augmented);
   Artefact artefact;
@@ -224,7 +234,8 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
         return {};  // as below
       }
     };
-  UnseenResult result{predict(recording, setting, baseline, augmented, artefact)};
+  UnseenResult result{predict(recording, setting, baseline, augmented, artefact, within)};
+  if (!(result.torque_energy > 0.0)) return result;
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
@@ -233,6 +244,21 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }
   return result;
+}
+
+void UnseenSum::add(UnseenResult const& result) {
+  torque_energy_ += result.torque_energy;
+  sum_.found += result.energies;
+  // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
+  sum_.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
+  sum_.blocks.insert(sum_.blocks.end(), result.blocks.begin(), result.blocks.end());
+  twins_.push_back(result.twins);
+}
+
+UnseenEnergies UnseenSum::energies() const {
+  UnseenEnergies energies = sum_;
+  energies.twins = over_recordings(twins_);
+  return energies;
 }
 
 }  // namespace torquescope

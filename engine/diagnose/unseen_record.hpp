@@ -3,7 +3,7 @@
 //
 // Parameters least squares of the training rows for both models (columns of measured motion are predicted best by
 //            parameters that carry the same attenuation)
-// Rows       those of the baseline's mask, for both
+// Rows       those of the baseline's mask, for both; of these the ones within a range, when one is given
 // Offset     a nuisance of each recording: refitted on its first 5 % when these move both ways (a fifth of them each: else an
 //            offset is friction's) and their mean residual is beyond three standard errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
 //            named both are one and take none
@@ -23,13 +23,16 @@
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/forward_selection.hpp"
+#include "engine/diagnose/motion_range.hpp"
 #include "engine/diagnose/unseen_refutation.hpp"
 
 namespace torquescope {
 
 struct UnseenPrediction {
-  double torque_energy = 0.0;
-  PredictionEnergies energies{};  // of all effects together
+  double torque_energy = 0.0;             // 0: fewer than 100 rows within the range, nothing is predicted
+  Eigen::Index n_rows = 0, all_rows = 0;  // without a range the same
+  std::vector<Eigen::Index> within{};     // the rows, where there is a range
+  PredictionEnergies energies{};          // of all effects together
   std::vector<AddedTorque> blocks{};
   std::vector<PredictionEnergies> by_effect{};  // without and with each, no offset refitted in either
   TorqueTrace trace{};
@@ -57,7 +60,20 @@ std::vector<PredictionEnergies> twins_without(Recording const& recording, StageS
 
 // the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented);
+                          ModelStage const& augmented, MotionRange const* within = nullptr);
+
+// of all recordings, for speak_against()
+class UnseenSum {
+ public:
+  void add(UnseenResult const& result);
+  double torque_energy() const { return torque_energy_; }
+  UnseenEnergies energies() const;
+
+ private:
+  double torque_energy_ = 0.0;
+  UnseenEnergies sum_{};
+  std::vector<std::vector<PredictionEnergies>> twins_{};
+};
 
 // closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows the
 // measured motion: unknown

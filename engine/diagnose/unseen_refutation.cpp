@@ -62,19 +62,20 @@ std::vector<PredictionEnergies> over_recordings(std::vector<std::vector<Predicti
   return sum;
 }
 
-bool speak_against(UnseenEnergies const& energies) {
-  constexpr double quarter = 0.25;
+bool speak_against(UnseenEnergies const& energies, NamesAre names) {
+  constexpr double quarter = 0.25, half = 0.5;
   auto const& [before, after, moved] = energies.found;
   ShareFound const there = share_found(energies);
-  if (there.share >= least_by_chance(energies.twins)) return false;
+  bool const is_there = there.share >= least_by_chance(energies.twins);
+  if (is_there && names == NamesAre::all) return false;
   constexpr double sure = 2.0;  // standard errors
   bool const is_short =
       (moved >= enough_moved * before && there.share < quarter) || there.share + sure * there.error < quarter;
-  if (is_short) return true;
-  if (!std::isfinite(energies.floor)) return after > before && moved >= quarter * before;
+  if (is_short && !is_there) return true;
+  if (!std::isfinite(energies.floor)) return !is_there && after > before && moved >= quarter * before;
   double const enough = quarter * before, promised = before - energies.floor;
-  bool const is_kept = before - after >= quarter * promised;
-  return !is_kept && promised >= enough && moved >= enough;
+  bool const is_kept = before - after >= (names == NamesAre::all ? quarter : half) * promised;
+  return !is_kept && promised >= enough && (moved >= enough || names == NamesAre::a_part);
 }
 
 // not what is of the very recording: its clock, its zero

@@ -130,6 +130,21 @@ TEST(ReasonSentence, OfNamesThatExplainTooLittleSaysHowMuch) {
                        "what is missing."));
 }
 
+TEST(ReasonSentence, OfNamesThatFailBeyondTheTrainingMotionSaysHowFarItWent) {
+  Diagnosis diagnosis = example::invented_insufficient();
+  diagnosis.joints[0].excitation.clear();
+  JointDiagnosis named = diagnosis.joints[0];
+  named.effects = {effect_of(*find_effect("spring"), 0.2)};
+  named.validation_relerr = 0.015;
+  named.augmented_validation_relerr = 0.032;
+  diagnosis.finding = beyond_training_clause(named, {-0.05, 0.05, -0.31, 0.3});
+  EXPECT_THAT(
+      reason_sentence(diagnosis),
+      StartsWith("The training motion keeps to positions between -0.050 and 0.050 rad and speeds between -0.31 and "
+                 "0.30 rad/s, and spring explains what is missing there; where unseen recordings go beyond, it takes "
+                 "their relerr from 1.5 % to 3.2 %: so narrow a motion cannot tell a law."));
+}
+
 TEST(ReasonSentence, OfABadRecordingEndsWithTheWayOut) {
   EXPECT_EQ(reason_sentence(example::invented_insufficient()),
             "Only one direction of motion was recorded. Viscous and coulomb cannot be told apart. Record both "

@@ -57,7 +57,7 @@ TEST_F(UnseenFloor, WithRowsAtReversalsIsWithoutWhatFiltersMakeOfThem) {
   // the joint is complete: half and more of what is left is none of it
   EXPECT_LT((left - artefact).norm(), 0.7 * left.norm());
   double const relerr = (left - artefact).norm() / record.torque.norm();
-  TwinErrors const twins = unseen_twin_errors(unseen, setting, stage, loop, stage.parameters(), &record.kept_rows);
+  TwinErrors const twins = unseen_twin_errors(unseen, setting, stage, loop, stage.parameters(), {&record.kept_rows, true});
   EXPECT_NEAR(twins.mean / relerr, 1.0, 0.2);
 }
 
