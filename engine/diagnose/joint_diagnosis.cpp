@@ -154,7 +154,7 @@ class JointWork {
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     UnseenSum sum;
     double floor = 0.0;
-    bool has_twins = false;
+    bool has_twins = false, is_beyond = false;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto const& recording : unseen_) {
       UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
@@ -162,10 +162,11 @@ class JointWork {
       floor += result.floor * result.floor * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
-      if (!selection_.is_gate_open)
-        if (auto beyond = beyond_twins(recording.name, std::sqrt(result.energies.after / result.torque_energy),
-                                       result.transferred))
-          joint_.unseen_beyond.push_back(std::move(*beyond));
+      if (auto beyond = beyond_twins(recording.name, std::sqrt(result.energies.after / result.torque_energy),
+                                     result.transferred)) {
+        is_beyond = true;
+        if (!selection_.is_gate_open) joint_.unseen_beyond.push_back(std::move(*beyond));
+      }
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
@@ -182,7 +183,7 @@ class JointWork {
     joint_.validation_relerr = std::sqrt(energies.found.before / torque);
     joint_.augmented_validation_relerr = std::sqrt(energies.found.after / torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
-    NamesAre const names = remainder.is_named_enough ? NamesAre::all : NamesAre::a_part;
+    NamesAre const names = remainder.is_named_enough || !is_beyond ? NamesAre::all : NamesAre::a_part;
     is_refuted_ = must_carry_over(selection_.accepted) && speak_against(energies, names);
     if (is_refuted_ && !remainder.is_unexplained && names == NamesAre::all)
       kept_to_ = spoils_only_beyond(setting, unseen_, selection_);

@@ -12,7 +12,8 @@
 //            torque that the names add is found there, if they add a tenth of the residual's energy, or if twenty blocks of each
 //            recording agree on it to two standard errors. Where nobody knows
 //            what twins promise (a loop that cannot be simulated), names are refuted that make the prediction worse and move it as much
-// A part     where the training recording says, too, that the names are not all (abstention.hpp), they must keep half of that promise,
+// A part     where the training recording says that the names are not all (abstention.hpp), and an unseen one is predicted worse than by
+//            any fit of its twins (unseen_transfer.hpp), they must keep half of that promise,
 //            and neither that the torque they add is there nor that it is little saves them: a part of what they stand for is no
 //            law of it, and the recordings agree that most is something else
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
@@ -46,7 +47,7 @@ inline constexpr double enough_moved = 0.1;  // of the residual: less says nothi
 // share in twins that have the law: three standard deviations below their mean; infinite where there are none
 double least_by_chance(std::vector<PredictionEnergies> const& twins);
 
-// what the training recording says of the names
+// what both recordings say of the names
 enum class NamesAre { all, a_part };
 bool speak_against(UnseenEnergies const& energies, NamesAre names = NamesAre::all);
 

@@ -50,11 +50,17 @@ function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
-# precompile_matrices(TARGET): for layers whose every file reads Eigen, a third of the time of a cold build of theirs. Presets
-# dev and tidy do without and see every missing include
+# precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a third of the
+# time of their cold build. Files compiled together read them once in eight files anyhow, and gain less than precompiling takes
+function(precompile target)
+  if(TORQUESCOPE_TOGETHER)
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
 function(precompile_matrices target)
-  target_precompile_headers(${target} PRIVATE
-    <Eigen/Core> <Eigen/QR> <Eigen/Cholesky> <algorithm> <cmath> <functional> <optional> <string> <vector>)
+  precompile(${target} <Eigen/Core> <Eigen/QR> <Eigen/Cholesky> <algorithm> <cmath> <functional> <optional> <string> <vector>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-stringop-overread)  # as above: of code that is not there
   endif()
