@@ -17,7 +17,7 @@
 //            and neither that the torque they add is there nor that it is little saves them: a part of what they stand for is no
 //            law of it, and the recordings agree that most is something else
 // Not asked  of what need not carry over: events, and what runs with the time of the training recording
-// Why        this is the only rule that looks at unseen recordings. It takes names away and never gives one, so that the errors
+// Why        as every rule that looks at unseen recordings (unseen_selection.hpp, unseen_range.hpp) it takes names away and never gives one, so that the errors
 //            that are printed with names are those of a model nothing was fitted to
 // Energies   of residuals, summed over rows and recordings
 // Threads    free functions
