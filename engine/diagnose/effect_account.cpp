@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/diagnose/acting_region.hpp"
-#include "engine/diagnose/map_axes.hpp"
-#include "engine/diagnose/reversal_mask.hpp"
-#include "engine/diagnose/scaled_solution.hpp"
+#include "engine/locate/acting_region.hpp"
+#include "engine/locate/map_axes.hpp"
+#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/statistics/scaled_solution.hpp"
 
 namespace torquescope {
 namespace {

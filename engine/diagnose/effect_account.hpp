@@ -13,8 +13,8 @@
 // Threads    free functions
 // Source     UX.md section 3 item 3
 
-#include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/model_stage.hpp"
+#include "engine/search/model_stage.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -20,9 +20,9 @@
 #include <functional>
 #include <vector>
 
-#include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/forward_selection.hpp"
-#include "engine/diagnose/twin_exchange.hpp"
+#include "engine/search/forward_selection.hpp"
+#include "engine/twin/twin_exchange.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

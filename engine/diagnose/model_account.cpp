@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "engine/diagnose/blocked_cv.hpp"
-#include "engine/diagnose/detection_power.hpp"
-#include "engine/diagnose/parameter_intervals.hpp"
+#include "engine/search/detection_power.hpp"
+#include "engine/search/parameter_intervals.hpp"
+#include "engine/statistics/blocked_cv.hpp"
 
 namespace torquescope {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/forward_selection.hpp"
+#include "engine/search/forward_selection.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/diagnose/blocked_mismatch.hpp"
 #include "engine/diagnose/effect_account.hpp"
-#include "engine/diagnose/equivalent_effects.hpp"
-#include "engine/diagnose/parameter_intervals.hpp"
+#include "engine/search/blocked_mismatch.hpp"
+#include "engine/search/equivalent_effects.hpp"
+#include "engine/search/parameter_intervals.hpp"
 
 namespace torquescope {
 namespace {
@@ -61,22 +61,6 @@ std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameter
 }
 
 }  // namespace
-
-// of harmonics people know the fundamental, and the one that was found first may be any of them
-std::vector<std::size_t> waves_in_order(JointModel const& model) {
-  // with a column beside them, the wave that was fitted first has it for all
-  constexpr std::size_t sine_and_cosine = 2;
-  auto const& effects = model.effects();
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    auto const& [effect, shape] = effects[i];
-    auto const is_longer = [&](std::size_t k) {
-      return effects[k].effect == effect && effect->n_linear() == sine_and_cosine && shape < effects[k].shape;
-    };
-    order.insert(std::find_if(order.begin(), order.end(), is_longer), i);
-  }
-  return order;
-}
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
   ModelEstimate const estimate = estimate_parameters(*selection.final);

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/forward_selection.hpp"
+#include "engine/search/forward_selection.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 
@@ -17,9 +17,6 @@ struct NamedEffects {
   std::vector<ParameterEstimate> parameters{};  // of the baseline beside them, then of each accepted effect
   std::vector<std::size_t> place{};             // of each accepted effect among `effects`
 };
-
-// of the model's effects: as they come, but sines of one kind the longest first
-std::vector<std::size_t> waves_in_order(JointModel const& model);
 
 NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads);
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/diagnose/null_kind.hpp"
 #include "engine/optim/optimiser.hpp"
+#include "engine/twin/null_kind.hpp"
 
 namespace torquescope {
 

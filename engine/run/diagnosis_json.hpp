@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "engine/diagnose/diagnosis.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "engine/diagnose/diagnosis.hpp"
 #include "engine/store/result_reader.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

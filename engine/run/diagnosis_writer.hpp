@@ -4,8 +4,8 @@
 // Absent     lists without entries are not written; unknown numbers are NaN
 // Errors     those of ResultWriter
 
-#include "engine/diagnose/diagnosis.hpp"
 #include "engine/store/result_writer.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -10,7 +10,7 @@
 namespace torquescope {
 namespace {
 
-std::string group_of(std::string const& label) { return "/parts/" + label + "/"; }
+std::string parts_group(std::string const& label) { return "/parts/" + label + "/"; }
 
 // the part that holds row `row` of the lists, and how far into it
 struct Place {
@@ -65,7 +65,7 @@ void write_states(ResultWriter& writer, std::string const& group, std::vector<Ru
 }
 
 void write_estimator(ResultWriter& writer, EstimatorParts const& estimator) {
-  std::string const group = group_of(estimator.label);
+  std::string const group = parts_group(estimator.label);
   std::string const itself = group.substr(0, group.size() - 1);
   auto const& shape = estimator.shape;
   writer.attribute(itself, "search_sha256", estimator.search_sha256);
@@ -183,7 +183,7 @@ SegmentFile::SegmentFile(std::filesystem::path const& name) : reader_(name), ori
 }
 
 void SegmentFile::read_index(std::string const& label) {
-  std::string const group = group_of(label);
+  std::string const group = parts_group(label);
   auto const size = [&](char const* key) {
     auto const value = reader_.attribute<std::int64_t>(group.substr(0, group.size() - 1), key);
     if (value < 0) throw contradicts_itself(name(), group + key);
@@ -211,7 +211,7 @@ void SegmentFile::read_index(std::string const& label) {
 }
 
 RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
-  std::string const group = group_of(label);
+  std::string const group = parts_group(label);
   Index const& index = estimators_.at(label);
   Entry const& wanted = index.entries.at(entry);
   RunPart part{.run = wanted.run, .first = wanted.first, .count = wanted.count, .ended = wanted.ended};

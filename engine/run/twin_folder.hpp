@@ -21,9 +21,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/diagnose/twin_exchange.hpp"
 #include "engine/store/number_file.hpp"
 #include "engine/store/segment_folder.hpp"
+#include "engine/twin/twin_exchange.hpp"
 
 namespace torquescope {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "engine/base/parallel.hpp"
-#include "engine/diagnose/diagnosis.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/written_result.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 

@@ -74,9 +74,9 @@ struct AddAttribute {
 
 // whole blocks, and several chunks so that few are read twice
 std::size_t rows_at_once(h5::DatasetInfo const& info) {
-  constexpr std::size_t most_bytes = std::size_t{4} << 20;
+  constexpr std::size_t bytes_at_once = std::size_t{4} << 20;
   std::size_t const block_rows = rows_of_block(info.element, info.shape);
-  return std::max<std::size_t>(1, most_bytes / bytes_of_row(info.shape) / block_rows) * block_rows;
+  return std::max<std::size_t>(1, bytes_at_once / bytes_of_row(info.shape) / block_rows) * block_rows;
 }
 
 // reads a part of a file, object by object

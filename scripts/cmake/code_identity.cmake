@@ -2,8 +2,14 @@
 # when it changed, so that nothing is linked again for nothing.
 #
 #   cmake -D SOURCE=... -D OUTPUT=... -P code_identity.cmake
-set(layers kernels engine/base engine/data engine/robot engine/optim engine/effects engine/problem engine/simulate
-           engine/diagnose engine/job engine/store engine/run)
+set(layers kernels)
+file(STRINGS ${SOURCE}/engine/layers.txt lines REGEX ":")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE ":.*" "" layer "${line}")
+  if(NOT layer MATCHES "^(kernels|app)$")  # what people type and read, not what is computed
+    list(APPEND layers engine/${layer})
+  endif()
+endforeach()
 set(all "")
 foreach(layer IN LISTS layers)
   file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${layer}/*.cpp ${SOURCE}/${layer}/*.hpp)

@@ -137,7 +137,7 @@ def fit_answer(study, joint):
 
 
 def _floor_words(error, floor):
-    """Unseen, as the verdict's sentence has it (engine/diagnose/error_words.hpp)."""
+    """Unseen, as the verdict's sentence has it (engine/words/error_words.hpp)."""
     if not math.isfinite(floor):
         return ""
     if diagnosed.is_below_floor(error, floor):

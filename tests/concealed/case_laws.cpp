@@ -10,7 +10,7 @@
 #include "concealed/low_pass.hpp"
 
 namespace concealed {
-namespace {
+namespace case_laws_test {
 
 Case shortened(Case one_case, double train_s) {
   one_case.train_s = train_s;
@@ -192,5 +192,5 @@ TEST(TruthRegion, OfAStribeckRiseIsTheSlowPart) {
   }
 }
 
-}  // namespace
+}  // namespace case_laws_test
 }  // namespace concealed

@@ -11,7 +11,7 @@
 #include "concealed/exact_case.hpp"
 
 namespace concealed {
-namespace {
+namespace drawn_laws_test {
 
 // report_case with nothing but the size
 double realised_snr(Case const& drawn) {
@@ -191,5 +191,5 @@ TEST(DrawnCases, DISABLED_EveryEffectHasTheSizeItSays) {
   for (auto const& effect : outside_effects()) expect_size("T4:" + effect.name + ":1:2");
 }
 
-}  // namespace
+}  // namespace drawn_laws_test
 }  // namespace concealed

@@ -7,7 +7,7 @@
 #include "concealed/imposed_motion.hpp"
 
 namespace concealed {
-namespace {
+namespace effect_laws_test {
 
 constexpr double step_s = law_step_s;
 
@@ -129,5 +129,5 @@ TEST(ConcealedEffects, LoadFrictionSolvesItsOwnEquation) {
   }
 }
 
-}  // namespace
+}  // namespace effect_laws_test
 }  // namespace concealed

@@ -4,7 +4,7 @@
 #include "concealed/imposed_motion.hpp"
 
 namespace concealed {
-namespace {
+namespace friction_laws_test {
 
 Instant sliding(double v, double t = 0.0) { return {t, 0.0, v, 0.0, v > 0.0 ? 1 : -1}; }
 
@@ -107,5 +107,5 @@ TEST(ConcealedFriction, WandersFromZeroByStepsOfItsAmplitude) {
   EXPECT_GT(apart, 0.02);
 }
 
-}  // namespace
+}  // namespace friction_laws_test
 }  // namespace concealed

@@ -9,7 +9,7 @@
 #include "concealed/seen_signals.hpp"
 
 namespace concealed {
-namespace {
+namespace instrument_laws_test {
 
 TEST(ConcealedInstruments, LateTorqueShowsWhatWas) {
   Instruments const channel = {late_torque(2.5e-3, tick_s)};
@@ -116,5 +116,5 @@ TEST(ConcealedLoop, FeedforwardOfTheTrueModelFollowsCloser) {
   EXPECT_LT(worst(), 0.5 * without);
 }
 
-}  // namespace
+}  // namespace instrument_laws_test
 }  // namespace concealed

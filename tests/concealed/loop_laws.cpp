@@ -9,7 +9,7 @@
 #include "concealed/sensors.hpp"
 
 namespace concealed {
-namespace {
+namespace loop_laws_test {
 
 Recipe const all_recipes[] = {Recipe::multisine, Recipe::staircase, Recipe::creep,
                               Recipe::mixed,     Recipe::chirp,     Recipe::pick_and_place,
@@ -160,5 +160,5 @@ TEST(ConcealedLoop, AppliesTheCommandOneTickLater) {
   }
 }
 
-}  // namespace
+}  // namespace loop_laws_test
 }  // namespace concealed

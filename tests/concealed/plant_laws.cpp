@@ -7,7 +7,7 @@
 #include "concealed/plant.hpp"
 
 namespace concealed {
-namespace {
+namespace plant_laws_test {
 
 constexpr double step_s = 20e-6;
 
@@ -110,5 +110,5 @@ TEST(ConcealedPlant, RefusesMoreStatesThanItHasRoomFor) {
   EXPECT_THROW(Plant(frictionless(1.0), HiddenEffects(max_states / 2, tank)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace plant_laws_test
 }  // namespace concealed

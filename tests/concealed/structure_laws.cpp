@@ -4,7 +4,7 @@
 #include "concealed/imposed_motion.hpp"
 
 namespace concealed {
-namespace {
+namespace structure_laws_test {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
@@ -129,5 +129,5 @@ TEST(ConcealedDrive, CurrentLoopFollowsARampLate) {
   EXPECT_NEAR(loop->torque(driven(3.0), z), 30.0 * late_s, 1e-4);
 }
 
-}  // namespace
+}  // namespace structure_laws_test
 }  // namespace concealed

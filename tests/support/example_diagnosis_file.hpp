@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/diagnose/diagnosis.hpp"
+#include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope::example {
 

@@ -15,10 +15,8 @@ namespace torquescope {
 
 namespace {
 
-constexpr int lead_columns = 7;  // "what   ", "why    "
 constexpr std::size_t candidates_shown = 3;
 
-std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
 
 std::string q_cell(double q) {
   if (!std::isfinite(q)) return "";

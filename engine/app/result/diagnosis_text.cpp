@@ -16,7 +16,6 @@ namespace torquescope {
 
 namespace {
 
-constexpr int lead_columns = 7;  // "where  ", "what   ", "next   "
 constexpr std::size_t spark_places = 16;
 constexpr double quiet_z = 4.0;  // a row without a stronger cell stays low
 
@@ -64,7 +63,6 @@ std::string with_each(std::string text, std::string const& old_words, std::strin
   return text;
 }
 
-std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
 
 std::string joined(std::vector<std::string> const& names) {
   std::string text;

@@ -73,6 +73,8 @@ std::vector<std::string> wrap(std::string const& text, int first_width, int widt
   return lines;
 }
 
+std::string lead(std::string const& topic) { return pad_right(topic, lead_columns); }
+
 std::string hanging(std::string const& lead, std::string const& text, int width) {
   int const indent = columns_of(lead);
   std::string result;

@@ -25,6 +25,10 @@ std::vector<std::string> wrap(std::string const& text, int first_width, int widt
 // `text` wrapped to the page behind `lead`, further lines below its end: "  help: write ...\n"; ends with a line feed
 std::string hanging(std::string const& lead, std::string const& text, int width = page_width);
 
+// of a paragraph of a diagnosis: "where  ", "what   ", "why    ", "next   "
+inline constexpr int lead_columns = 7;
+std::string lead(std::string const& topic);
+
 std::string pad_right(std::string text, int columns);  // text, then spaces
 std::string pad_left(std::string text, int columns);   // spaces, then text
 

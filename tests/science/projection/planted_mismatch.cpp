@@ -5,8 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "engine/diagnose/shape_grid.hpp"
-#include "unit/diagnose/clean_records.hpp"
+#include "engine/search/shape_grid.hpp"
+#include "unit/twin/clean_records.hpp"
 
 namespace torquescope::test {
 namespace {

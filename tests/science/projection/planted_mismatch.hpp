@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/diagnose/candidate_columns.hpp"
-#include "engine/diagnose/model_stage.hpp"
+#include "engine/search/candidate_columns.hpp"
+#include "engine/search/model_stage.hpp"
 
 namespace torquescope::test {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "unit/diagnose/clean_records.hpp"
+#include "unit/twin/clean_records.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;

@@ -12,7 +12,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace column_products_test {
 
 std::vector<double> columns(std::size_t n, std::size_t count, double phase) {
   std::vector<double> x(n * count);
@@ -44,5 +44,5 @@ TEST_P(ColumnProducts, AreSummedInTheDocumentedOrderWhateverTheCompany) {
 
 INSTANTIATE_TEST_SUITE_P(Target, ColumnProducts, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace column_products_test
 }  // namespace torquescope::kernels

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace torquescope::kernels {
-namespace {
+namespace dispatch_test {
 
 class Dispatch : public testing::Test {
  protected:
@@ -60,5 +60,5 @@ TEST_F(Dispatch, AlwaysHasPlainCode) {
 }
 #endif
 
-}  // namespace
+}  // namespace dispatch_test
 }  // namespace torquescope::kernels

@@ -16,7 +16,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace elementary_test {
 
 using Limits = std::numeric_limits<double>;
 constexpr double infinity = Limits::infinity();
@@ -217,5 +217,5 @@ TEST_P(Elementary, GivesTheBitsThatEveryMachineGives) {
 
 INSTANTIATE_TEST_SUITE_P(Target, Elementary, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace elementary_test
 }  // namespace torquescope::kernels

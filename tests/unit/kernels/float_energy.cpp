@@ -11,9 +11,11 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace float_energy_test {
 
-INSTANTIATE_TEST_SUITE_P(Float, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
+class FloatEnergyTargets : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, FloatEnergyTargets, testing::ValuesIn(supported_instruction_sets()),
                          instruction_set_of);
 
 std::vector<double> float_energies(RandomProblem const& problem, Candidates const& candidates) {
@@ -44,7 +46,7 @@ double energy_in_documented_order(RandomProblem const& problem, std::size_t m) {
   return sum_of_blocks(std::move(blocks));
 }
 
-TEST_P(EveryInstructionSet, SumsSquaresOfFloatsInTheDocumentedOrder) {
+TEST_P(FloatEnergyTargets, SumsSquaresOfFloatsInTheDocumentedOrder) {
   struct Size {
     std::size_t n_samples, n_regressors, n_members;
   };
@@ -60,7 +62,7 @@ TEST_P(EveryInstructionSet, SumsSquaresOfFloatsInTheDocumentedOrder) {
   }
 }
 
-TEST_P(EveryInstructionSet, GivesTheSameFloatBitsForEveryGroupingOfMembers) {
+TEST_P(FloatEnergyTargets, GivesTheSameFloatBitsForEveryGroupingOfMembers) {
   RandomProblem const problem(2500, 9, 23, 5);
   auto const together = float_energies(problem, problem.candidates());
   for (std::size_t chunk : {1, 5, 7}) {
@@ -93,5 +95,5 @@ TEST(FloatEnergy, IsOffByItsRoundingOverTheNoise) {
   }
 }
 
-}  // namespace
+}  // namespace float_energy_test
 }  // namespace torquescope::kernels

@@ -12,10 +12,11 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace gram_test {
 
-INSTANTIATE_TEST_SUITE_P(Gram, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
-                         instruction_set_of);
+class Gram : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, Gram, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
 SampleColumns columns_of(RandomProblem const& problem) {
   return {problem.phi.data(), problem.phi_stride, problem.tau.data(), problem.n_samples, problem.n_regressors};
@@ -47,7 +48,7 @@ struct Size {
 constexpr Size sizes[] = {{1, 1},    {5, 0},     {7, 4},     {32, 3},    {255, 2},  {256, 7}, {257, 4},
                           {2048, 5}, {2049, 11}, {14000, 4}, {2500, 24}, {300, 60}, {0, 3}};
 
-TEST_P(EveryInstructionSet, EqualsPlainLoopsWithinTheRoundingBound) {
+TEST_P(Gram, EqualsPlainLoopsWithinTheRoundingBound) {
   std::uint32_t seed = 300;
   for (auto const& size : sizes) {
     RandomProblem const problem(size.n_samples, size.n_regressors, 1, ++seed);
@@ -83,7 +84,7 @@ double product_in_documented_order(RandomProblem const& problem, std::size_t i, 
   return sum_of_blocks(std::move(blocks));
 }
 
-TEST_P(EveryInstructionSet, SumsProductsInTheDocumentedOrder) {
+TEST_P(Gram, SumsProductsInTheDocumentedOrder) {
   std::uint32_t seed = 400;
   for (auto const& size : sizes) {
     RandomProblem const problem(size.n_samples, size.n_regressors, 1, ++seed);
@@ -104,7 +105,7 @@ std::vector<double> some_root(std::size_t n) {
   return root;
 }
 
-TEST_P(EveryInstructionSet, WhitenedIsTheGramOfTheWhitenedRows) {
+TEST_P(Gram, WhitenedIsTheGramOfTheWhitenedRows) {
   for (std::size_t n_samples : {31, 300, 2100}) {
     std::size_t const n = 5;
     RandomProblem problem(n_samples, n, 1, 17);
@@ -127,7 +128,7 @@ TEST_P(EveryInstructionSet, WhitenedIsTheGramOfTheWhitenedRows) {
   }
 }
 
-TEST_P(EveryInstructionSet, WritesOnlySumsAndWorkspace) {
+TEST_P(Gram, WritesOnlySumsAndWorkspace) {
   for (std::size_t n_regressors : {1, 4, 7, 12}) {
     RandomProblem const problem(5000, n_regressors, 1, 4);
     std::size_t const size = gram_workspace_size(5000, n_regressors), n_sums = (n_regressors + 1) * (n_regressors + 1);
@@ -142,5 +143,5 @@ TEST_P(EveryInstructionSet, WritesOnlySumsAndWorkspace) {
   }
 }
 
-}  // namespace
+}  // namespace gram_test
 }  // namespace torquescope::kernels

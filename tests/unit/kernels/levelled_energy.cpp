@@ -11,11 +11,13 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace levelled_energy_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-INSTANTIATE_TEST_SUITE_P(LevelledEnergy, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
+class LevelledEnergyTargets : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, LevelledEnergyTargets, testing::ValuesIn(supported_instruction_sets()),
                          instruction_set_of);
 
 // runs of samples in which the last n_constant columns keep one value; the samples behind the last whole tile are `rest`
@@ -130,7 +132,7 @@ std::vector<LevelledProblem> problems() {
           {{}, 2, 2, 3, 50, 7}};
 }
 
-TEST_P(EveryInstructionSet, EqualsPlainLoopsWithinTheRoundingBound) {
+TEST_P(LevelledEnergyTargets, EqualsPlainLoopsWithinTheRoundingBound) {
   for (auto const& problem : problems()) {
     for (double const delta : {infinity, 1.5}) {
       auto const energy = energies(problem.tiles(), problem.candidates(), delta);
@@ -143,7 +145,7 @@ TEST_P(EveryInstructionSet, EqualsPlainLoopsWithinTheRoundingBound) {
   }
 }
 
-TEST_P(EveryInstructionSet, GivesTheSameBitsForEveryGroupingOfMembers) {
+TEST_P(LevelledEnergyTargets, GivesTheSameBitsForEveryGroupingOfMembers) {
   LevelledProblem const problem({3, 70, 5}, 2, 2, 23, 17, 9);
   auto const together = energies(problem.tiles(), problem.candidates(), infinity);
   for (std::size_t chunk : {1, 5, 6, 7, 22}) {
@@ -155,7 +157,7 @@ TEST_P(EveryInstructionSet, GivesTheSameBitsForEveryGroupingOfMembers) {
   }
 }
 
-TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
+TEST_P(LevelledEnergyTargets, NotANumberStaysWithItsMember) {
   LevelledProblem problem({3, 4}, 2, 2, 8, 5, 3);
   auto const before = energies(problem.tiles(), problem.candidates(), infinity);
   // of a constant column
@@ -170,7 +172,7 @@ TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
   }
 }
 
-TEST_P(EveryInstructionSet, HuberWithInfiniteDeltaIsResidualEnergy) {
+TEST_P(LevelledEnergyTargets, HuberWithInfiniteDeltaIsResidualEnergy) {
   LevelledProblem const problem({30, 40}, 3, 2, 8, 25, 8);
   std::vector<double> huber(8);
   AlignedDoubles workspace(levelled_workspace_size(problem.tiles(), 8));
@@ -178,7 +180,7 @@ TEST_P(EveryInstructionSet, HuberWithInfiniteDeltaIsResidualEnergy) {
   EXPECT_EQ(huber, energies(problem.tiles(), problem.candidates(), infinity));
 }
 
-TEST_P(EveryInstructionSet, WritesOnlyEnergyAndWorkspace) {
+TEST_P(LevelledEnergyTargets, WritesOnlyEnergyAndWorkspace) {
   LevelledProblem const problem({30, 100}, 3, 2, 11, 25, 8);
   std::size_t const size = levelled_workspace_size(problem.tiles(), 11);
   double const guard = 12345.0;
@@ -204,5 +206,5 @@ TEST(LevelledEnergy, GivesTheSameBitsOnEveryInstructionSet) {
   EXPECT_EQ(huber.size(), 1u);
 }
 
-}  // namespace
+}  // namespace levelled_energy_test
 }  // namespace torquescope::kernels

@@ -13,7 +13,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace normal_quantiles_test {
 
 class NormalQuantiles : public EveryInstructionSet {};
 
@@ -55,5 +55,5 @@ TEST_P(NormalQuantiles, KnowTheFarTailsAndTheirBorders) {
 
 INSTANTIATE_TEST_SUITE_P(Target, NormalQuantiles, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace normal_quantiles_test
 }  // namespace torquescope::kernels

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace torquescope::kernels {
-namespace {
+namespace pairwise_tree_test {
 
 // the equation of the header
 double split_sum(std::vector<double> const& terms, std::size_t first, std::size_t count) {
@@ -46,5 +46,5 @@ TEST(PairwiseTree, KeepsColumnsApart) {
   EXPECT_EQ(sum[2], 1500.0);
 }
 
-}  // namespace
+}  // namespace pairwise_tree_test
 }  // namespace torquescope::kernels

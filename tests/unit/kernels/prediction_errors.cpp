@@ -10,7 +10,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace prediction_errors_test {
 
 class PredictionErrors : public EveryInstructionSet {};
 
@@ -57,5 +57,5 @@ TEST_P(PredictionErrors, BeginAStretchWithWhatPastThereIs) {
 
 INSTANTIATE_TEST_SUITE_P(Target, PredictionErrors, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace prediction_errors_test
 }  // namespace torquescope::kernels

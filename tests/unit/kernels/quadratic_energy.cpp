@@ -11,10 +11,11 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace quadratic_energy_test {
 
-INSTANTIATE_TEST_SUITE_P(QuadraticEnergy, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
-                         instruction_set_of);
+class QuadraticEnergy : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, QuadraticEnergy, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
 struct RandomForm {
   std::size_t n;
@@ -60,7 +61,7 @@ double in_documented_order(QuadraticForm const& form, double const* member) {
   return form.constant + std::fma(-2.0, slope, squares);
 }
 
-TEST_P(EveryInstructionSet, HasTheDocumentedOrderAndEqualsPlainLoops) {
+TEST_P(QuadraticEnergy, HasTheDocumentedOrderAndEqualsPlainLoops) {
   std::uint32_t seed = 0;
   for (std::size_t n : {1, 2, 4, 11, 60}) {
     for (std::size_t n_members : {1, 7, 8, 9, 30}) {
@@ -99,7 +100,7 @@ TEST_P(EveryInstructionSet, HasTheDocumentedOrderAndEqualsPlainLoops) {
   }
 }
 
-TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
+TEST_P(QuadraticEnergy, NotANumberStaysWithItsMember) {
   RandomForm random(4, 10, 5);
   auto const root = random.root(), low = random.root_low();
   QuadraticForm const form{4, random.numbers.tau.data(), root.data(), low.data(), random.numbers.tau.data() + 1, 1.0};
@@ -116,5 +117,5 @@ TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
   }
 }
 
-}  // namespace
+}  // namespace quadratic_energy_test
 }  // namespace torquescope::kernels

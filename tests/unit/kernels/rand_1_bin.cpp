@@ -11,10 +11,11 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace rand_1_bin_test {
 
-INSTANTIATE_TEST_SUITE_P(Rand1Bin, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
-                         instruction_set_of);
+class Rand1BinTargets : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, Rand1BinTargets, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
 // draws of one member's stream, one after the other, out of blocks that philox.cpp compares with Random123
 class Draws {
@@ -83,7 +84,7 @@ void expect_trial(Rand1Bin const& population, PhiloxStreams const& streams, std:
   ASSERT_EQ(outside, left ? 1 : 0) << "member " << target;
 }
 
-TEST_P(EveryInstructionSet, EqualsTheEquationsBitForBit) {
+TEST_P(Rand1BinTargets, EqualsTheEquationsBitForBit) {
   std::mt19937 random(7);
   constexpr double untouched = -77.0;
   for (std::size_t n_members : {4, 5, 8, 9, 30, 67})
@@ -108,7 +109,7 @@ TEST_P(EveryInstructionSet, EqualsTheEquationsBitForBit) {
       }
 }
 
-TEST_P(EveryInstructionSet, FlagsInfinityAndNanAsOutside) {
+TEST_P(Rand1BinTargets, FlagsInfinityAndNanAsOutside) {
   std::mt19937 random(8);
   for (double const bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     Problem problem(random, 9, 3, 0.8, 1.0);
@@ -120,5 +121,5 @@ TEST_P(EveryInstructionSet, FlagsInfinityAndNanAsOutside) {
   }
 }
 
-}  // namespace
+}  // namespace rand_1_bin_test
 }  // namespace torquescope::kernels

@@ -10,12 +10,13 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace residual_energy_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-INSTANTIATE_TEST_SUITE_P(ResidualEnergy, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
-                         instruction_set_of);
+class ResidualEnergy : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, ResidualEnergy, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
 long double wide(double number) { return static_cast<long double>(number); }
 
@@ -76,7 +77,7 @@ void for_random_problems(Check const& check) {
   }
 }
 
-TEST_P(EveryInstructionSet, EqualsPlainLoopsWithinTheRoundingBound) {
+TEST_P(ResidualEnergy, EqualsPlainLoopsWithinTheRoundingBound) {
   for_random_problems([](RandomProblem const& problem) {
     auto const energy = residual_energies(problem.tiles(), problem.candidates());
     for (std::size_t m = 0; m < problem.n_members; ++m) {
@@ -87,7 +88,7 @@ TEST_P(EveryInstructionSet, EqualsPlainLoopsWithinTheRoundingBound) {
   });
 }
 
-TEST_P(EveryInstructionSet, HuberEqualsPlainLoopsWithinTheRoundingBound) {
+TEST_P(ResidualEnergy, HuberEqualsPlainLoopsWithinTheRoundingBound) {
   for_random_problems([](RandomProblem const& problem) {
     // about the size of a residual: both branches are taken
     double const delta = std::sqrt(static_cast<double>(problem.n_regressors));
@@ -101,7 +102,7 @@ TEST_P(EveryInstructionSet, HuberEqualsPlainLoopsWithinTheRoundingBound) {
   });
 }
 
-TEST_P(EveryInstructionSet, TrueParametersOfExactDataLeaveNothing) {
+TEST_P(ResidualEnergy, TrueParametersOfExactDataLeaveNothing) {
   // small integers: every product and sum is exact
   std::size_t const n = 4321;
   std::vector<double> phi(n * 3), tau(n), members = {2, -3, 5, 2, -3, 6};
@@ -118,14 +119,14 @@ TEST_P(EveryInstructionSet, TrueParametersOfExactDataLeaveNothing) {
   EXPECT_EQ(energy[1], off_by_column);
 }
 
-TEST_P(EveryInstructionSet, HuberGrowsLinearlyWithAnOutlier) {
+TEST_P(ResidualEnergy, HuberGrowsLinearlyWithAnOutlier) {
   double const tau[] = {0.5, -1000.0};
   AlignedDoubles packed(packed_size(2, 0));
   auto const tiles = pack_tiles(nullptr, 0, tau, 2, 0, packed.data());
   EXPECT_EQ(huber_energies(tiles, {nullptr, 1, 0}, 2.0).front(), 0.25 + 2.0 * (2000.0 - 2.0));
 }
 
-TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
+TEST_P(ResidualEnergy, NotANumberStaysWithItsMember) {
   RandomProblem problem(100, 4, 8, 3);
   auto const before = residual_energies(problem.tiles(), problem.candidates());
   auto const huber_before = huber_energies(problem.tiles(), problem.candidates(), 1.0);
@@ -143,14 +144,14 @@ TEST_P(EveryInstructionSet, NotANumberStaysWithItsMember) {
   }
 }
 
-TEST_P(EveryInstructionSet, InfiniteParametersGiveNoFiniteEnergy) {
+TEST_P(ResidualEnergy, InfiniteParametersGiveNoFiniteEnergy) {
   RandomProblem problem(100, 4, 2, 3);
   problem.members[0] = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(std::isfinite(residual_energies(problem.tiles(), problem.candidates())[0]));
   EXPECT_FALSE(std::isfinite(huber_energies(problem.tiles(), problem.candidates(), 1.0)[0]));
 }
 
-TEST_P(EveryInstructionSet, NothingInNothingOut) {
+TEST_P(ResidualEnergy, NothingInNothingOut) {
   RandomProblem const no_samples(0, 3, 7, 1);
   EXPECT_EQ(residual_energies(no_samples.tiles(), no_samples.candidates()), std::vector<double>(7, 0.0));
   RandomProblem const no_members(40, 3, 0, 1);
@@ -162,7 +163,7 @@ TEST_P(EveryInstructionSet, NothingInNothingOut) {
   EXPECT_EQ(energy[0], energy[1]);
 }
 
-TEST_P(EveryInstructionSet, ThreadsShareOneRecording) {
+TEST_P(ResidualEnergy, ThreadsShareOneRecording) {
   RandomProblem const problem(3000, 5, 16, 6);
   auto const expected = residual_energies(problem.tiles(), problem.candidates());
   std::vector<double> energy(16);
@@ -177,5 +178,5 @@ TEST_P(EveryInstructionSet, ThreadsShareOneRecording) {
   EXPECT_EQ(energy, expected);
 }
 
-}  // namespace
+}  // namespace residual_energy_test
 }  // namespace torquescope::kernels

@@ -12,11 +12,13 @@
 #include "unit/kernels/random_problem.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace residual_energy_bits_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-INSTANTIATE_TEST_SUITE_P(Bits, EveryInstructionSet, testing::ValuesIn(supported_instruction_sets()),
+class ResidualEnergyBits : public EveryInstructionSet {};
+
+INSTANTIATE_TEST_SUITE_P(Target, ResidualEnergyBits, testing::ValuesIn(supported_instruction_sets()),
                          instruction_set_of);
 
 // the order written in residual_energy.hpp, one operation after the other
@@ -44,7 +46,7 @@ struct Size {
 constexpr Size sizes[] = {{1, 1, 1},    {7, 4, 2},     {31, 3, 5},     {32, 4, 6},    {33, 4, 7},    {257, 24, 13},
                           {2047, 5, 3}, {2048, 11, 6}, {2049, 11, 11}, {5000, 4, 40}, {14000, 2, 2}, {700, 60, 9}};
 
-TEST_P(EveryInstructionSet, SumsSquaresInTheDocumentedOrder) {
+TEST_P(ResidualEnergyBits, SumsSquaresInTheDocumentedOrder) {
   std::uint32_t seed = 100;
   for (auto const& size : sizes) {
     RandomProblem const problem(size.n_samples, size.n_regressors, size.n_members, ++seed);
@@ -54,7 +56,7 @@ TEST_P(EveryInstructionSet, SumsSquaresInTheDocumentedOrder) {
   }
 }
 
-TEST_P(EveryInstructionSet, SumsHuberLossesInTheDocumentedOrder) {
+TEST_P(ResidualEnergyBits, SumsHuberLossesInTheDocumentedOrder) {
   std::uint32_t seed = 200;
   for (auto const& size : sizes) {
     RandomProblem const problem(size.n_samples, size.n_regressors, size.n_members, ++seed);
@@ -65,7 +67,7 @@ TEST_P(EveryInstructionSet, SumsHuberLossesInTheDocumentedOrder) {
   }
 }
 
-TEST_P(EveryInstructionSet, GivesTheSameBitsForEveryGroupingOfMembers) {
+TEST_P(ResidualEnergyBits, GivesTheSameBitsForEveryGroupingOfMembers) {
   RandomProblem const problem(2500, 9, 23, 5);
   auto const together = residual_energies(problem.tiles(), problem.candidates());
   for (std::size_t chunk : {1, 2, 5, 6, 7, 12, 22}) {
@@ -77,7 +79,7 @@ TEST_P(EveryInstructionSet, GivesTheSameBitsForEveryGroupingOfMembers) {
   }
 }
 
-TEST_P(EveryInstructionSet, PaddingAddsExactlyZero) {
+TEST_P(ResidualEnergyBits, PaddingAddsExactlyZero) {
   for (std::size_t n : {1, 5, 8, 31, 40, 2047}) {
     RandomProblem const problem(n, 6, 7, static_cast<std::uint32_t>(n));
     // the same recording with zeros up to the end of the block written out as samples
@@ -95,14 +97,14 @@ TEST_P(EveryInstructionSet, PaddingAddsExactlyZero) {
   }
 }
 
-TEST_P(EveryInstructionSet, HuberWithInfiniteDeltaIsResidualEnergy) {
+TEST_P(ResidualEnergyBits, HuberWithInfiniteDeltaIsResidualEnergy) {
   RandomProblem const problem(3000, 12, 8, 9);
   EXPECT_EQ(huber_energies(problem.tiles(), problem.candidates(), infinity),
             residual_energies(problem.tiles(), problem.candidates()));
 }
 
 // what lets several threads share one long recording: a run of 2^k blocks is one node of the tree
-TEST_P(EveryInstructionSet, PartsOfAPowerOfTwoOfBlocksAddUpToTheSameBits) {
+TEST_P(ResidualEnergyBits, PartsOfAPowerOfTwoOfBlocksAddUpToTheSameBits) {
   RandomProblem const problem(7 * block_samples - 100, 3, 4, 11);
   auto const whole = residual_energies(problem.tiles(), problem.candidates());
   std::size_t const left_samples = 4 * block_samples;
@@ -113,5 +115,5 @@ TEST_P(EveryInstructionSet, PartsOfAPowerOfTwoOfBlocksAddUpToTheSameBits) {
   for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(left_energy[m] + right_energy[m], whole[m]);
 }
 
-}  // namespace
+}  // namespace residual_energy_bits_test
 }  // namespace torquescope::kernels

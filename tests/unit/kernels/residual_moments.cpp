@@ -10,7 +10,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace residual_moments_test {
 
 std::vector<double> numbers(std::size_t n, double phase) {
   std::vector<double> x(n);
@@ -65,5 +65,5 @@ TEST_P(ResidualMoments, AreSummedInTheDocumentedOrderWhateverTheCompany) {
 
 INSTANTIATE_TEST_SUITE_P(Target, ResidualMoments, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace residual_moments_test
 }  // namespace torquescope::kernels

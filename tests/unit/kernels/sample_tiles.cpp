@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace torquescope::kernels {
-namespace {
+namespace sample_tiles_test {
 
 TEST(SampleTiles, HoldEverySampleOnceAndZeroBehindTheLast) {
   for (std::size_t n : {1, 31, 32, 33, 64, 100}) {
@@ -44,5 +44,5 @@ TEST(SampleTiles, AreWholeTiles) {
   EXPECT_EQ(packed_size(33, 4), 2u * 5u * 32u);
 }
 
-}  // namespace
+}  // namespace sample_tiles_test
 }  // namespace torquescope::kernels

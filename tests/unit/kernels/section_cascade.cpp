@@ -10,7 +10,7 @@
 #include "unit/kernels/every_instruction_set.hpp"
 
 namespace torquescope::kernels {
-namespace {
+namespace section_cascade_test {
 
 // two resonant low-passes of order two and one of order one, gain 1 at f = 0
 std::vector<CascadeSection> sections(std::size_t count) {
@@ -65,5 +65,5 @@ TEST_P(SectionCascade, GivesTheBitsOfTheTextbookInBothDirections) {
 
 INSTANTIATE_TEST_SUITE_P(Target, SectionCascade, testing::ValuesIn(supported_instruction_sets()), instruction_set_of);
 
-}  // namespace
+}  // namespace section_cascade_test
 }  // namespace torquescope::kernels

@@ -1,0 +1,60 @@
+#pragma once
+// The axes of the mismatch map: where each row of a recording lies on them and where their cells begin and end.
+//
+// Cells      54 for every axis (UX.md section 3), chosen for looking:
+//            velocity, load, acceleration   equal width on either side of zero, which is an edge: parity shows
+//            position, time                 equal width
+//            distances since a reversal     equally populated: they crowd near zero
+//            order, frequency               wave_spectrum.hpp
+// Load       load torque along the motion: sign(dq) * load torque; above zero the motor drives, below it is driven
+// Shown      what the mean of a cell is the mean of. The residual itself, but along the motion for load and distance since
+//            a velocity reversal, along the model's torque for distance since a torque reversal: what depends on these
+//            axes changes its sign with the direction, and would average out
+// Requires   rows that move one way (reversal_mask.hpp), or all but rests (friction_buildup.hpp)
+// Units      SI of the joint's kind
+// Threads    free functions
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/effects/effect_traits.hpp"
+#include "engine/effects/joint_scales.hpp"
+#include "engine/pipeline/motion_axes.hpp"
+
+namespace torquescope {
+
+inline constexpr int n_map_cells = 54;
+
+// fixed: an empty row of the map is evidence as well
+inline constexpr std::array<SignatureAxis, 9> map_axes{SignatureAxis::velocity,
+                                                       SignatureAxis::since_velocity_reversal,
+                                                       SignatureAxis::since_torque_reversal,
+                                                       SignatureAxis::load,
+                                                       SignatureAxis::position,
+                                                       SignatureAxis::acceleration,
+                                                       SignatureAxis::time,
+                                                       SignatureAxis::order,
+                                                       SignatureAxis::frequency};
+
+enum class CellReading { torque, along_motion, along_torque };
+CellReading shown_reading(SignatureAxis axis);
+
+constexpr bool is_spectrum(SignatureAxis axis) {
+  return axis == SignatureAxis::order || axis == SignatureAxis::frequency;
+}
+
+std::string axis_unit(SignatureAxis axis, JointKind joint);
+
+// place of every row, or sample; not for spectra
+Eigen::VectorXd values_on(SignatureAxis axis, MotionAxes const& axes);
+
+// n_map_cells + 1 edges, ascending; from the finite values
+std::vector<double> cell_edges(SignatureAxis axis, Eigen::VectorXd const& values);
+
+// cell of every row: from <= value < to, values outside go to the end cells; -1 for a value that is not finite
+std::vector<int> cells_of(Eigen::VectorXd const& values, std::span<double const> edges);
+
+}  // namespace torquescope

@@ -1,0 +1,52 @@
+#include "engine/pipeline/noise_weights.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+NoiseWeights NoiseWeights::with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const {
+  constexpr Eigen::Index n_modes = 16;  // all but 4 % of it
+  NoiseWeights result(rows_);
+  if (rows_.is_identity() || !(variance > 0.0)) return result;
+  Eigen::Index const n = friction.size();
+  result.modes_.resize(n, n_modes);
+  for (Eigen::Index k = 0; k < n_modes; ++k) {
+    double const turns = static_cast<double>(k + 1) * std::numbers::pi;
+    // standard deviation of the mode times its function: sqrt(variance) T / turns * sqrt(2 / T) cos(turns t / T)
+    double const size = std::sqrt(2.0 * variance * duration_s) / turns / rows_.noise_std();
+    for (Eigen::Index i = 0; i < n; ++i)
+      result.modes_(i, k) =
+          size * friction[i] * std::cos(turns * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+  }
+  return result;
+}
+
+WanderOnRows NoiseWeights::wander_on(std::vector<Eigen::Index> const& kept_rows) const {
+  WanderOnRows result;
+  if (!wanders()) return result;
+  result.modes = modes_(kept_rows, Eigen::all);
+  rows_.apply(result.modes, kept_rows);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const squares(result.modes.transpose() * result.modes);
+  // with W'W = V D^2 V': (I + W W')^(-1/2) = I - W V (1 - (1 + D^2)^(-1/2)) D^(-2) V' W'
+  Eigen::VectorXd const shrink = squares.eigenvalues().unaryExpr([](double square) {
+    double const root = std::sqrt(1.0 + std::max(0.0, square));
+    return 1.0 / (root * (root + 1.0));  // the same without a difference of near numbers
+  });
+  result.shrink = squares.eigenvectors() * shrink.asDiagonal() * squares.eigenvectors().transpose();
+  return result;
+}
+
+void NoiseWeights::apply(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows,
+                         WanderOnRows const& wander) const {
+  rows_.apply(signals, kept_rows);
+  if (!wanders()) return;
+  TORQUESCOPE_EXPECT(wander.modes.rows() == signals.rows());
+  Eigen::MatrixXd const along = wander.shrink * (wander.modes.transpose() * signals);
+  signals.noalias() -= wander.modes * along;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,49 @@
+#pragma once
+// The noise of a recording's rows as least squares should see it: coloured along the rows, and dry friction that wanders.
+//
+// Wander     a random walk of the level of dry friction about its mean, torque(t) = friction(t) * x(t), in its Karhunen-Loeve
+//            modes: cosines of time. With modes W (rows x K, whitened, in standard deviations of the white noise) the covariance is I + W W', and signals
+//            become (I + W W')^(-1/2) signals: a direction along which friction may wander by itself counts for less, one
+//            that no wander can imitate counts in full
+// Equation   the same on torque and columns, so that torque = columns * parameters goes on holding
+// Shapes     friction: torque of dry friction at every kept sample of the pipeline; signals: rows x any number
+// Units      SI; variance of the wander: share of the level, squared, per second
+// Threads    const object, any number of threads
+// Source     generalised least squares: Aitken 1935; modes of a random walk less its mean: Watson 1961
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "engine/statistics/row_whitening.hpp"
+
+namespace torquescope {
+
+// wander on one set of rows, ready to be taken off
+struct WanderOnRows {
+  Eigen::MatrixXd modes{};   // rows x K
+  Eigen::MatrixXd shrink{};  // K x K: signals - modes * shrink * modes' * signals
+};
+
+class NoiseWeights {
+ public:
+  NoiseWeights() = default;  // all rows alike
+  explicit NoiseWeights(RowWhitening rows) : rows_(std::move(rows)) {}
+
+  // the same with friction that wanders
+  NoiseWeights with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const;
+
+  bool are_equal() const { return rows_.is_identity() && !wanders(); }
+  bool wanders() const { return modes_.size() > 0; }
+  RowWhitening const& rows() const { return rows_; }
+
+  WanderOnRows wander_on(std::vector<Eigen::Index> const& kept_rows) const;
+  void apply(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows,
+             WanderOnRows const& wander) const;
+
+ private:
+  RowWhitening rows_;
+  Eigen::MatrixXd modes_{};  // kept samples x K, in standard deviations of the noise
+};
+
+}  // namespace torquescope

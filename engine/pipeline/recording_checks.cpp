@@ -1,0 +1,70 @@
+#include "engine/pipeline/recording_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace torquescope {
+
+std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) {
+  constexpr double one_direction = 0.995;  // of moving time
+  constexpr double one_speed = 1.3;        // 95th over 10th percentile
+  constexpr double fewest_steps = 50;      // of the encoder, in the whole motion
+  constexpr double at_limit = 0.05;        // of time
+  constexpr double fewest_updates = 4.0;   // of a held torque, in a period of the cut-off
+  constexpr double no_relation = 0.9;      // relerr of a model that explains a fifth of the torque's energy
+  auto const insufficient = [](std::string finding, std::string way_out) {
+    return Hopeless{Verdict::insufficient, std::move(finding), std::move(way_out)};
+  };
+  auto const fault = [](std::string finding, std::string way_out) {
+    return Hopeless{Verdict::data_fault, std::move(finding), std::move(way_out)};
+  };
+  double const range = facts.position_most - facts.position_least;
+  if (!(facts.moving_share > 0.0)) return insufficient("the joint never moves", "record a motion");
+  if (facts.encoder_step > 0.0 && range < fewest_steps * facts.encoder_step)
+    return insufficient(fmt::format("the whole motion spans {:.0f} encoder steps: its speed is mostly rounding",
+                                    range / facts.encoder_step),
+                        "record a larger motion");
+  if (std::max(facts.forward_share, 1.0 - facts.forward_share) > one_direction)
+    return insufficient(
+        "only one direction of motion was recorded: viscous, Coulomb friction and offset cannot be separated",
+        "record both directions over the same positions");
+  if (facts.speed_spread < one_speed)
+    return insufficient("only one speed was recorded: laws of velocity cannot be told apart",
+                        "record at least four speeds in both directions");
+  if (facts.torque_limit_share > at_limit)
+    return fault(fmt::format("the torque sits at its limit {:.0f} % of the time", 100.0 * facts.torque_limit_share),
+                 "widen the range of the torque channel, or record a gentler motion");
+  if (facts.torque_updates > 0.0 && facts.torque_updates < fewest_updates)
+    return fault(
+        fmt::format("the torque changes on one row in {} only, {:.2g} times in a period of the filter's cut-off",
+                    facts.torque_held_rows, facts.torque_updates),
+        fmt::format("log the torque as often as the position, or set filter.parallel_cutoff_hz to {:.2g} times what it "
+                    "is, or less",
+                    facts.torque_updates / fewest_updates));
+  if (relerr > no_relation)
+    return fault(fmt::format("the model explains almost nothing of the torque (relerr {:.0f} %)", 100.0 * relerr),
+                 "check recording.columns and torque_per_unit: the column may hold another signal or another joint");
+  return std::nullopt;
+}
+
+std::optional<Hopeless> check_silence(Excitation const& facts) {
+  constexpr double most_of_the_time = 0.75;
+  if (facts.one_speed_share < most_of_the_time) return std::nullopt;
+  return Hopeless{
+      Verdict::insufficient,
+      fmt::format("{:.0f} % of the moving time have one and the same speed: nothing else is missing, but laws of "
+                  "velocity cannot be told from viscous and Coulomb friction",
+                  100.0 * facts.one_speed_share),
+      "record at least four speeds in both directions"};
+}
+
+std::optional<Hopeless> check_sign(ProcessedRecord const& record) {
+  double const work = record.motion.torque.dot(record.motion.dq);
+  if (record.held.empty() || work >= 0.0) return std::nullopt;
+  return Hopeless{Verdict::data_fault,
+                  "the torque takes work out of the joint, and the fitted " + record.held + " is less than none",
+                  "the torque column may have the wrong sign: check recording.columns and torque_per_unit"};
+}
+
+}  // namespace torquescope

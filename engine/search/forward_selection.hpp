@@ -1,0 +1,108 @@
+#pragma once
+// Which effects, one after the other: the mismatch is searched, the effect that explains most of it is put into the model,
+// twins are made anew, and what is left is searched again.
+//
+// Gate       the family test of the scans at level q, and more than 0.25 % of the torque's rms beyond the twins: of the whole
+//            mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is there
+//            because a disturbance was fitted to the energy of the residual: where physics is missing it takes part of it
+//            for noise, so that the whole looks like noise while one direction of it does not
+//            Otherwise a candidate must be certain (q below 0.005), and its torque beside the model's own columns more than
+//            0.02 % of the torque's rms; up to 0.25 % nothing that happens once gets a name. After the first name it must
+//            also explain 3 % of the whole: what an imperfect name leaves is just as certain, and no physics
+// Weights    every accepted effect gets rows weighed anew (noise_weights.hpp), for what is missing passes for noise in part;
+//            energies of earlier steps are counted in the unit of the last (energy_unit)
+// Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds, on the common
+//            motion, or on the recording's own where a memory explains a good part more there (own_motion.hpp); the
+//            largest gain wins, a lesser one that gives 97 % of it when it is another wave of a named effect or has fewer
+//            parameters. It must explain a quarter of what is left and 0.2 % of the whole, have a
+//            plausible shape, help where it acts (region_consistency.hpp) and improve blocks of time it was not fitted to (t >= 2,
+//            or by half of its gain); what happens once (happens_once in trial_order.hpp) cannot
+//            do that, and must explain a quarter of the whole. As soon as an effect of
+//            the family `time` would be accepted, the search begins again among twins whose friction wanders as much as
+//            it may at most (friction_wander.hpp, by itself)
+// Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least a third of what
+//            the projection promised
+// Doubt      a second line from where another effect was nearly as good (rival_lines.hpp)
+// End        backward and swap (backward_selection.hpp)
+// Threads    as the stages
+// Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/search/late_torque.hpp"
+#include "engine/search/model_stage.hpp"
+#include "engine/search/shape_refinement.hpp"
+#include "engine/statistics/blocked_cv.hpp"
+
+namespace torquescope {
+
+struct SelectionOptions {
+  std::vector<Effect const*> candidates{};
+  double q = 0.05;
+  std::size_t max_effects = 5;
+  std::string shape_optimiser = "de";
+  bool only_gate = false;  // whether something is missing; nothing is named
+};
+
+struct AcceptedEffect {
+  Effect const* effect = nullptr;
+  EffectScan scan{};                    // of the step at which it was accepted
+  double q = 1.0;                       // hierarchical, there
+  double gain = 0.0;                    // energy of the mismatch it explained there, in the unit of the first step
+  double cv_gain = 0.0;                 // the same on blocks it was not fitted to
+  double region_gain = 0.0;             // share of the gain where it acts
+  std::optional<LateTorque> instead{};  // beside the effects named before it: by itself, with none
+};
+
+// why a refined candidate was not taken
+struct RejectedEffect {
+  Effect const* effect = nullptr;
+  std::string reason{};
+};
+
+struct Selection {
+  std::vector<EffectScan> first_scan{};  // before anything was accepted
+  std::vector<double> first_q{};         // of each
+  std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
+  MismatchEnergy first_energy{};
+  double first_excess = 0.0;          // of it, or what one candidate explains if that is more; energy
+  double energy_unit = 1.0;           // what a unit of energy of the first step is under the weights of the last
+  bool is_gate_open = false;          // something is missing
+  bool keeps_reversals = false;       // both stages have rows at reversals (friction_buildup.hpp)
+  bool differs_at_reversals = false;  // with its rows there from its twins, and no friction that builds up explains it
+  WanderReading wander = WanderReading::beside_motion;  // that the twins were made with
+  std::vector<AcceptedEffect> accepted{};               // in the order of the final stage's model
+  std::vector<RejectedEffect> rejected{};
+  std::shared_ptr<ModelStage const> baseline{};  // without effects
+  std::shared_ptr<ModelStage const> final{};     // with all of them; the baseline when there are none
+  std::int64_t evaluations = 0;                  // of shapes
+
+  bool has_accepted(Effect const* effect) const;
+  double whole() const;  // first_excess under the weights of the last step, above 0
+};
+
+inline constexpr double confirmed_share = 1.0 / 3.0;       // of a promised gain, by twins with the effect
+inline constexpr double least_share_of_whole = 0.002;      // an effect's energy, of what was missing at first
+inline constexpr double smallest_mismatch_share = 0.0025;  // of the torque's rms
+inline constexpr double smallest_omnibus_z = 4.0;
+inline constexpr double smallest_faint_share = 0.0002, faint_q = 0.005;  // below smallest_mismatch_share
+
+// share of the torque's rms that the mismatch makes up; of any energy
+double mismatch_share(ModelStage const& stage);
+double energy_share(ModelStage const& stage, double energy);
+bool is_significant(ModelStage const& stage);
+// of the mismatch, were the twins' mean known: a draft has fewer twins to know it from
+double energy_about_true_mean(ModelStage const& stage);
+// hierarchical, of each scan
+std::vector<double> q_of(std::vector<EffectScan> const& scans);
+
+// told before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
+using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
+
+Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress);
+
+}  // namespace torquescope

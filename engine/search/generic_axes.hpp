@@ -1,0 +1,28 @@
+#pragma once
+// How much of a mismatch is a smooth function of something, whatever the function: what no catalogue name is needed for.
+//
+// Axes       splines of position, velocity, time, acceleration; of position and of time with a sign or a size (s q, v q,
+//            a q, s t, v t, a t: friction, drag, inertia that change); position and velocity together; the torque so far
+// Share      energy of the mismatch in the span (beside the model), less what noise alone gives, over the excess
+// Why        when a smooth function holds most of what the named effects leave, something is there that has no name here
+// Shapes     hats over quantiles of the axis, 12 knots; 8 x 8 for two axes
+// Threads    free function
+// Source     LESSONS item 18 of our own prototype
+
+#include <string>
+#include <vector>
+
+#include "engine/search/candidate_columns.hpp"
+
+namespace torquescope {
+
+struct GenericAxis {
+  std::string name;                   // for people: "velocity", "friction over position"
+  std::vector<SignatureAxis> axes{};  // of the mismatch map: those it is a function of
+  double share = 0.0;                 // of the excess
+};
+
+// strongest first; excess: of the stage, above 0
+std::vector<GenericAxis> generic_axes(CandidateColumns const& columns, double excess);
+
+}  // namespace torquescope

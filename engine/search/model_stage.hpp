@@ -1,0 +1,79 @@
+#pragma once
+// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes a
+// new stage, twins included, for a mismatch means nothing against twins of another model.
+//
+// Threads    spreads twins over `threads`; same bits for any number; a stage is a plain record
+// Source     LESSONS items 5, 8, 13 of our own prototype
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/search/candidate_columns.hpp"
+#include "engine/twin/ablation.hpp"
+#include "engine/twin/baseline_twin.hpp"
+#include "engine/twin/mismatch_energy.hpp"
+#include "engine/twin/twin_exchange.hpp"
+
+namespace torquescope {
+
+// what does not change from stage to stage
+struct StageSetting {
+  Recording const& recording;  // its time begins at 0
+  Regressor const& regressor;
+  FilterOptions const& filter;
+  Section const& filter_section;
+  std::size_t twins = 200;
+  std::uint64_t seed = 0;
+  int threads = 1;
+  WanderReading wander = WanderReading::beside_motion;
+  Ablation ablation{};
+  std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
+  std::shared_ptr<NoiseWeights const> weights{};  // the same
+  std::optional<TwinLevels> levels{};             // of this very model; none: measure
+  bool reads_colour = false;         // noise as the model leaves it, whatever the law says (torque_colour.hpp)
+  bool keeps_reversals = false;      // rows at reversals count (friction_buildup.hpp)
+  double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
+  TwinExchange* exchange = nullptr;  // who shares the twins; nobody
+
+  TwinWorkers workers() const { return {threads, exchange}; }
+};
+
+// of a recording, with the setting's filter and rows
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model);
+
+struct ModelStage {
+  std::unique_ptr<RecordPipeline> pipeline{};  // restricted to the common rows
+  std::optional<BaselineTwin> twin{};          // always there in a stage that make_stage() returned
+  TwinComparison comparison{};
+  MismatchEnergy energy{};
+
+  JointModel const& model() const { return pipeline->model(); }
+  // corrected for the bias of processing
+  Eigen::VectorXd const& parameters() const { return twin->baseline.parameters; }
+  Eigen::VectorXd mismatch() const { return comparison.rows.residual - comparison.rows.twin_mean; }
+  // what candidates are told of the baseline: this stage's own parameters
+  BaselineReference reference() const;
+};
+
+// the same for the stage's model, and its fits bounded as the stage's are
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage);
+
+// nothing when the twins run away: such a model is none of this joint
+// Errors     Error 65 as the pipeline and the twins, for a model without effects only
+std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);
+
+// The same model with all its twins, its levels known and rows weighed by the noise that its own twins have. What is missing at first passes for noise in part, so
+// that the weights of one stage are too coarse for the next
+std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
+
+// Whether the last effect of the stage, as corrected by its own twins, is more than twice as large as it can be: a bound on a
+// linear parameter is told in sizes of the joint, by this stage or by the one before, whichever says more. Least squares on two columns that
+// are nearly the same finds such pairs, and no joint has them
+bool is_far_too_large(ModelStage const& stage, JointScales const& before);
+
+// energy of a stage's mismatch under another one's weights, over that under its own: what a unit of energy has become
+double energy_unit_under(ModelStage const& stage, RecordPipeline const& other);
+
+}  // namespace torquescope

@@ -1,0 +1,34 @@
+#pragma once
+// How far least-squares coefficients move when a tenth of the record is left out: what an interval must cover when the law is
+// not quite that of the joint. Chance over twins knows only the noise; a law that fits one part of the motion with one number
+// and another part with another shows here.
+//
+// Equation   std^2 = (B - 1) / B sum_b (theta_b - mean theta)^2, theta_b without block b of B = 10 blocks of consecutive rows
+// Left out   for a coefficient: blocks that hold more than half of its column's energy (what happens once cannot be asked
+//            twice); 0 when fewer than half of the blocks remain
+// Shapes     signal: n rows, columns: n x k; result: k, in the units of the coefficients
+// Requires   n >= 10
+// Threads    free function
+// Source     delete-a-group jackknife: Shao, Tu 1995, The Jackknife and Bootstrap, section 2.3
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "engine/statistics/equal_blocks.hpp"
+#include "engine/statistics/scaled_solution.hpp"
+
+namespace torquescope {
+
+// of Student's t with 9 degrees of freedom, two-sided 95 %
+inline constexpr double jackknife_quantile = 2.262;
+
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns);
+// of coefficients that stay within bounds
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds);
+// without each of these blocks of rows in turn
+Eigen::VectorXd jackknife_deviations(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns,
+                                     CoefficientBounds const& bounds, std::vector<RowBlock> const& blocks);
+
+}  // namespace torquescope

@@ -1,0 +1,24 @@
+#pragma once
+// The noise of a recording's rows, as its clean twins show it, made into weights of rows.
+//
+// Noise      residuals of twins less their mean, on rows that all of them keep; twins whose friction does not wander, for
+//            that is no stationary noise. Wander: at the level the baseline found, its doubt included
+// Result     equal weights where twins do not differ or run away
+// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
+
+#include <cstddef>
+#include <memory>
+
+#include "engine/twin/baseline_twin.hpp"
+#include "engine/twin/twin_exchange.hpp"
+
+namespace torquescope {
+
+// pipeline: weighs nothing yet, keeps each twin's own rows
+RowWhitening twin_whitening(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
+                            std::size_t twins, TwinWorkers const& workers);
+
+// weights: those of `made`, without wander
+NoiseWeights with_wander_of(BaselineTwin const& made, NoiseWeights const& weights, RecordPipeline const& pipeline);
+
+}  // namespace torquescope

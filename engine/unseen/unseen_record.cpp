@@ -1,0 +1,260 @@
+#include "engine/unseen/unseen_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "engine/base/error.hpp"
+#include "engine/pipeline/held_torque.hpp"
+#include "engine/statistics/scaled_solution.hpp"
+#include "engine/unseen/unseen_floor.hpp"
+#include "engine/unseen/unseen_nuisances.hpp"
+
+namespace torquescope {
+namespace {
+
+void check_rows(ProcessedRecord const& record, std::string const& name) {
+  require_rows(record.kept_rows.size(), static_cast<std::size_t>(fewest_rows), name,
+               "give a longer recording as validate, or none");
+}
+
+// the loop that another recording was made in, without levels; none where twins follow a measured motion
+std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting const& setting, ModelStage const& stage) {
+  if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
+    return std::nullopt;
+  return recorded_loop(recording, {}, {}, [&](std::vector<LimitedSample> const&) -> Eigen::VectorXd {
+    ProcessedRecord const record = pipeline_for(setting, recording, stage).prepare(recording);
+    std::vector<std::string> unsaid;
+    Eigen::VectorXd const parameters = transferable(stage, unsaid);  // an event of the training recording is none here
+    return stage.model().motor_torque(record.motion, record.drive, parameters).given;
+  });
+}
+
+double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
+  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
+                       stage.twin->twin.step_s());
+  TwinGroup group;
+  twin.simulate({}, 0, group);
+  if (group.ran_away[0]) return unknown;
+  return std::sqrt((group.position[0] - recording.position).squaredNorm() /
+                   static_cast<double>(recording.position.size()));
+}
+
+// what its twins leave, and whether that is a floor of it
+void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                       ModelStage const& stage, RecordedLoop const& loop, UnseenResult& result) {
+  TwinRows rows;
+  if (!result.within.empty()) rows.only = &result.within;
+  if (!result.rows.empty()) rows = {&result.rows, true};
+  auto const errors_in = [&](RecordedLoop const& one) {
+    return unseen_twin_errors(recording, setting, stage, one, baseline.parameters(), rows);
+  };
+  TwinErrors const own = errors_in(loop);
+  result.promised = own.mean;
+  result.twins = own.predicted;
+  result.transferred = own.transferred;
+  result.twins_ran_away = !std::isfinite(own.mean);
+  double const relerr = std::sqrt(result.energies.after / result.torque_energy);
+  result.floor = floor_below(relerr, own);
+  RecordedLoop const& trained = stage.twin->loop;
+  if (std::isfinite(result.floor) || result.twins_ran_away || trained.track.rate_hz != loop.track.rate_hz) return;
+  result.floor = floor_below(relerr, errors_in(with_law_of(trained, loop)));
+}
+
+// what processing alone leaves of a complete model on given rows; empty: not known
+using Artefact = std::function<Eigen::VectorXd(ModelStage const& model, std::vector<Eigen::Index> const& rows)>;
+
+// of both models, on the same rows; none where that of one is not known
+struct Artefacts {
+  Eigen::VectorXd before{}, after{};
+
+  Artefacts(Artefact const& artefact, ModelStage const& baseline, ModelStage const& augmented,
+            std::vector<Eigen::Index> const& rows) {
+    if (!artefact) return;
+    before = artefact(baseline, rows);
+    after = artefact(augmented, rows);
+    if (before.size() == 0 || after.size() == 0) before = after = {};
+  }
+  bool are_known() const { return after.size() > 0; }
+};
+
+void take_out(Eigen::VectorXd const& artefact, Eigen::VectorXd& left) {
+  if (artefact.size() > 0) left -= artefact;
+}
+
+// with the artefact of the final model, which that effect changes little
+PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
+                                  Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
+  auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
+  auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
+  // what the other terms would have been fitted to without it: they take its torque up as far as they can
+  Eigen::MatrixXd const& trained = augmented.comparison.recording.columns;
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < trained.cols(); ++k)
+    if (k < first || k >= first + width) others.push_back(k);
+  Eigen::VectorXd const& parameters = augmented.parameters();
+  Eigen::VectorXd const torque = trained.middleCols(first, width) * parameters.segment(first, width);
+  Eigen::VectorXd const refitted = parameters(others) + solve_scaled(trained(Eigen::all, others), torque);
+  Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
+  take_out(artefact, left);
+  return {left.squaredNorm(), left_with.squaredNorm(), (left - left_with).squaredNorm()};
+}
+
+UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                         ModelStage const& augmented, Artefact const& artefact, MotionRange const* within) {
+  UnseenPrediction result;
+  RecordPipeline plain = pipeline_for(setting, recording, baseline);
+  RecordPipeline full = pipeline_for(setting, recording, augmented);
+  ProcessedRecord before = plain.prepare(recording);
+  check_rows(before, recording.name);
+  result.all_rows = result.n_rows = static_cast<Eigen::Index>(before.kept_rows.size());
+  if (within != nullptr) {
+    result.within = rows_within(*within, before, plain);
+    result.n_rows = static_cast<Eigen::Index>(result.within.size());
+    if (result.n_rows < fewest_rows) return result;
+    plain.restrict_to(result.within);
+    before = plain.prepare(recording);
+  }
+  full.restrict_to(before.kept_rows);
+  ProcessedRecord const after = full.prepare(recording);
+  Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
+  refit_on_head(augmented, after, parameters, result.nuisances);
+  Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
+  Eigen::VectorXd left_after = after.torque - after.columns * parameters;
+  Artefacts const artefacts(artefact, baseline, augmented, before.kept_rows);
+  take_out(artefacts.before, left_before);
+  take_out(artefacts.after, left_after);
+  if (artefacts.are_known()) {
+    result.rows = before.kept_rows;
+    result.nuisances.push_back("what the filters make of reversals, as twins have it, taken out of both residuals");
+  }
+  Eigen::VectorXd const left_with = left_after;
+  Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
+  if (augmented.model().effects().empty()) {
+    left_after = left_before;  // one model: nothing to compare, nothing to refit
+  } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
+    left_after.array() -= offset;
+    result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
+    // the comparison must not gain by it: the baseline takes its own, or none if that is better
+    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
+    if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
+  }
+  result.torque_energy = before.torque.squaredNorm();
+  result.energies = {left_before.squaredNorm(), left_after.squaredNorm(), (left_before - left_after).squaredNorm()};
+  result.blocks = added_torque(left_before, left_after);
+  for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
+    result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
+  result.trace = torque_trace(recording, plain, before, left_before, left_after);
+  return result;
+}
+
+}  // namespace
+
+Recording from_zero(Recording recording) {
+  double const start = recording.time_s.size() > 0 ? recording.time_s[0] : 0.0;
+  recording.time_s.array() -= start;
+  return recording;
+}
+
+TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,
+                         Eigen::VectorXd const& residual_before, Eigen::VectorXd const& residual_after) {
+  TorqueTrace trace;
+  trace.recording = recording.name;
+  trace.rate_hz = pipeline.kept_rate_hz();
+  trace.time_s = pipeline.picked(before.motion.time_s);
+  trace.torque = pipeline.filtered(acting_torque(before.motion.torque));
+  trace.velocity = pipeline.picked(before.motion.dq);
+  trace.position = pipeline.picked(before.motion.q);
+  trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);
+  for (std::size_t i = 0; i < before.kept_rows.size(); ++i) {
+    trace.before[before.kept_rows[i]] = residual_before[static_cast<Eigen::Index>(i)];
+    trace.after[before.kept_rows[i]] = residual_after[static_cast<Eigen::Index>(i)];
+  }
+  return trace;
+}
+
+ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
+                                   ModelStage const& baseline, ModelStage const& augmented) {
+  ForwardSimulation result;
+  result.recording = recording.name;
+  result.encoder_step = baseline.twin->loop.loop.encoder_step;
+  double const mean = recording.position.mean();
+  result.motion_rms = std::sqrt((recording.position.array() - mean).square().mean());
+  if (!loop || loop->source == LoopSource::tracking) return result;
+  result.before_rms = position_error(recording, *loop, baseline);
+  result.after_rms = position_error(recording, *loop, augmented);
+  return result;
+}
+
+UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
+                                ModelStage const& augmented) {
+  return predict(from_zero(recording), setting, baseline, augmented, {}, nullptr);
+}
+
+std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetting const& setting,
+                                              ModelStage const& augmented, std::size_t effect) {
+  Recording const recording = from_zero(given);
+  auto const loop = loop_of(recording, setting, augmented);
+  if (!loop) return {};
+  std::vector<PredictionEnergies> twins(unseen_twins);
+  std::vector<char> is_there(twins.size(), 0);
+  try {
+    for_each_unseen_twin(recording, setting, augmented, *loop, nullptr, [&](VisitedTwin const& visited) {
+      std::vector<std::string> unsaid;
+      Eigen::VectorXd parameters = transferable(augmented, unsaid);
+      refit_on_head(augmented, visited.record, parameters, unsaid);
+      Eigen::VectorXd const left = visited.record.torque - visited.record.columns * parameters;
+      twins[visited.index] = without_effect(augmented, effect, visited.record, left, {});
+      is_there[visited.index] = 1;
+    });
+  } catch (Error const&) {
+    return {};  // as in check_unseen()
+  }
+  bool const are_there = std::all_of(is_there.begin(), is_there.end(), [](char there) { return there == 1; });
+  return are_there ? twins : std::vector<PredictionEnergies>{};
+}
+
+UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
+                          ModelStage const& augmented, MotionRange const* within) {
+  Recording const recording = from_zero(given);
+  auto const loop = loop_of(recording, setting, augmented);
+  Artefact artefact;
+  if (loop && setting.keeps_reversals)
+    artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) -> Eigen::VectorXd {
+      try {
+        return processing_artefact(recording, setting, model, *loop, rows);
+      } catch (Error const&) {
+        return {};  // as below
+      }
+    };
+  UnseenResult result{predict(recording, setting, baseline, augmented, artefact, within)};
+  if (!(result.torque_energy > 0.0)) return result;
+  result.forward = simulate_forward(recording, loop, baseline, augmented);
+  if (!loop) return result;
+  try {
+    account_for_twins(recording, setting, baseline, augmented, *loop, result);
+  } catch (Error const&) {
+    // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
+  }
+  return result;
+}
+
+void UnseenSum::add(UnseenResult const& result) {
+  torque_energy_ += result.torque_energy;
+  sum_.found += result.energies;
+  // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
+  sum_.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
+  sum_.blocks.insert(sum_.blocks.end(), result.blocks.begin(), result.blocks.end());
+  twins_.push_back(result.twins);
+}
+
+UnseenEnergies UnseenSum::energies() const {
+  UnseenEnergies energies = sum_;
+  energies.twins = over_recordings(twins_);
+  return energies;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,52 @@
+#include "engine/verdict/diagnosis.hpp"
+
+#include <algorithm>
+
+#include "engine/effects/effect.hpp"
+#include "engine/effects/effect_traits.hpp"
+
+namespace torquescope {
+
+std::string word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::none:
+      return "none";
+    case Verdict::named:
+      return "named";
+    case Verdict::one_of_class:
+      return "class";
+    case Verdict::unexplained:
+      return "unexplained";
+    case Verdict::insufficient:
+      return "insufficient";
+    case Verdict::data_fault:
+      return "data_fault";
+  }
+  return {};
+}
+
+std::string word(Decision decision) {
+  switch (decision) {
+    case Decision::named:
+      return "named";
+    case Decision::equivalent:
+      return "class";
+    case Decision::measurement:
+      return "measurement";
+    case Decision::rejected:
+      return "no";
+    case Decision::not_tested:
+      return "not tested";
+  }
+  return {};
+}
+
+bool is_fault(NamedEffect const& effect) {
+  bool const acts_on_a_channel = !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint);
+  return acts_on_a_channel && std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
+           Effect const* known = find_effect(name);
+           return known && known->acts_on() == ActsOn::joint;
+         });
+}
+
+}  // namespace torquescope

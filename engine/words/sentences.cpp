@@ -1,0 +1,329 @@
+#include "engine/words/sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/effects/effect.hpp"
+#include "engine/words/error_words.hpp"
+
+namespace torquescope {
+
+namespace {
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// a file is called as it is called: "train.csv: ..."
+bool begins_with_a_file(std::string const& text) {
+  std::string const first = text.substr(0, text.find(' '));
+  std::size_t const at = first.find_first_of("./\\");
+  return at != std::string::npos && at + 1 < first.size();
+}
+
+std::string capital(std::string text) {
+  if (begins_with_a_file(text)) return text;
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+// one sentence of a clause: capital, full stop
+std::string sentence(std::string const& clause) {
+  std::string const text = capital(clause);
+  return text.empty() || text.ends_with('.') ? text : text + ".";
+}
+
+std::string joined(std::vector<std::string> const& names, std::string const& last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " " + last + " " : ", ") + spaced(names[i]);
+  return text;
+}
+
+std::string lower_case(std::string text) {
+  for (char& letter : text)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return text;
+}
+
+double least_p(JointDiagnosis const& joint) {
+  return joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
+}
+
+// the linear parameters: those the effect's size is proportional to; all of them when the catalogue lacks the effect
+std::vector<ParameterEstimate> linear_parameters(NamedEffect const& effect) {
+  Effect const* known = find_effect(effect.name);
+  std::size_t const count = known ? std::min(known->n_linear(), effect.parameters.size()) : effect.parameters.size();
+  return {effect.parameters.begin(), effect.parameters.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+// "0.35 N m" where one parameter is the torque and the rows have shown it; "up to 0.21 N m" otherwise
+std::string amount(JointDiagnosis const& joint, NamedEffect const& effect) {
+  auto const linear = linear_parameters(effect);
+  bool const known_size = std::isfinite(effect.peak) && effect.peak > 0.0;
+  if (linear.size() == 1 && linear[0].unit == joint.unit_torque) {
+    double const size = std::abs(linear[0].value);
+    // a size that no row came near is extrapolation, not a finding
+    if (!known_size || size <= 1.25 * effect.peak) return quantity_text(size, joint.unit_torque);
+  }
+  return known_size ? "up to " + quantity_text(effect.peak, joint.unit_torque) : "torque";
+}
+
+// "Stribeck friction"; "friction that builds up over a distance after a reversal"
+std::string short_title(NamedEffect const& effect) {
+  std::string const title = effect.title.substr(0, effect.title.find_first_of(":,"));
+  return title.empty() ? spaced(effect.name) : title;
+}
+
+// who loses or needs what; without place
+std::string joint_clause(JointDiagnosis const& joint, NamedEffect const& effect) {
+  Effect const* known = find_effect(effect.name);
+  std::string const size = amount(joint, effect);
+  bool const opposes_motion = known && known->parity() == Parity::odd;
+  if (!opposes_motion) return fmt::format("joint {} deviates by {} from the model", joint.joint, size);
+  auto const linear = linear_parameters(effect);
+  bool const adds = std::all_of(linear.begin(), linear.end(), [](auto const& one) { return one.value >= 0.0; });
+  bool const takes = std::all_of(linear.begin(), linear.end(), [](auto const& one) { return one.value <= 0.0; });
+  if (adds) return fmt::format("joint {} loses {} extra", joint.joint, size);
+  if (takes) return fmt::format("joint {} loses {} less", joint.joint, size);
+  return fmt::format("the friction of joint {} differs by {}", joint.joint, size);
+}
+
+MapCell range_of(JointDiagnosis const& joint, SignatureAxis axis) {
+  for (auto const& row : joint.map)
+    if (row.axis == word(axis) && !row.cells.empty()) return {row.cells.front().from, row.cells.back().to};
+  return {};
+}
+
+// what a creeping parameter comes to over the recording: a multiple of its value; 0 of one that does not creep
+double creep_of(JointDiagnosis const& joint, EffectParameter const& parameter) {
+  MapCell const time = range_of(joint, SignatureAxis::time), speed = range_of(joint, SignatureAxis::velocity);
+  RelativeTo const to = parameter.lower.to;
+  if (to == RelativeTo::torque_per_duration || to == RelativeTo::coulomb_per_duration) return time.to - time.from;
+  if (to == RelativeTo::viscous_per_duration) return (time.to - time.from) * std::max(-speed.from, speed.to);
+  return 0.0;
+}
+
+// "from 14.7 s on": of a law that begins at an instant and stays. "" where it has another shape beside the instant (a push ends), or
+// creeps by more than it steps
+std::string onset_phrase(JointDiagnosis const& joint, NamedEffect const& effect) {
+  Effect const* known = find_effect(effect.name);
+  MapCell const time = range_of(joint, SignatureAxis::time);
+  if (!known || known->parameters().size() != effect.parameters.size() || !(time.to > time.from)) return "";
+  double onset = unknown, step = 0.0, creep = 0.0;
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    EffectParameter const& parameter = known->parameters()[i];
+    double const value = effect.parameters[i].value, over_all = creep_of(joint, parameter);
+    if (parameter.is_instant())
+      onset = value;
+    else if (parameter.is_shape)
+      return "";
+    else
+      (over_all > 0.0 ? creep : step) += std::abs(value) * (over_all > 0.0 ? over_all : 1.0);
+  }
+  return std::isfinite(onset) && step > creep ? fmt::format("from {:.3g} s on", onset) : "";
+}
+
+// whole clause with its place
+std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effect) {
+  std::string const onset = onset_phrase(joint, effect);
+  std::string const where = onset.empty() ? place_phrase(joint, effect.places) : onset;
+  std::string const at = where.empty() ? "" : " " + where;
+  std::string const fault = is_fault(effect) ? ", a fault of the recording" : "";
+  auto const linear = linear_parameters(effect);
+  if (effect.acts_on == word(ActsOn::recorded_torque)) {
+    // a channel that is wrong by a time is wrong everywhere
+    if (!linear.empty() && linear[0].unit == "s") {
+      std::string const time = quantity_text(std::abs(linear[0].value), "s");
+      if (linear[0].value >= 0.0)
+        return fmt::format("the torque of joint {} comes {} after the motion{}", joint.joint, time, fault);
+      // no cause comes after what it does: the motion is told late, or the torque too early
+      return fmt::format(
+          "the torque of joint {} comes {} before the motion, because the position channel is late or because a row "
+          "holds a command that the drive follows late (actuator lag)",
+          joint.joint, time);
+    }
+    return fmt::format("the torque{} of joint {} is off by {}{}{}", fault.empty() ? "" : " channel", joint.joint,
+                       amount(joint, effect), at, fault);
+  }
+  if (effect.acts_on == word(ActsOn::recorded_position))
+    return fmt::format("the position of joint {} is misread{}, as if {} were missing{}", joint.joint, at,
+                       amount(joint, effect), fault);
+  return joint_clause(joint, effect) + at;
+}
+
+// "Stribeck friction (p < 0.005; presliding cannot be excluded)"
+std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
+  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint));
+  if (one_of_class && !effect.equivalent.empty()) {
+    std::vector<std::string> names{effect.name};
+    names.insert(names.end(), effect.equivalent.begin(), effect.equivalent.end());
+    return fmt::format("{} ({}; this motion cannot tell which)", joined(names, "or"), p);
+  }
+  std::string const title = short_title(effect);
+  // a title without the name would leave nobody the wiser which effect of the catalogue is meant
+  bool const says_name = lower_case(title).find(spaced(effect.name)) != std::string::npos;
+  std::string brackets = (says_name ? "" : spaced(effect.name) + ", ") + p;
+  if (!effect.equivalent.empty()) brackets += fmt::format("; {} cannot be excluded", joined(effect.equivalent, "or"));
+  return fmt::format("{} ({})", title, brackets);
+}
+
+std::string effect_clauses(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
+  return sentence(finding_clause(joint, effect) + ": " + name_clause(joint, effect, one_of_class));
+}
+
+constexpr std::size_t effects_told = 2;           // as sentences of their own
+constexpr double unexplained_worth_a_word = 0.1;  // of the baseline residual's energy
+
+void append(std::string& text, std::string const& more) {
+  if (!more.empty()) text += (text.empty() ? "" : " ") + more;
+}
+
+std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
+  std::string text;
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < joint.effects.size(); ++i) {
+    if (i < effects_told)
+      append(text, effect_clauses(joint, joint.effects[i], one_of_class));
+    else
+      others.push_back(joint.effects[i].name);
+  }
+  if (!others.empty()) append(text, fmt::format("Also named: {}.", joined(others, "and")));
+  append(text, gain_sentence(joint));
+  if (joint.budget.unexplained > unexplained_worth_a_word)
+    append(text, fmt::format("{} of the mismatch's energy stays unexplained.", percent_text(joint.budget.unexplained)));
+  return text;
+}
+
+std::string none_reason(JointDiagnosis const& joint) {
+  std::string text = likeness_sentence(joint);
+  append(text, joint.power_sentence);
+  if (joint.differs_at_reversals)
+    append(
+        text,
+        "With the rows round reversals, which are left out, it is not what twins have; no friction that builds up over "
+        "a distance explains it.");
+  return text;
+}
+
+std::vector<std::string> names_of(JointDiagnosis const& joint) {
+  std::vector<std::string> names;
+  for (auto const& effect : joint.effects) names.push_back(effect.name);
+  return names;
+}
+
+std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
+  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
+                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
+}
+
+std::string unexplained_reason(JointDiagnosis const& joint) {
+  if (!joint.unseen_beyond.empty()) return likeness_sentence(joint) + " " + beyond_twins_sentence(joint);
+  auto const tested = n_tested(joint);
+  std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
+                                   : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
+                                                             : std::string("no known effect fits it");
+  std::string text;
+  if (joint.unexplained.empty()) {
+    text = unlikeness_sentence(joint, nothing_fits);
+  } else {
+    UnexplainedPart const& part = joint.unexplained.front();
+    std::string const where = place_phrase(joint, part.where);
+    text = fmt::format("{} of the residual of joint {} lies{}, more than clean twins have there, but {}.",
+                       percent_text(part.energy_share), joint.joint, where.empty() ? "" : " " + where, nothing_fits);
+  }
+  // what could be named all the same
+  for (auto const& effect : joint.effects) append(text, effect_clauses(joint, effect, false));
+  if (!joint.effects.empty()) append(text, gain_sentence(joint));
+  return text;
+}
+
+std::string recording_reason(Diagnosis const& diagnosis) {
+  std::string text = sentence(diagnosis.finding);
+  for (auto const& joint : diagnosis.joints) {
+    if (text.empty())
+      for (auto const& effect : joint.effects)
+        if (effect.acts_on != word(ActsOn::joint)) append(text, effect_clauses(joint, effect, false));
+    if (diagnosis.verdict != Verdict::insufficient) continue;
+    for (auto const& advice : joint.excitation)
+      if (advice.would_separate.size() > 1)
+        append(text, sentence(joined(advice.would_separate, "and") + " cannot be told apart"));
+  }
+  for (auto const& joint : diagnosis.joints) {
+    append(text, joint.timing_sentence);
+    append(text, unseen_is_other_sentence(joint));
+  }
+  append(text, sentence(diagnosis.way_out));
+  return text;
+}
+
+std::string joint_reason(Verdict verdict, JointDiagnosis const& joint) {
+  switch (verdict) {
+    case Verdict::named:
+      return named_reason(joint, false);
+    case Verdict::one_of_class:
+      return named_reason(joint, true);
+    case Verdict::none:
+      return none_reason(joint);
+    case Verdict::unexplained:
+      return unexplained_reason(joint);
+    case Verdict::insufficient:
+    case Verdict::data_fault:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect) {
+  return effect_clauses(joint, effect, false);
+}
+
+std::string too_little_clause(JointDiagnosis const& joint, double share) {
+  return fmt::format("{}, the closest of {} known effects, {} {} of what is missing", joined(names_of(joint), "and"),
+                     n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
+}
+
+std::string beyond_training_clause(JointDiagnosis const& joint, MotionRange const& trained) {
+  auto const names = names_of(joint);
+  bool const is_one = names.size() == 1;
+  return fmt::format(
+      "the training motion keeps to positions {} and speeds {}, and {} {} what is missing there; where unseen "
+      "recordings go beyond, {} their relerr from {} to {}: so narrow a motion cannot tell a law",
+      between_text(trained.least_position, trained.most_position, joint.unit_position),
+      between_text(trained.least_velocity, trained.most_velocity, joint.unit_position + "/s"), joined(names, "and"),
+      is_one ? "explains" : "explain", is_one ? "it takes" : "they take", percent_text(joint.validation_relerr),
+      percent_text(joint.augmented_validation_relerr));
+}
+
+std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
+  auto const names = names_of(joint);
+  bool const is_one = names.size() == 1;
+  std::string text = fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}", joined(names, "and"),
+                                 is_one ? "takes" : "take", percent_text(joint.validation_relerr),
+                                 percent_text(joint.augmented_validation_relerr));
+  std::string const with = is_one ? "it" : "them";
+  if (twins_ran_away)
+    return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);
+  if (!std::isfinite(joint.floor_relerr)) return text;
+  return text + fmt::format(", where twins with {} promise {}", with, percent_text(joint.floor_relerr));
+}
+
+std::string reason_sentence(Diagnosis const& diagnosis) {
+  if (diagnosis.verdict == Verdict::insufficient || diagnosis.verdict == Verdict::data_fault)
+    return recording_reason(diagnosis);
+  std::string text;
+  for (auto const& joint : diagnosis.joints) {
+    append(text, joint_reason(diagnosis.verdict, joint));
+    append(text, joint.timing_sentence);
+    if (joint.unseen_beyond.empty()) append(text, unseen_is_other_sentence(joint));
+  }
+  return text;
+}
+
+}  // namespace torquescope

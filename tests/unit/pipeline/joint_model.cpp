@@ -1,0 +1,236 @@
+// The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a twin of the model
+// gives its parameters back, and is fitted like a joint that a simulator of another kind made.
+
+#include "engine/pipeline/joint_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/pipeline/recorded_loop.hpp"
+#include "engine/twin/twin_batch.hpp"
+#include "unit/twin/clean_records.hpp"
+
+using namespace torquescope;
+using namespace torquescope::test;
+
+namespace joint_model_test {
+
+constexpr double stribeck_torque = 0.5, stribeck_speed = 0.3, stribeck_exponent = 1.0;
+constexpr double coulomb = 1.3;
+
+Effect const& stribeck() { return *find_effect("stribeck"); }
+Effect const& cogging() { return *find_effect("cogging"); }
+
+Eigen::VectorXd baseline() { return Eigen::Vector4d(0.036, 0.164, coulomb, -0.125); }
+
+BaselineReference reference() {
+  BaselineReference made;
+  made.scales.coulomb_positive = made.scales.coulomb_negative = coulomb;
+  made.scales.cutoff_hz = 30.0;
+  made.scales.peak_speed = 3.0;
+  made.parameters = baseline();
+  return made;
+}
+
+ShapedEffect shaped_stribeck() { return {&stribeck(), {stribeck_speed, stribeck_exponent}}; }
+
+JointModel stribeck_model() { return {clean_regressor(), reference(), {shaped_stribeck()}}; }
+
+Eigen::VectorXd with(Eigen::VectorXd const& parameters, double more) {
+  Eigen::VectorXd all(parameters.size() + 1);
+  all << parameters, more;
+  return all;
+}
+
+Recording simulated(double of_stribeck, std::uint64_t seed) {
+  auto joint = clean_joint();
+  joint.plan.plant = plant({{"inertia", 0.036},
+                            {"viscous", 0.164},
+                            {"coulomb", coulomb},
+                            {"offset", -0.125},
+                            {"stribeck", of_stribeck},
+                            {"stribeck_speed", stribeck_speed},
+                            {"stribeck_exponent", stribeck_exponent}});
+  return recorded(simulate_joint(joint.plan, seed));
+}
+
+Motion const& motion() {
+  static Motion const made = differentiate(simulated(stribeck_torque, 3), clean_filter(), {});
+  return made;
+}
+
+TEST(JointModel, WithoutEffectsIsItsRegressor) {
+  JointModel const model(clean_regressor());
+  EXPECT_EQ(model.size(), 4U);
+  EXPECT_EQ(model.columns(motion(), {}), clean_regressor().columns(motion()));
+  EXPECT_EQ(model.column_owners().size(), 4U);
+}
+
+TEST(JointModel, PutsTheColumnsOfAnEffectBehindTheBaseline) {
+  JointModel const model = stribeck_model();
+  ASSERT_EQ(model.size(), 5U);
+  EXPECT_EQ(model.first_parameter(0), 4U);
+  Eigen::MatrixXd const columns = model.columns(motion(), {});
+  EXPECT_EQ(columns.leftCols(4), clean_regressor().columns(motion()));
+
+  Eigen::MatrixXd own(motion().q.size(), 1);
+  stribeck().columns({motion(), reference().scales, {}, {}}, shaped_stribeck().shape, own);
+  EXPECT_EQ(columns.rightCols(1), own);
+  // and by its equation
+  Eigen::ArrayXd const faded = (-(motion().dq.array().abs() / stribeck_speed)).exp() * motion().dq.array().sign();
+  EXPECT_LT((own.col(0).array() - faded).abs().maxCoeff(), 1e-12);
+}
+
+TEST(JointModel, KeepsTheOrderOfItsEffects) {
+  JointModel const model(clean_regressor(), reference(), {{&cogging(), {9.0}}, shaped_stribeck()});
+  ASSERT_EQ(model.size(), 7U);
+  EXPECT_EQ(model.first_parameter(0), 4U);
+  EXPECT_EQ(model.first_parameter(1), 6U);
+  EXPECT_EQ(model.first_parameter(2), 7U);
+  Eigen::MatrixXd const columns = model.columns(motion(), {});
+  Eigen::ArrayXd const angle = 9.0 * motion().q.array();
+  EXPECT_LT((columns.col(4).array() - angle.cos()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((columns.col(5).array() - angle.sin()).abs().maxCoeff(), 1e-12);
+  EXPECT_EQ(columns.col(6), stribeck_model().columns(motion(), {}).col(4));
+
+  auto const owners = model.column_owners();
+  std::vector<std::string> names;
+  for (auto const& owner : owners) names.push_back(owner.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"inertia", "viscous", "coulomb", "offset", "cogging_cos", "cogging_sin",
+                                             "stribeck"}));
+  EXPECT_EQ(owners[4].term, owners[5].term);
+  EXPECT_EQ(owners[6].term, owners[5].term + 1);
+  EXPECT_EQ(owners[6].unit, "N m");
+
+  Eigen::VectorXd const parameters = Eigen::VectorXd::LinSpaced(7, 1.0, 7.0);
+  EXPECT_EQ(model.effect_parameters(0, parameters), (std::vector<double>{5.0, 6.0, 9.0}));
+  EXPECT_EQ(model.effect_parameters(1, parameters), (std::vector<double>{7.0, stribeck_speed, stribeck_exponent}));
+}
+
+TEST(JointModel, TellsEffectsTheReferenceWhateverIsFitted) {
+  // the baseline's load and model torque on a motion, its scales as they were
+  FittedBaseline const told = on_motion(clean_regressor(), reference(), motion());
+  EXPECT_LT((told.model_torque - clean_regressor().columns(motion()) * baseline()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((told.load_torque - 0.036 * motion().ddq).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(told.scales.coulomb_positive, coulomb);
+  EXPECT_EQ(told.scales.peak_speed, 3.0);
+}
+
+constexpr std::size_t twins = 48;
+constexpr Eigen::Index n_parameters = 5;
+
+struct Fits {
+  Eigen::MatrixXd all{static_cast<Eigen::Index>(twins), n_parameters};
+
+  Eigen::ArrayXd mean() const { return all.colwise().mean().transpose().array(); }
+  Eigen::ArrayXd std() const {
+    Eigen::MatrixXd const apart = all.rowwise() - all.colwise().mean();
+    return (apart.colwise().squaredNorm().transpose().array() / static_cast<double>(twins - 1)).sqrt();
+  }
+};
+
+// as identified from a recording of the same joint without the effect: controller and noise are the same
+TwinLoop const& loop() {
+  static TwinLoop const made = [] {
+    RecordedLoop const found = recorded_loop(simulated(0.0, 4), {baseline()[0]}, clean_filter());
+    EXPECT_EQ(found.source, LoopSource::identified) << found.remark;
+    return found.loop;
+  }();
+  return made;
+}
+
+// twins of a joint that follow the reference of a recording, each fitted with the model that has the effect
+Fits fits_of(Recording const& recording, TwinJoint const& joint, RecordPipeline const& pipeline) {
+  TwinTrack const track{recording.rate_hz, recording.reference, recording.position[0], 0.0, 100.0};
+  CleanTwin const twin(joint, loop(), track, 1e-4);
+  Fits fits;
+  for_each_twin(twin, pipeline, {17, 0, 0}, twins, 1, [&](VisitedTwin const& visited) {
+    ASSERT_FALSE(visited.ran_away);
+    fits.all.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+  });
+  return fits;
+}
+
+RecordPipeline pipeline_of(JointModel model, Recording const& recording) {
+  return {std::move(model), clean_filter(), recording.rate_hz, recording.position.size()};
+}
+
+// processing biases least squares (encoder, hold, filter): by less than this of one fit's standard deviations
+constexpr double few_deviations = 3.0;
+
+TEST(JointModel, FitsBackWhatItsTwinsWereMadeWith) {
+  Recording const recording = simulated(stribeck_torque, 3);
+  JointModel const model = stribeck_model();
+  RecordPipeline const pipeline = pipeline_of(model, recording);
+  Eigen::VectorXd const truth = with(baseline(), stribeck_torque);
+  Fits const fits = fits_of(recording, model.twin_joint(truth), pipeline);
+  Eigen::ArrayXd const wrong = (fits.mean() - truth.array()) / fits.std();
+  for (Eigen::Index k = 0; k < n_parameters; ++k) {
+    EXPECT_LT(std::abs(wrong[k]), few_deviations) << k;
+    EXPECT_LT(fits.std()[k], 0.1 * std::abs(truth[k])) << k;  // else the line above says little
+  }
+  // the recording comes from a plant and a loop that know nothing of twins: one more draw
+  Eigen::ArrayXd const apart = (pipeline.process(recording).parameters.array() - fits.mean()) / fits.std();
+  EXPECT_LT(apart.abs().maxCoeff(), 4.0) << apart.transpose();
+}
+
+TEST(JointModel, FindsNothingInTwinsThatLackTheEffect) {
+  Recording const recording = simulated(0.0, 4);
+  RecordPipeline const pipeline = pipeline_of(stribeck_model(), recording);
+  Fits const fits = fits_of(recording, JointModel(clean_regressor()).twin_joint(baseline()), pipeline);
+  EXPECT_LT(std::abs(fits.mean()[4]), few_deviations * fits.std()[4]);
+  EXPECT_LT(std::abs(fits.mean()[4]), 0.1 * stribeck_torque);
+  // an effect of size 0 is none: the same joint, bit for bit in what is fitted up to rounding
+  Fits const none = fits_of(recording, stribeck_model().twin_joint(with(baseline(), 0.0)), pipeline);
+  EXPECT_LT((none.all - fits.all).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// a Stribeck curve cannot be negative: where least squares would make it so, the fit is that of the baseline alone
+TEST(JointModel, GivesNoNegativeValueToAParameterThatCannotHaveOne) {
+  Recording const recording = simulated(-0.5 * stribeck_torque, 5);
+  Eigen::VectorXd const fit = pipeline_of(stribeck_model(), recording).process(recording).parameters;
+  Eigen::VectorXd const alone = pipeline_of(JointModel(clean_regressor()), recording).process(recording).parameters;
+  EXPECT_EQ(fit[4], 0.0);
+  EXPECT_LT((fit.head(4) - alone).norm(), 1e-12 * alone.norm());
+}
+
+TEST(WavesInOrder, PutTheFundamentalBeforeItsHarmonics) {
+  auto const regressor = clean_regressor();
+  Effect const* error = find_effect("transmission_error");
+  JointModel const model(regressor, reference(),
+                         {{error, {48.0}}, shaped_stribeck(), {&cogging(), {7.0}}, {error, {24.0}}, {error, {72.0}}});
+  EXPECT_EQ(waves_in_order(model), (std::vector<std::size_t>{3, 0, 1, 2, 4}));
+  Effect const* friction = find_effect("position_dependent_friction");
+  JointModel const sharing(regressor, reference(), {{friction, {8.0}}, {friction, {4.0}}});
+  EXPECT_EQ(waves_in_order(sharing), (std::vector<std::size_t>{0, 1})) << "the first has the slope of both";
+}
+
+// two waves of friction along the travel have one slope between them
+TEST(JointModel, FitsAColumnThatTwoWavesShareOnce) {
+  auto joint = clean_joint();
+  joint.plan.plant = plant({{"inertia", 0.036},
+                            {"viscous", 0.164},
+                            {"coulomb", coulomb},
+                            {"offset", -0.125},
+                            {"position_friction_slope", 0.1},
+                            {"position_friction_cos", 0.2},
+                            {"position_friction_sin", -0.1},
+                            {"position_friction_order", 4.0}});
+  Recording const recording = recorded(simulate_joint(joint.plan, 6));
+  Effect const* friction = find_effect("position_dependent_friction");
+  JointModel const model(clean_regressor(), reference(), {{friction, {4.0}}, {friction, {8.0}}});
+  Eigen::VectorXd const fit = pipeline_of(model, recording).process(recording).parameters;
+  ASSERT_EQ(fit.size(), 10);
+  EXPECT_NEAR(fit[4], 0.1, 0.02);
+  EXPECT_NEAR(fit[5], 0.2, 0.02);
+  EXPECT_NEAR(fit[6], -0.1, 0.02);
+  EXPECT_EQ(fit[7], 0.0);
+  EXPECT_NEAR(fit[8], 0.0, 0.02);
+  EXPECT_NEAR(fit[9], 0.0, 0.02);
+}
+
+}  // namespace joint_model_test

@@ -1,0 +1,115 @@
+// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp); whose limit a limit of the torque is.
+
+#include "engine/pipeline/recorded_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/data/recording_reader.hpp"
+#include "engine/pipeline/needed_torque.hpp"
+#include "support/recordings_folder.hpp"
+#include "unit/twin/clean_records.hpp"
+
+using namespace torquescope;
+
+namespace recorded_loop_test {
+
+constexpr double newton_per_volt = 35.15065;
+// published: u = kv (kp (q_ref - q) - dq), in V
+constexpr double kp = 160.18, kv = 243.45;
+
+std::filesystem::path emps(std::string const& name) { return test::recordings_folder() / "emps" / name; }
+
+Recording read(std::filesystem::path const& path) {
+  Section section;
+  section.name = "recording";
+  RecordingOptions options;
+  options.columns = {{"time", "t_s"}, {"reference", "q_ref_m"}, {"position", "q_m"}, {"torque", "u_V"}};
+  options.torque_per_unit = newton_per_volt;
+  return make_recording(read_table(path, section), options, section);
+}
+
+// peaks of its torque are for its inertia
+test::CleanJoint limited_joint() { return test::clean_joint(0.08, 0.3, 0.3); }
+// some of the torque that it needs
+double limit_of(test::CleanJoint const& joint) { return 0.85 * simulate_joint(joint.plan, 5).torque.maxCoeff(); }
+
+// the torque that is needed by a model which was fitted to the record as it is
+RecordedLoop loop_of(Recording const& recording) {
+  RecordPipeline const pipeline(test::clean_regressor(), test::clean_filter(), recording.rate_hz,
+                                recording.position.size());
+  ProcessedRecord const record = pipeline.process(recording);
+  return recorded_loop(recording, {record.parameters[0]}, test::clean_filter(),
+                       [&](auto const& limited) { return needed_torque(record, pipeline, limited); });
+}
+
+TEST(RecordedLoop, KeepsTheLimitOfADriveThatGaveNoMore) {
+  auto joint = limited_joint();
+  double const limit = limit_of(joint);
+  joint.plan.controller.torque_limit = limit;
+  auto const simulated = simulate_joint(joint.plan, 5);
+  ASSERT_GT(simulated.saturated_samples, 100);
+  auto const found = loop_of(test::recorded(simulated));
+  EXPECT_NEAR(found.loop.law.most, limit, 0.02 * limit);
+  EXPECT_NEAR(found.loop.law.least, -limit, 0.02 * limit);
+}
+
+TEST(RecordedLoop, HasNoLimitWhereOnlyTheRecordHasOne) {
+  auto const joint = limited_joint();
+  Recording recording = test::recorded(simulate_joint(joint.plan, 5));
+  double const limit = 0.7 * recording.torque.maxCoeff();
+  ASSERT_GT((recording.torque.array() > limit).count(), 100);
+  recording.torque = recording.torque.cwiseMin(limit).cwiseMax(-limit);
+  // without a model nobody can tell
+  EXPECT_NEAR(recorded_loop(recording, {joint.truth[0]}, test::clean_filter()).loop.law.most, limit, 0.02 * limit);
+  auto const found = loop_of(recording);
+  EXPECT_NEAR(found.controller->law.most, limit, 0.02 * limit);
+  EXPECT_TRUE(std::isinf(found.loop.law.most) && std::isinf(found.loop.law.least));
+}
+
+TEST(RecordedLoop, HasNoLimitOnTheOneSideThatIsCut) {
+  auto const joint = limited_joint();
+  Recording recording = test::recorded(simulate_joint(joint.plan, 5));
+  double const limit = limit_of(joint);
+  recording.torque = recording.torque.cwiseMax(-limit);
+  auto const found = loop_of(recording);
+  EXPECT_NEAR(found.controller->law.least, -limit, 0.02 * limit);
+  EXPECT_TRUE(std::isinf(found.controller->law.most));
+  EXPECT_TRUE(std::isinf(found.loop.law.least));
+}
+
+TEST(RecordedLoop, OfEmpsIsThePublishedController) {
+  auto const path = emps("emps_train.csv.gz");
+  SKIP_WITHOUT(path);
+  auto const recording = read(path);
+  FilterOptions filter;
+  filter.cutoff_hz = 100.0;
+  auto const found = recorded_loop(recording, {95.0}, filter);
+  ASSERT_TRUE(found.controller);
+  EXPECT_GT(found.controller->r_squared, 0.99999);
+  EXPECT_NEAR(found.loop.law.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
+  EXPECT_NEAR(found.loop.law.velocity_gain(recording.rate_hz) / (kv * newton_per_volt), 1.0, 0.01);
+  EXPECT_EQ(found.loop.law.integral, 0.0);
+  // the velocity loop has an encoder of its own: its rounding is not in the recorded position, so the remainder is small
+  // but not white, and says so
+  EXPECT_EQ(found.source, LoopSource::approximated);
+  EXPECT_LT(found.loop.torque_noise.std, 0.005 * newton_per_volt);
+}
+
+TEST(RecordedLoop, OfEmpsWithPulsesIsNotTakenForALaw) {
+  // forces were added behind the controller: no law of reference and position explains the logged torque
+  auto const path = emps("emps_valid_pulses.csv.gz");
+  SKIP_WITHOUT(path);
+  FilterOptions filter;
+  filter.cutoff_hz = 100.0;
+  auto const found = recorded_loop(read(path), {95.0}, filter);
+  EXPECT_EQ(found.source, LoopSource::approximated);
+  auto const& acf = found.controller->residual_acf;
+  // a tanh of the reference's velocity imitates most of the pulses; five times beyond what white noise could be is left
+  EXPECT_GT(*std::max_element(acf.begin(), acf.end()), 5.0 * found.controller->white_bound);
+}
+
+}  // namespace recorded_loop_test

@@ -1,0 +1,92 @@
+// Which samples count as moving.
+
+#include "engine/pipeline/reversal_mask.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using torquescope::moving_samples;
+using torquescope::resting_samples;
+
+namespace reversal_mask_test {
+
+constexpr double rate_hz = 1000.0;
+
+// sin(2 pi t), 2 s: reversals at 0, 0.5, 1, 1.5 s
+Eigen::VectorXd sine() {
+  Eigen::VectorXd dq(2000);
+  for (Eigen::Index k = 0; k < dq.size(); ++k)
+    dq[k] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / rate_hz);
+  return dq;
+}
+
+TEST(ReversalMask, DropsEverythingWithin1Point6PeriodsOfTheCutoff) {
+  auto const moving = moving_samples(sine(), rate_hz, 40.0);
+  // 40 ms each side of 0.5 s and of the samples slower than 0.5 % of the peak beside it
+  EXPECT_FALSE(moving[500 - 40]);
+  EXPECT_FALSE(moving[499 + 40]);
+  EXPECT_TRUE(moving[500 - 43]);
+  EXPECT_TRUE(moving[499 + 43]);
+  EXPECT_TRUE(moving[750]);
+}
+
+TEST(ReversalMask, DropsASlowCreepThatNeverTurns) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.segment(400, 100).setConstant(0.0049);
+  auto const moving = moving_samples(dq, rate_hz, 0.0);
+  for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k < 400 || k >= 500) << k;
+}
+
+TEST(ReversalMask, KeepsASlowlyMovingStretchAboveTheThreshold) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.segment(400, 100).setConstant(0.0051);
+  auto const moving = moving_samples(dq, rate_hz, 0.0);
+  EXPECT_EQ(std::count(moving.begin(), moving.end(), false), 0);
+}
+
+TEST(ReversalMask, FindsAReversalBetweenTwoFastSamples) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.tail(500).setConstant(-1.0);
+  auto const moving = moving_samples(dq, rate_hz, 160.0);
+  for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k < 490 || k > 510) << k;
+}
+
+TEST(ReversalMask, DropsAJointThatNeverMoves) {
+  auto const moving = moving_samples(Eigen::VectorXd::Zero(100), rate_hz, 0.0);
+  EXPECT_EQ(std::count(moving.begin(), moving.end(), true), 0);
+}
+
+TEST(ReversalMask, WithReversalsKeepsASineWhole) {
+  auto const kept = torquescope::samples_without_rest(sine(), rate_hz, 40.0);
+  EXPECT_EQ(std::count(kept.begin(), kept.end(), false), 0);
+}
+
+TEST(ReversalMask, WithReversalsDropsARestAndAsMuchRoundIt) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.segment(400, 100).setZero();
+  dq.tail(500).setConstant(-1.0);
+  // 1.6 periods of 40 Hz are 40 samples
+  auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
+  for (std::size_t k = 0; k < kept.size(); ++k) EXPECT_EQ(kept[k], k < 360 || k >= 540) << k;
+}
+
+TEST(RestingSamples, AreTheRestItselfAndNoTurn) {
+  auto dq = std::vector<double>(400, 1.0);
+  std::fill(dq.begin() + 100, dq.begin() + 200, 0.001);
+  std::fill(dq.begin() + 300, dq.end(), -1.0);
+  auto const rest =
+      resting_samples(Eigen::Map<Eigen::VectorXd>(dq.data(), static_cast<Eigen::Index>(dq.size())), 1000.0, 50.0);
+  for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_EQ(rest[k], k >= 100 && k < 200) << k;
+}
+
+TEST(ReversalMask, WithReversalsKeepsARestThatIsShort) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.segment(400, 40).setZero();
+  auto const kept = torquescope::samples_without_rest(dq, rate_hz, 40.0);
+  EXPECT_EQ(std::count(kept.begin(), kept.end(), false), 0);
+}
+
+}  // namespace reversal_mask_test

@@ -1,0 +1,86 @@
+#include "engine/statistics/twin_null.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/random_stream.hpp"
+
+namespace torquescope {
+namespace twin_null_test {
+
+std::vector<double> normals(std::size_t n, std::uint32_t set) {
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = RandomStream({77, set, RandomDomain::test}, 0, static_cast<std::uint32_t>(i)).normal();
+  return values;
+}
+
+TEST(EmpiricalP, CountsTheDataAsOneMoreTwin) {
+  std::vector<double> const twins{1, 2, 3, 4};
+  EXPECT_EQ(empirical_p(5.0, twins), 1.0 / 5.0);
+  EXPECT_EQ(empirical_p(3.0, twins), 3.0 / 5.0);  // ties count against the claim
+  EXPECT_EQ(empirical_p(0.0, twins), 1.0);
+}
+
+TEST(EmpiricalP, IsUniformWhenTheDataIsATwin) {
+  // rejection at 5 % over 2000 sets: five binomial standard errors around 0.05 * (M + 1 rounding aside)
+  int rejected = 0;
+  std::size_t const sets = 2000, M = 99;
+  for (std::uint32_t set = 0; set < sets; ++set) {
+    auto values = normals(M + 1, set);
+    double const data = values.back();
+    values.pop_back();
+    rejected += empirical_p(data, values) <= 0.05 ? 1 : 0;
+  }
+  EXPECT_NEAR(rejected, 100.0, 5 * std::sqrt(2000 * 0.05 * 0.95));
+}
+
+TEST(TailP, EqualsTheCountWhereTheCountIsGood) {
+  auto const twins = normals(400, 1);
+  for (double data : {-1.0, 0.0, 1.0}) EXPECT_EQ(tail_p(data, twins), empirical_p(data, twins));
+}
+
+TEST(TailP, NeedsTwoHundredTwins) {
+  auto const twins = normals(199, 2);
+  EXPECT_EQ(tail_p(50.0, twins), 1.0 / 200.0);
+  EXPECT_LT(tail_p(50.0, normals(200, 2)), 1e-9);
+}
+
+TEST(TailP, IsTheExponentialLawForExponentialTwins) {
+  std::vector<double> twins(4000);
+  for (std::size_t i = 0; i < twins.size(); ++i)
+    twins[i] = -std::log(1.0 - (static_cast<double>(i) + 0.5) / 4000.0);  // exact quantiles
+  for (double data : {7.0, 9.0, 12.0}) EXPECT_NEAR(tail_p(data, twins) / std::exp(-data), 1.0, 0.1);
+}
+
+TEST(TailP, IsConservativeForNormalTwins) {
+  // the normal tail falls faster than the exponential that is fitted to its upper quarter
+  double const z = 4.5, exact = 0.5 * std::erfc(z / std::sqrt(2.0));
+  for (std::uint32_t set = 0; set < 20; ++set) EXPECT_GT(tail_p(z, normals(400, 100 + set)), exact);
+}
+
+TEST(TwinZ, WidensForTheMeanBeingEstimated) {
+  std::vector<double> const twins{-1.0, 1.0};  // mean 0, variance 2
+  EXPECT_DOUBLE_EQ(twin_z(3.0, twins), 3.0 / std::sqrt(2.0 * 1.5));
+}
+
+TEST(TwinZ, OfTwinsThatAgreeIsInfiniteOrZero) {
+  std::vector<double> const twins{2.0, 2.0, 2.0};
+  EXPECT_EQ(twin_z(2.0, twins), 0.0);
+  EXPECT_EQ(twin_z(2.5, twins), HUGE_VAL);
+}
+
+TEST(StandardisedTwins, EqualsLeavingEachOneOut) {
+  auto const twins = normals(25, 3);
+  auto const fast = standardised_twins(twins);
+  for (std::size_t i = 0; i < twins.size(); ++i) {
+    std::vector<double> others = twins;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_NEAR(fast[i], twin_z(twins[i], others), 1e-10);
+  }
+}
+
+}  // namespace twin_null_test
+}  // namespace torquescope

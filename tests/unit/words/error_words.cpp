@@ -1,0 +1,128 @@
+// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where the unseen
+// recording is of another kind.
+
+#include "engine/words/error_words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/words/sentences.hpp"
+#include "support/example_diagnosis.hpp"
+
+namespace torquescope {
+namespace error_words_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// the omnibus test sees what is too small to matter, and a gate may stay closed for want of a candidate
+TEST(ReasonSentence, OfNothingMissingDoesNotCallAResidualAlikeThatDiffers) {
+  Diagnosis diagnosis = example::invented_none();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.power_sentence.clear();
+  joint.omnibus_p = 1.0 / 201.0;
+  joint.mismatch_share = 0.0012;
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 is larger than that of 200 clean twins (p < 0.005), but only by 0.12 % of the "
+            "torque: too "
+            "little to look for.");
+  joint.mismatch_share = 0.0043;
+  EXPECT_EQ(
+      reason_sentence(diagnosis),
+      "The residual of joint 1 is larger than that of 200 clean twins (p < 0.005), but only by 0.43 % of the torque, "
+      "which is not enough beside how much the twins differ from one another; and no known effect of 34 explains both "
+      "more than chance does and more than 0.25 % of the torque.");
+  joint.omnibus_p = 0.2;
+  EXPECT_EQ(reason_sentence(diagnosis), "The residual of joint 1 looks like that of 200 clean twins (p = 0.20).");
+}
+
+// a quarter of the energy between the error before and the floor: 2.7^2 - (2.7^2 - 1.1^2) / 4 = 2.40^2
+TEST(GainSentence, SaysWhereANameDoesNotBringTheUnseenErrorNearItsFloor) {
+  JointDiagnosis joint = example::invented_diagnosis().joints[0];
+  joint.validation_relerr = 0.027;
+  joint.floor_relerr = 0.011;
+  joint.augmented_validation_relerr = 0.0245;
+  EXPECT_EQ(gain_sentence(joint),
+            "Unseen relerr 2.7 % to 2.5 %, floor 1.1 %. That is less than a quarter of what twins with these names "
+            "promise: something else is missing there.");
+  joint.augmented_validation_relerr = 0.0240;
+  EXPECT_EQ(gain_sentence(joint), "Unseen relerr 2.7 % to 2.4 %, floor 1.1 %.");
+  // little was promised: 2.7^2 - 2.4^2 is 21 % of 2.7^2
+  joint.floor_relerr = 0.024;
+  joint.augmented_validation_relerr = 0.027;
+  EXPECT_THAT(gain_sentence(joint), Not(HasSubstr("something else")));
+}
+
+// one candidate's certainty opened the gate, and then it was refused
+TEST(ReasonSentence, OfSomethingElseInAResidualThatIsNoLargerNamesWhatWasRefused) {
+  Diagnosis diagnosis = example::invented_unexplained();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.unexplained.clear();
+  joint.omnibus_p = 1.0;
+  for (auto& candidate : joint.candidates) candidate.q = 1.0;
+  joint.candidates.push_back({"transmission_error", "order_locked", 8.2, 0.005, 1e-6});
+  joint.candidates.back().reason = "does not help on blocks it was not fitted to";
+  EXPECT_EQ(reason_sentence(diagnosis),
+            "The residual of joint 1 is no larger than that of clean twins (p = 1.0), but transmission_error explains "
+            "more of it "
+            "than of theirs (beyond chance). It gets no name: does not help on blocks it was not fitted to.");
+  joint.omnibus_p = 0.01;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 0.010), but"));
+  joint.omnibus_p = 1.0;
+  joint.refutation = "backlash, which would explain it, does not";
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("but backlash, which would explain it, does not"));
+  joint.refutation.clear();
+  joint.candidates.back().q = 0.9;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("is not what clean twins have (p = 1.0), but"));
+}
+
+TEST(ReasonSentence, AtTheFloorThereIsNoGap) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.augmented_validation_relerr = 0.041;
+  joint.floor_relerr = 0.049;
+  EXPECT_THAT(
+      reason_sentence(diagnosis),
+      HasSubstr("Unseen relerr 12.1 % to 4.1 %, at the floor (about 4.9 %: what clean twins leave on average)."));
+  joint.augmented_validation_relerr = 0.0485;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.0495;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("at the floor (about 4.9 %)."));
+  joint.augmented_validation_relerr = 0.052;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 5.2 %, floor 4.9 %."));
+  // where the twins are louder than the recording there is none
+  joint.floor_relerr = unknown;
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("Unseen relerr 12.1 % to 5.2 %."));
+}
+
+TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind) {
+  char const* said =
+      "The unseen recording holds something that the training recording does not show: relerr 18.4 % "
+      "there, 0.82 % here.";
+  for (auto diagnosis : {example::invented_diagnosis(), example::invented_none(), example::invented_unexplained(),
+                         example::invented_data_fault()}) {
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    EXPECT_THAT(way_out_of_a_fault(diagnosis.joints[0]), HasSubstr("; the model itself needs nothing more"));
+    JointDiagnosis& joint = diagnosis.joints[0];
+    joint.train_relerr = 0.0091;
+    joint.validation_relerr = 0.185;
+    joint.augmented_train_relerr = 0.0082;
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.01;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr(said));
+    EXPECT_THAT(way_out_of_a_fault(joint), Not(HasSubstr("needs nothing more")));
+    // what naming mends was missing in training as well; and twins that leave as much expect no less
+    joint.augmented_validation_relerr = 0.02;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    joint.augmented_validation_relerr = 0.184;
+    joint.floor_relerr = 0.17;
+    EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("holds something")));
+    // names that were withdrawn have no errors
+    joint.floor_relerr = 0.01;
+    joint.augmented_train_relerr = joint.augmented_validation_relerr = unknown;
+    EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("relerr 18.5 % there, 0.91 % here."));
+  }
+}
+
+}  // namespace error_words_test
+}  // namespace torquescope
