@@ -26,6 +26,7 @@
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
 #include "engine/words/sentences.hpp"
+#include "engine/words/withdrawn_names.hpp"
 
 namespace torquescope {
 namespace {

@@ -19,6 +19,13 @@ namespace torquescope {
 
 class EffectSearch;
 
+inline constexpr double least_share_of_rest = 0.25;  // that an effect must explain, of what a round looks for
+
+// of which rows that are weighed by how much friction may wander make little
+inline bool is_drift_of_friction(Effect const& effect) {
+  return effect.is_dry_friction() && effect.family() == EffectFamily::time;
+}
+
 struct Round {
   bool is_taken = false;
   bool began_again = false;  // among twins whose friction wanders by itself: what was before is forgotten
@@ -56,17 +63,18 @@ class EffectSearch {
                                std::vector<double> const& q) const;
   double largest_drift_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                              std::vector<double> const& q) const;
-  bool is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const;
   std::vector<Trial> refined_trials(BothMotions const& columns, std::vector<EffectScan> const& scans,
                                     std::vector<double> const& q);
   void prefer_own_motion(CandidateColumns const& own, Trial& trial);
   std::optional<ModelStage> draft_of(Trial const& trial) const;
   bool is_taken(Effect const* effect) const;
-  bool may_be_another_loop(Effect const& effect, double gain, Eigen::VectorXd const& parameters) const;
-  // why the projection speaks against it; measures the trial's region
-  std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;
-  RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const;
   bool begin_again_with_wander();
+
+  // trial_refusal.cpp: why the projection speaks against it; measures the trial's region
+  std::optional<std::string> refusal(CandidateColumns const& columns, Trial& trial) const;
+  bool may_be_another_loop(Effect const& effect, double gain, Eigen::VectorXd const& parameters) const;
+  bool is_large_in_torque_itself(CandidateColumns const& columns, RefinedEffect const& refined) const;
+  RegionConsistency region_of(CandidateColumns const& columns, RefinedEffect const& refined) const;
 
   StageSetting setting_;
   SelectionOptions const* options_;

@@ -1,6 +1,6 @@
 #include "engine/unseen/unseen_range.hpp"
 
-#include "engine/words/sentences.hpp"
+#include "engine/words/withdrawn_names.hpp"
 
 namespace torquescope {
 

@@ -8,15 +8,11 @@
 #include "engine/base/quantity_text.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/words/error_words.hpp"
+#include "engine/words/name_list.hpp"
 
 namespace torquescope {
 
 namespace {
-
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 // a file is called as it is called: "train.csv: ..."
 bool begins_with_a_file(std::string const& text) {
@@ -35,13 +31,6 @@ std::string capital(std::string text) {
 std::string sentence(std::string const& clause) {
   std::string const text = capital(clause);
   return text.empty() || text.ends_with('.') ? text : text + ".";
-}
-
-std::string joined(std::vector<std::string> const& names, std::string const& last) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " " + last + " " : ", ") + spaced(names[i]);
-  return text;
 }
 
 std::string lower_case(std::string text) {
@@ -76,7 +65,7 @@ std::string amount(JointDiagnosis const& joint, NamedEffect const& effect) {
 // "Stribeck friction"; "friction that builds up over a distance after a reversal"
 std::string short_title(NamedEffect const& effect) {
   std::string const title = effect.title.substr(0, effect.title.find_first_of(":,"));
-  return title.empty() ? spaced(effect.name) : title;
+  return title.empty() ? in_words(effect.name) : title;
 }
 
 // who loses or needs what; without place
@@ -162,13 +151,14 @@ std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, 
   if (one_of_class && !effect.equivalent.empty()) {
     std::vector<std::string> names{effect.name};
     names.insert(names.end(), effect.equivalent.begin(), effect.equivalent.end());
-    return fmt::format("{} ({}; this motion cannot tell which)", joined(names, "or"), p);
+    return fmt::format("{} ({}; this motion cannot tell which)", name_list(names, "or"), p);
   }
   std::string const title = short_title(effect);
   // a title without the name would leave nobody the wiser which effect of the catalogue is meant
-  bool const says_name = lower_case(title).find(spaced(effect.name)) != std::string::npos;
-  std::string brackets = (says_name ? "" : spaced(effect.name) + ", ") + p;
-  if (!effect.equivalent.empty()) brackets += fmt::format("; {} cannot be excluded", joined(effect.equivalent, "or"));
+  bool const says_name = lower_case(title).find(in_words(effect.name)) != std::string::npos;
+  std::string brackets = (says_name ? "" : in_words(effect.name) + ", ") + p;
+  if (!effect.equivalent.empty())
+    brackets += fmt::format("; {} cannot be excluded", name_list(effect.equivalent, "or"));
   return fmt::format("{} ({})", title, brackets);
 }
 
@@ -192,7 +182,7 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
     else
       others.push_back(joint.effects[i].name);
   }
-  if (!others.empty()) append(text, fmt::format("Also named: {}.", joined(others, "and")));
+  if (!others.empty()) append(text, fmt::format("Also named: {}.", name_list(others, "and")));
   append(text, gain_sentence(joint));
   if (joint.budget.unexplained > unexplained_worth_a_word)
     append(text, fmt::format("{} of the mismatch's energy stays unexplained.", percent_text(joint.budget.unexplained)));
@@ -208,17 +198,6 @@ std::string none_reason(JointDiagnosis const& joint) {
         "With the rows round reversals, which are left out, it is not what twins have; no friction that builds up over "
         "a distance explains it.");
   return text;
-}
-
-std::vector<std::string> names_of(JointDiagnosis const& joint) {
-  std::vector<std::string> names;
-  for (auto const& effect : joint.effects) names.push_back(effect.name);
-  return names;
-}
-
-std::ptrdiff_t n_tested(JointDiagnosis const& joint) {
-  return std::count_if(joint.candidates.begin(), joint.candidates.end(),
-                       [](Candidate const& one) { return one.decision != Decision::not_tested; });
 }
 
 std::string unexplained_reason(JointDiagnosis const& joint) {
@@ -251,7 +230,7 @@ std::string recording_reason(Diagnosis const& diagnosis) {
     if (diagnosis.verdict != Verdict::insufficient) continue;
     for (auto const& advice : joint.excitation)
       if (advice.would_separate.size() > 1)
-        append(text, sentence(joined(advice.would_separate, "and") + " cannot be told apart"));
+        append(text, sentence(name_list(advice.would_separate, "and") + " cannot be told apart"));
   }
   for (auto const& joint : diagnosis.joints) {
     append(text, joint.timing_sentence);
@@ -282,36 +261,6 @@ std::string joint_reason(Verdict verdict, JointDiagnosis const& joint) {
 
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect) {
   return effect_clauses(joint, effect, false);
-}
-
-std::string too_little_clause(JointDiagnosis const& joint, double share) {
-  return fmt::format("{}, the closest of {} known effects, {} {} of what is missing", joined(names_of(joint), "and"),
-                     n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
-}
-
-std::string beyond_training_clause(JointDiagnosis const& joint, MotionRange const& trained) {
-  auto const names = names_of(joint);
-  bool const is_one = names.size() == 1;
-  return fmt::format(
-      "the training motion keeps to positions {} and speeds {}, and {} {} what is missing there; where unseen "
-      "recordings go beyond, {} their relerr from {} to {}: so narrow a motion cannot tell a law",
-      between_text(trained.least_position, trained.most_position, joint.unit_position),
-      between_text(trained.least_velocity, trained.most_velocity, joint.unit_position + "/s"), joined(names, "and"),
-      is_one ? "explains" : "explain", is_one ? "it takes" : "they take", percent_text(joint.validation_relerr),
-      percent_text(joint.augmented_validation_relerr));
-}
-
-std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
-  auto const names = names_of(joint);
-  bool const is_one = names.size() == 1;
-  std::string text = fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}", joined(names, "and"),
-                                 is_one ? "takes" : "take", percent_text(joint.validation_relerr),
-                                 percent_text(joint.augmented_validation_relerr));
-  std::string const with = is_one ? "it" : "them";
-  if (twins_ran_away)
-    return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);
-  if (!std::isfinite(joint.floor_relerr)) return text;
-  return text + fmt::format(", where twins with {} promise {}", with, percent_text(joint.floor_relerr));
 }
 
 std::string reason_sentence(Diagnosis const& diagnosis) {

@@ -29,7 +29,7 @@ class ScratchFile {
   std::string name_;
 };
 
-void read(std::string_view bytes) {
+void read_segment(std::string_view bytes) {
   ScratchFile const file(bytes);
   SegmentFile const segment(file.name());
   for (auto const& [label, index] : segment.estimators()) {
@@ -46,6 +46,6 @@ void read(std::string_view bytes) {
 
 }  // namespace
 
-HostileReader const hostile_segment{.read = read, .mend = renew_header_checksums, .foreign = true};
+HostileReader const hostile_segment{.read = read_segment, .mend = renew_header_checksums, .foreign = true};
 
 }  // namespace torquescope

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "engine/effects/effect.hpp"
+#include "engine/words/withdrawn_names.hpp"
 #include "support/example_diagnosis.hpp"
 
 namespace torquescope {
