@@ -184,9 +184,10 @@ class JointWork {
     joint_.validation_relerr = std::sqrt(energies.found.before / torque);
     joint_.augmented_validation_relerr = std::sqrt(energies.found.after / torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
-    NamesAre const names = remainder.is_named_enough || !is_beyond ? NamesAre::all : NamesAre::a_part;
-    is_refuted_ = must_carry_over(selection_.accepted) && speak_against(energies, names);
-    if (is_refuted_ && !remainder.is_unexplained && names == NamesAre::all)
+    bool const are_a_part = !remainder.is_named_enough && is_beyond;
+    is_refuted_ =
+        must_carry_over(selection_.accepted) && (are_a_part ? speak_against_a_part(energies) : speak_against(energies));
+    if (is_refuted_ && !remainder.is_unexplained && !are_a_part)
       kept_to_ = spoils_only_beyond(setting, unseen_, selection_);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;

@@ -25,6 +25,16 @@ ShareFound share_found(UnseenEnergies const& energies) {
   return result;
 }
 
+constexpr double quarter = 0.25;
+
+// of what twins promise, which must be worth it, less than this share is kept
+bool breaks_promise(UnseenEnergies const& energies, double share) {
+  double const before = energies.found.before;
+  if (!std::isfinite(energies.floor)) return false;  // nobody knows
+  double const promised = before - energies.floor;
+  return promised >= quarter * before && energies.found.gain() < share * promised;
+}
+
 }  // namespace
 
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after) {
@@ -62,20 +72,21 @@ std::vector<PredictionEnergies> over_recordings(std::vector<std::vector<Predicti
   return sum;
 }
 
-bool speak_against(UnseenEnergies const& energies, NamesAre names) {
-  constexpr double quarter = 0.25, half = 0.5;
+bool speak_against(UnseenEnergies const& energies) {
   auto const& [before, after, moved] = energies.found;
   ShareFound const there = share_found(energies);
-  bool const is_there = there.share >= least_by_chance(energies.twins);
-  if (is_there && names == NamesAre::all) return false;
+  if (there.share >= least_by_chance(energies.twins)) return false;
   constexpr double sure = 2.0;  // standard errors
   bool const is_short =
       (moved >= enough_moved * before && there.share < quarter) || there.share + sure * there.error < quarter;
-  if (is_short && !is_there) return true;
-  if (!std::isfinite(energies.floor)) return !is_there && after > before && moved >= quarter * before;
-  double const enough = quarter * before, promised = before - energies.floor;
-  bool const is_kept = before - after >= (names == NamesAre::all ? quarter : half) * promised;
-  return !is_kept && promised >= enough && (moved >= enough || names == NamesAre::a_part);
+  if (is_short) return true;
+  if (!std::isfinite(energies.floor)) return after > before && moved >= quarter * before;
+  return moved >= quarter * before && breaks_promise(energies, quarter);
+}
+
+bool speak_against_a_part(UnseenEnergies const& energies) {
+  constexpr double half = 0.5;
+  return speak_against(energies) || breaks_promise(energies, half);
 }
 
 // not what is of the very recording: its clock, its zero

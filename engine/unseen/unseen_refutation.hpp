@@ -47,9 +47,9 @@ inline constexpr double enough_moved = 0.1;  // of the residual: less says nothi
 // share in twins that have the law: three standard deviations below their mean; infinite where there are none
 double least_by_chance(std::vector<PredictionEnergies> const& twins);
 
-// what both recordings say of the names
-enum class NamesAre { all, a_part };
-bool speak_against(UnseenEnergies const& energies, NamesAre names = NamesAre::all);
+bool speak_against(UnseenEnergies const& energies);
+// the same of names that both recordings say are not all: they must keep half of what twins promise, too
+bool speak_against_a_part(UnseenEnergies const& energies);
 
 // of the residuals without and with the names, in equal stretches
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after);

@@ -12,20 +12,19 @@ using torquescope::AcceptedEffect;
 using torquescope::added_torque;
 using torquescope::find_effect;
 using torquescope::must_carry_over;
-using torquescope::NamesAre;
 using torquescope::over_recordings;
 using torquescope::speak_against;
+using torquescope::speak_against_a_part;
 using torquescope::UnseenEnergies;
 
 TEST(UnseenRefutation, WantsAPromiseAChangeAndNoGain) {
   EXPECT_TRUE(speak_against({{4.0, 5.0, 3.0}, 2.0}));
   EXPECT_TRUE(speak_against({{4.0, 3.9, 3.0}, 2.0})) << "a crumb of what its twins promise";
   EXPECT_FALSE(speak_against({{4.0, 3.4, 3.0}, 2.0})) << "it keeps more than a quarter";
-  EXPECT_TRUE(speak_against({{4.0, 3.4, 3.0}, 2.0}, NamesAre::a_part))
-      << "less than half, where training misses more, too";
-  EXPECT_FALSE(speak_against({{4.0, 2.9, 3.0}, 2.0}, NamesAre::a_part)) << "it keeps more than half";
-  EXPECT_TRUE(speak_against({{4.0, 3.4, 0.3}, 2.0}, NamesAre::a_part)) << "however little it adds";
-  EXPECT_FALSE(speak_against({{4.0, 3.9, 3.0}, 3.5}, NamesAre::a_part)) << "twins promise little";
+  EXPECT_TRUE(speak_against_a_part({{4.0, 3.4, 3.0}, 2.0})) << "less than half, where training misses more, too";
+  EXPECT_FALSE(speak_against_a_part({{4.0, 2.9, 3.0}, 2.0})) << "it keeps more than half";
+  EXPECT_TRUE(speak_against_a_part({{4.0, 3.4, 0.3}, 2.0})) << "however little it adds";
+  EXPECT_FALSE(speak_against_a_part({{4.0, 3.9, 3.0}, 3.5})) << "twins promise little";
   EXPECT_FALSE(speak_against({{4.0, 5.0, 3.0}, 3.5})) << "twins promise little";
   EXPECT_FALSE(speak_against({{4.0, 4.1, 0.5}, 2.0})) << "the rest is another matter";
 }
