@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/digest_batch.hpp"
@@ -31,24 +30,6 @@ bool is_about_the_file(std::string const& path, std::string const& attribute) {
          (attribute == complete_key || attribute == content_digest_key || attribute == provenance_digest_key);
 }
 
-// the program that wrote it
-bool is_volatile(std::string const& path) {
-  return path == provenance_path || path.starts_with(std::string(provenance_path) + "/");
-}
-
-std::size_t bytes_of_row(h5::Shape const& shape) {
-  std::size_t bytes = sizeof(double);
-  for (std::size_t i = 1; i < shape.size(); ++i) bytes *= shape[i];
-  return bytes;
-}
-
-std::size_t blocks_of(h5::Element element, h5::Shape const& shape) {
-  if (std::find(shape.begin(), shape.end(), 0U) != shape.end()) return 0;
-  std::size_t const rows = shape.empty() ? 1 : shape[0];
-  std::size_t const step = rows_of_block(element, shape);
-  return (rows + step - 1) / step;
-}
-
 void add_count(Digest& digest, std::uint64_t count) { digest.bytes(&count, sizeof(count)); }
 
 void add_texts(Digest& digest, std::span<std::string const> texts) {
@@ -72,98 +53,29 @@ struct AddAttribute {
   }
 };
 
-// whole blocks, and several chunks so that few are read twice
-std::size_t rows_at_once(h5::DatasetInfo const& info) {
-  constexpr std::size_t bytes_at_once = std::size_t{4} << 20;
-  std::size_t const block_rows = rows_of_block(info.element, info.shape);
-  return std::max<std::size_t>(1, bytes_at_once / bytes_of_row(info.shape) / block_rows) * block_rows;
+}  // namespace
+
+bool is_volatile(std::string const& path) {
+  return path == provenance_path || path.starts_with(std::string(provenance_path) + "/");
 }
 
-// reads a part of a file, object by object
-class FileWalk {
- public:
-  FileWalk(h5::Handle const& file, FilePart part) : file_(file), part_(part) {}
-
-  ReadFacts read() {
-    if (part_ == FilePart::content) add_object("/");
-    if (part_ == FilePart::provenance && h5::exists(file_, provenance_path)) add_object(provenance_path);
-    facts_.sha256 = digest_.hex(part_);
-    return std::move(facts_);
-  }
-
- private:
-  void add_object(std::string const& path) {
-    if (is_volatile(path) != (part_ == FilePart::provenance)) return;
-    std::vector<std::string> children;
-    try {
-      h5::Handle const object = h5::open_object(file_, path);
-      // groups within themselves have no end, and pairs of names double with each level
-      if (!seen_.insert(h5::address(object)).second) throw h5::Failure("it has two names; results never have that");
-      add_attributes(object, path);
-      if (h5::is_group(object)) {
-        ++facts_.groups;
-        digest_.group(path);
-        children = h5::child_names(object);
-      } else {
-        ++facts_.datasets;
-        add_dataset(object, path);
-      }
-    } catch (h5::Failure const& failure) {
-      throw h5::Failure(failure.what(), path, failure.error_number());
-    }
-    for (auto const& child : children) add_object((path == "/" ? path : path + "/") + child);
-  }
-
-  void add_attributes(h5::Handle const& object, std::string const& path) {
-    for (auto const& name : h5::attribute_names(object)) {
-      if (auto const value = h5::read_attribute(object, name)) digest_.attribute(path, name, *value);
-      ++facts_.attributes;
-    }
-  }
-
-  void add_dataset(h5::Handle const& dataset, std::string const& path) {
-    h5::DatasetInfo const info = h5::describe(dataset);
-    digest_.dataset(path, info.element, info.shape);
-    if (blocks_of(info.element, info.shape) == 0) return;
-    bool const is_text = info.element == h5::Element::text;
-    facts_.value_bytes += static_cast<double>(info.rows()) * static_cast<double>(info.values_per_row()) *
-                          static_cast<double>(is_text ? info.text_size : sizeof(double));
-    // each dataset alone may be bearable, and thousands of them take hours
-    h5::check_claimed_size(dataset, facts_.value_bytes);
-    if (is_text)
-      digest_.texts(path, h5::read_texts(dataset, info, 0, info.rows()));
-    else
-      add_numbers(dataset, info, path);
-  }
-
-  void add_numbers(h5::Handle const& dataset, h5::DatasetInfo const& info, std::string const& path) {
-    std::size_t const row_bytes = bytes_of_row(info.shape);
-    std::size_t const block_rows = rows_of_block(info.element, info.shape);
-    std::size_t const step = rows_at_once(info);
-    std::vector<double> buffer(std::min(step, info.rows()) * info.values_per_row());  // int64 are as large
-    for (std::size_t first = 0; first < info.rows(); first += step) {
-      std::size_t const end = std::min(first + step, info.rows());
-      h5::read_rows(dataset, info, first, end - first, buffer.data());
-      for (std::size_t row = first; row < end; row += block_rows)
-        digest_.block(path, row / block_rows,
-                      std::as_bytes(std::span(buffer))
-                          .subspan((row - first) * row_bytes, std::min(block_rows, end - row) * row_bytes));
-    }
-  }
-
-  h5::Handle const& file_;
-  FilePart part_;
-  ContentDigest digest_{};
-  ReadFacts facts_{};
-  std::set<std::uint64_t> seen_{};  // addresses
-};
-
-}  // namespace
+std::size_t bytes_of_row(h5::Shape const& shape) {
+  std::size_t bytes = sizeof(double);
+  for (std::size_t i = 1; i < shape.size(); ++i) bytes *= shape[i];
+  return bytes;
+}
 
 std::size_t rows_of_block(h5::Element element, h5::Shape const& shape) {
   std::size_t const rows = shape.empty() ? 1 : std::max<std::size_t>(1, shape[0]);
   if (element == h5::Element::text) return rows;
   return std::max<std::size_t>(1, digest_block_bytes / std::max(sizeof(double), bytes_of_row(shape)));
+}
+
+std::size_t blocks_of(h5::Element element, h5::Shape const& shape) {
+  if (std::find(shape.begin(), shape.end(), 0U) != shape.end()) return 0;
+  std::size_t const rows = shape.empty() ? 1 : shape[0];
+  std::size_t const step = rows_of_block(element, shape);
+  return (rows + step - 1) / step;
 }
 
 ContentDigest::Object& ContentDigest::object(std::string const& path) {
@@ -310,7 +222,5 @@ void ArrayDigest::end() {
   digest_.block(path_, index_++, begun_);
   begun_.clear();
 }
-
-ReadFacts read_everything(h5::Handle const& file, FilePart part) { return FileWalk(file, part).read(); }
 
 }  // namespace torquescope

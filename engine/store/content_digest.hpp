@@ -7,12 +7,7 @@
 //            bytes are still in the processor's cache and nothing is read back.
 // Covers     every object but /provenance: path, attributes (type, shape, values), of a dataset element type, shape
 //            and values. Texts count without padding.
-// Errors     content_digest(): h5::Failure with the path of the object that cannot be read (a checksum that does not
-//            match)
-// Hostile    a file in which two names lead to one object (so paths could be endless), or that claims more values in
-//            all than its bytes can hold, is refused
-// Memory     32 bytes per block and attribute, up to 6 MiB of blocks that wait; content_digest(): 4 MiB of values (or one
-//            row of a dataset, if more)
+// Memory     32 bytes per block and attribute, up to 6 MiB of blocks that wait
 // Threads    one at a time
 
 #include <array>
@@ -36,6 +31,11 @@ inline constexpr char provenance_path[] = "/provenance";
 // rows of a dataset that are digested together: as many as fit into these bytes, at least one; texts: all of them
 inline constexpr std::size_t digest_block_bytes = std::size_t{64} << 10;
 std::size_t rows_of_block(h5::Element element, h5::Shape const& shape);
+std::size_t blocks_of(h5::Element element, h5::Shape const& shape);
+std::size_t bytes_of_row(h5::Shape const& shape);  // of numbers
+
+// of the program that wrote the file
+bool is_volatile(std::string const& path);
 
 // what the digest covers, and what it leaves out because it differs from one run of a job to the next
 enum class FilePart { content, provenance };
@@ -103,15 +103,5 @@ class ArrayDigest {
   std::size_t block_bytes_, index_ = 0;
   std::vector<std::byte> begun_{};  // of a block that is not whole yet
 };
-
-// what was read for a digest
-struct ReadFacts {
-  std::string sha256{};
-  std::size_t groups = 0, datasets = 0, attributes = 0;
-  double value_bytes = 0.0;  // of the datasets, unpacked
-};
-
-// every attribute and every value of a part of the file is read
-ReadFacts read_everything(h5::Handle const& file, FilePart part);
 
 }  // namespace torquescope

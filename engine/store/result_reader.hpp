@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/store/content_digest.hpp"
+#include "engine/store/file_digest.hpp"
 #include "engine/store/h5.hpp"
 
 namespace torquescope {

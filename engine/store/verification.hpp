@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/store/content_digest.hpp"
+#include "engine/store/file_digest.hpp"
 
 namespace torquescope {
 
