@@ -1,7 +1,5 @@
 #include "engine/search/effect_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -51,7 +51,7 @@ function(compile_together target files)
 endfunction()
 
 # precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a third of the
-# time of their cold build. Files compiled together read them once in eight files anyhow, and gain less than precompiling takes
+# time of their cold build. Files compiled together read them once in fourteen files anyhow, and gain less than precompiling takes
 function(precompile target)
   if(TORQUESCOPE_TOGETHER)
     return()

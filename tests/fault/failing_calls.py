@@ -1,11 +1,12 @@
 """Every system call of a three-run job fails once: the exit code says so, what is published is whole, and the same command again
 makes the file that nobody disturbed.
 
-Counts: every call of every phase each time the tests run, in one of the ways it can fail, the next call in the next way; of those that
-read twelve, and of a larger result some of its blocks. Every second call is where a disk stays broken. With TORQUESCOPE_FAULTS above 60
+Counts: every call of every phase each time the tests run, in one of the ways it can fail, the next call of that name in the next way; of
+those that read twelve, and of a larger result some of its blocks. Every second call of a name is where a disk stays broken. With TORQUESCOPE_FAULTS above 60
 all calls in all ways, and a job of 20 runs in seven shards too.
 """
 
+import collections
 import json
 import os
 import re
@@ -111,6 +112,13 @@ class Failing(shimmed.ShimmedTest):
         kept = self.some([call for call in calls if call.name in READS], 8)
         return [call for call in calls if call.name not in READS or call in kept]
 
+    def numbered(self, calls):
+        """Each with how many of its name came before: calls of two names take turns, and none of them may always fail alike."""
+        before = collections.Counter()
+        for call in calls:
+            yield before[call.name], call
+            before[call.name] += 1
+
     def in_turn(self, errors, number):
         return errors if MANY else [errors[number % len(errors)]]
 
@@ -124,7 +132,7 @@ class Failing(shimmed.ShimmedTest):
             calls = self.some(calls, 2) if names else self.fewer_reads(calls)
         self.finished = set()
         tried = failed = 0
-        for number, call in enumerate(calls):
+        for number, call in self.numbered(calls):
             for error in self.in_turn(list(call.errors()), number):
                 folder = self.copy_of(prepared)
                 ended, made = self.shimmed(folder, command, nth=call.number, error=error)
@@ -139,8 +147,9 @@ class Failing(shimmed.ShimmedTest):
                     failed += ended.code != 0
                     self.assert_failed_well(ended, hit[0], error, folder)
                     self.assert_finishes(folder, command, finish)
-        for number, call in enumerate(calls if MANY else calls[::2]):  # and a disk that stays as it is from there on
-            for error in self.in_turn(["EIO", "ENOSPC"] if call.can & NEEDS_ROOM else ["EIO"], number):
+        # and a disk that stays as it is from there on
+        for number, call in [one for one in self.numbered(calls) if MANY or one[0] % 2 == 0]:
+            for error in self.in_turn(["EIO", "ENOSPC"] if call.can & NEEDS_ROOM else ["EIO"], number // 2):
                 folder = self.copy_of(prepared)
                 ended, made = self.shimmed(folder, command, nth=call.number, error=error, on=1)
                 hit = [c for c in made if c.hit]
