@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/locate/axis_blocks.hpp"
+#include "engine/search/law_discrepancy.hpp"
 #include "engine/statistics/block_jackknife.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 #include "engine/statistics/profiled_interval.hpp"
@@ -72,7 +73,8 @@ void widen_by_levels(Eigen::VectorXd& half, ModelStage const& stage, CandidateCo
   }
 }
 
-// half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more
+// half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more; and what a law that
+// leaves something may hide, which no chance is
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   constexpr double two_sided = 1.96;
   CoefficientBounds const room = room_of(stage, columns);
@@ -81,7 +83,7 @@ Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& 
   Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), all, room);
   Eigen::VectorXd half = chance.cwiseMax(blocks);
   widen_by_levels(half, stage, columns, room);
-  return half;
+  return (half.array().square() + discrepancy_shifts(stage.energy, all, room).array().square()).sqrt();
 }
 
 // where on the recording, or on the travel: its column may not change at all, or jump
@@ -100,6 +102,7 @@ void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& s
                                                             static_cast<Eigen::Index>(n_linear));
   Eigen::VectorXd const signal = stage.mismatch() + beside.columns(*effect, shape) * linear;
   double const row_noise = stage.energy.noise / static_cast<double>(stage.comparison.rows.size());
+  double const hidden = sure_excess(stage.energy);
   auto const bounds = effect->shape_bounds(beside.scales());
   for (std::size_t k = 0; k < shape.size(); ++k) {
     if (!is_placed(parameters[n_linear + k])) continue;
@@ -110,8 +113,9 @@ void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& s
     };
     auto& own = estimates[n_linear + k];
     double const least_step = 1e-6 * (bounds[k].upper - bounds[k].lower);
-    auto const [from, to] = profiled_interval(
-        {shape[k], bounds[k].lower, bounds[k].upper, std::max(own.upper - own.value, least_step)}, row_noise, gain);
+    auto const [from, to] =
+        profiled_interval({shape[k], bounds[k].lower, bounds[k].upper, std::max(own.upper - own.value, least_step)},
+                          row_noise, hidden, gain);
     own.lower = std::min(own.lower, from);
     own.upper = std::max(own.upper, to);
   }

@@ -31,11 +31,11 @@ double furthest(double value, double bound, double first_step, std::function<boo
 
 }  // namespace
 
-std::pair<double, double> profiled_interval(ProfiledParameter const& parameter, double row_noise,
+std::pair<double, double> profiled_interval(ProfiledParameter const& parameter, double row_noise, double hidden,
                                             std::function<double(double)> const& gain) {
-  TORQUESCOPE_EXPECT(parameter.first_step > 0.0 && row_noise >= 0.0);
+  TORQUESCOPE_EXPECT(parameter.first_step > 0.0 && row_noise >= 0.0 && hidden >= 0.0);
   auto const [value, lower, upper, first_step] = parameter;
-  double const least = gain(value) - chi_squared * row_noise;
+  double const least = gain(value) - chi_squared * row_noise - hidden;
   auto const is_noticed = [&](double at) { return gain(at) < least; };
   return {furthest(value, std::min(lower, value), first_step, is_noticed),
           furthest(value, std::max(upper, value), first_step, is_noticed)};
