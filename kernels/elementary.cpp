@@ -135,6 +135,15 @@ HWY_INLINE Sum log_of(V x) {
   return {value, hn::Add(hn::Sub(both, value), tail)};
 }
 
+HWY_INLINE V logarithm_of(V x) {
+  double const infinity = std::numeric_limits<double>::infinity();
+  V result = log_of(x).value;
+  result = hn::IfThenElse(hn::Eq(x, hn::Zero(d)), set(-infinity), result);
+  result = hn::IfThenElse(hn::Eq(x, set(infinity)), x, result);
+  result = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), set(std::numeric_limits<double>::quiet_NaN()), result);
+  return hn::IfThenElse(hn::Eq(x, x), result, x);
+}
+
 HWY_INLINE V power_of_size_of(V x, double exponent) {
   V const size = hn::Abs(x), a = set(exponent);
   Sum const log = log_of(size);
@@ -229,6 +238,10 @@ void exponential_of_array(double const* x, std::size_t n, double* out) {
                   [&](V v, std::size_t i, std::size_t count) { store(exp_of_sum(v, hn::Zero(d)), count, out + i); });
 }
 
+void logarithm_of_array(double const* x, std::size_t n, double* out) {
+  for_each_vector(x, n, [&](V v, std::size_t i, std::size_t count) { store(logarithm_of(v), count, out + i); });
+}
+
 void power_of_array(double const* x, double exponent, std::size_t n, double* out) {
   for_each_vector(x, n,
                   [&](V v, std::size_t i, std::size_t count) { store(power_of_size_of(v, exponent), count, out + i); });
@@ -250,11 +263,14 @@ HWY_AFTER_NAMESPACE();
 namespace torquescope::kernels {
 namespace {
 TORQUESCOPE_EXPORT(exponential_of_array);
+TORQUESCOPE_EXPORT(logarithm_of_array);
 TORQUESCOPE_EXPORT(power_of_array);
 TORQUESCOPE_EXPORT(cosine_sine_of_array);
 }  // namespace
 
 void exponential(double const* x, std::size_t n, double* out) { TORQUESCOPE_DISPATCH(exponential_of_array)(x, n, out); }
+
+void logarithm(double const* x, std::size_t n, double* out) { TORQUESCOPE_DISPATCH(logarithm_of_array)(x, n, out); }
 
 void power_of_size(double const* x, double exponent, std::size_t n, double* out) {
   TORQUESCOPE_DISPATCH(power_of_array)(x, exponent, n, out);

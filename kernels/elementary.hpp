@@ -1,5 +1,5 @@
 #pragma once
-// Exponential, power, cosine and sine of arrays: what the columns of effects are made of.
+// Exponential, logarithm, power, cosine and sine of arrays: what the columns of effects are made of.
 //
 // Bits       the same on every instruction set, for any n and any place in the array: polynomials with fused
 //            multiply-adds in one order; nothing of the system's mathematics library, so also the same on every machine
@@ -18,6 +18,11 @@ namespace torquescope::kernels {
 // Range      any x; +inf from 709.79 on, subnormal results below -708.4, 0 below -745.2; NaN of NaN
 // Error      0.7 ULP (0.62 seen); 0.8 (0.77) of a subnormal result, which is rounded twice
 void exponential(double const* x, std::size_t n, double* out);
+
+// ln x
+// Range      any x; -inf of 0, NaN below it; subnormal ones included
+// Error      0.6 ULP (0.51 seen)
+void logarithm(double const* x, std::size_t n, double* out);
 
 // |x|^exponent, exponent finite
 // Range      any x, subnormal ones included; as std::pow at 0 and infinity; NaN of NaN

@@ -63,6 +63,9 @@ using LawColumn = Eigen::Ref<Eigen::ArrayXd>;
 // x = e^x
 inline void exponential(LawColumn x) { kernels::exponential(x.data(), static_cast<std::size_t>(x.size()), x.data()); }
 
+// x = ln x
+inline void logarithm(LawColumn x) { kernels::logarithm(x.data(), static_cast<std::size_t>(x.size()), x.data()); }
+
 // x = |x|^exponent
 inline void power_of_size(LawColumn x, double exponent) {
   kernels::power_of_size(x.data(), exponent, static_cast<std::size_t>(x.size()), x.data());

@@ -6,6 +6,10 @@
 //   void advance(JointState const& state, double step_s)                                    step_s > 0
 //   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
 //
+// Decay      a class whose memory fades by an exponential may leave that to the lanes, which take all of theirs at once:
+//   double decay_exponent(JointState const& state) const                                    until this state
+//   void advance(JointState const& state, double step_s, double decay)                      decay: e to that, instead of the above
+//
 // Shared     a class whose memory does not depend on all of its shapes may say so, and is told once for those that share it:
 //   bool shares_memory(State const& other) const        both remember the same after the same motion
 //   void remember(State const& other)                   what the other does
@@ -57,6 +61,7 @@ class MemoryEffect : public Effect {
 template <typename State>
 std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
   constexpr bool may_share = requires(State state) { state.shares_memory(state); };
+  constexpr bool decays = requires(State state, JointState at) { state.decay_exponent(at); };
   class Lanes final : public EffectMemory {
    public:
     Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
@@ -68,16 +73,18 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
 
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
       std::vector<State const*> const tellers = who_remember();
+      if constexpr (decays) decays_.resize(states_.size());
       for (Eigen::Index i = 0; i < input.size(); ++i) {
         JointState const now = input.state(i);
         double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
         Eigen::Index column = 0;
+        if (i > 0) look_ahead(now);
         for (std::size_t lane = 0; lane < states_.size(); ++lane) {
           State& state = states_[lane];
           if (i == 0)
             state.start(now);
           else if (tellers[lane] == &state)
-            state.advance(now, step_s);
+            go_on(lane, now, step_s);
           else if constexpr (may_share)
             state.remember(*tellers[lane]);
           for (double const value : state.row(now)) out(i, column++) = value;
@@ -86,13 +93,13 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
     void advance(JointStates const& at, double step_s) override {
-      bool const has_started = std::exchange(has_started_, true);
-      for (std::size_t lane = 0; lane < states_.size(); ++lane) {
-        if (has_started)
-          states_[lane].advance(at.state(lane), step_s);
-        else
-          states_[lane].start(at.state(lane));
+      if (!std::exchange(has_started_, true)) {
+        if constexpr (decays) decays_.resize(states_.size());
+        for (std::size_t lane = 0; lane < states_.size(); ++lane) states_[lane].start(at.state(lane));
+        return;
       }
+      look_ahead(at);
+      for (std::size_t lane = 0; lane < states_.size(); ++lane) go_on(lane, at.state(lane), step_s);
     }
 
     void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
@@ -108,6 +115,28 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
+    // where all lanes are next, or each of them
+    void look_ahead([[maybe_unused]] JointState const& to) {
+      if constexpr (decays) {
+        for (std::size_t lane = 0; lane < states_.size(); ++lane) decays_[lane] = states_[lane].decay_exponent(to);
+        kernels::exponential(decays_.data(), decays_.size(), decays_.data());
+      }
+    }
+    void look_ahead([[maybe_unused]] JointStates const& to) {
+      if constexpr (decays) {
+        for (std::size_t lane = 0; lane < states_.size(); ++lane)
+          decays_[lane] = states_[lane].decay_exponent(to.state(lane));
+        kernels::exponential(decays_.data(), decays_.size(), decays_.data());
+      }
+    }
+
+    void go_on(std::size_t lane, JointState const& to, double step_s) {
+      if constexpr (decays)
+        states_[lane].advance(to, step_s, decays_[lane]);
+      else
+        states_[lane].advance(to, step_s);
+    }
+
     // for each lane the first that shares its memory
     std::vector<State const*> who_remember() const {
       std::vector<State const*> tellers;
@@ -121,6 +150,7 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
     std::vector<State> states_;
+    std::vector<double> decays_;  // of each lane, in the coming step
     bool has_started_ = false;
   };
   return std::make_unique<Lanes>(fresh, lanes);

@@ -13,6 +13,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/effect.hpp"
+#include "engine/effects/remembered_steps.hpp"
 
 namespace torquescope::effects {
 namespace {
@@ -26,7 +27,8 @@ class LaggingMotor final : public EffectRunner {
       true_ = state.motor_torque;
     } else {
       double const slope = (state.motor_torque - command_) / step_s;
-      true_ = state.motor_torque - lag_s_ * slope + (true_ - command_ + lag_s_ * slope) * std::exp(-step_s / lag_s_);
+      double const decay = decay_.of(step_s, [this](double of_s) { return std::exp(-of_s / lag_s_); });
+      true_ = state.motor_torque - lag_s_ * slope + (true_ - command_ + lag_s_ * slope) * decay;
     }
     command_ = state.motor_torque;
     has_started_ = true;
@@ -36,6 +38,7 @@ class LaggingMotor final : public EffectRunner {
 
  private:
   double lag_s_;
+  RememberedSteps<double> decay_{};
   double command_ = 0.0, true_ = 0.0;
   bool has_started_ = false;
 };

@@ -12,50 +12,10 @@
 // Confused   stribeck; rests of different length tell them apart
 // Source     Rabinowicz 1958; Ruina 1983 (law of ageing); Armstrong-Helouvry, Dupont, Canudas de Wit 1994 (dwell time)
 
-#include <array>
-#include <cmath>
-
-#include "engine/effects/memory_effect.hpp"
+#include "engine/effects/ageing_contacts.hpp"
 
 namespace torquescope::effects {
 namespace {
-
-class AgeingContact {
- public:
-  AgeingContact(std::span<double const> shape, JointScales const& scales)
-      : dwell_s_(shape[0]), distance_(shape[1]), rest_speed_(shape[2]), sign_(scales.friction_sign()) {}
-
-  void start(JointState const& state) {
-    q_ = state.q;
-    age_s_ = 0.0;
-  }
-
-  void advance(JointState const& state, double step_s) {
-    double const way = std::abs(state.q - q_), renewed = way / distance_, rests = way / (step_s * rest_speed_);
-    q_ = state.q;
-    double const aged_s = step_s / (1.0 + rests * rests);
-    double const grown_s = renewed > 0.0 ? -std::expm1(-renewed) / renewed * aged_s : aged_s;
-    age_s_ = age_s_ * std::exp(-renewed) + grown_s;
-  }
-
-  bool shares_memory(AgeingContact const& other) const {
-    return distance_ == other.distance_ && rest_speed_ == other.rest_speed_;
-  }
-  void remember(AgeingContact const& other) {
-    q_ = other.q_;
-    age_s_ = other.age_s_;
-  }
-
-  std::array<double, 2> row(JointState const& state) const {
-    double const dwells = age_s_ / dwell_s_, sign = sign_(state.dq);
-    return {-sign * std::expm1(-dwells), sign * std::log1p(dwells)};
-  }
-
- private:
-  double dwell_s_, distance_, rest_speed_;
-  FrictionSign sign_;
-  double q_ = 0.0, age_s_ = 0.0;
-};
 
 class BreakawayDwell final : public MemoryEffect {
  public:
@@ -82,7 +42,7 @@ class BreakawayDwell final : public MemoryEffect {
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
-    return memory_of(AgeingContact(shape, scales), lanes);
+    return ageing_contacts({shape[0], shape[1], shape[2], scales.friction_sign()}, lanes);
   }
 };
 

@@ -27,11 +27,11 @@ class CableLoop {
     z_ = 0.0;
   }
 
-  void advance(JointState const& state, double) {
-    double const step = state.q - q_;
+  double decay_exponent(JointState const& state) const { return -std::abs(state.q - q_) / distance_; }
+  void advance(JointState const& state, double, double decay) {
+    double const full = std::copysign(1.0, state.q - q_);
     q_ = state.q;
-    double const full = std::copysign(1.0, step);
-    z_ = full + (z_ - full) * std::exp(-std::abs(step) / distance_);
+    z_ = full + (z_ - full) * decay;
   }
 
   std::array<double, 4> row(JointState const& state) const {

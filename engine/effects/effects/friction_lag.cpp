@@ -16,6 +16,7 @@
 
 #include "engine/effects/lagged_signal.hpp"
 #include "engine/effects/memory_effect.hpp"
+#include "engine/effects/remembered_steps.hpp"
 
 namespace torquescope::effects {
 namespace {
@@ -53,7 +54,8 @@ class LaggingCurve {
       film_speed_ = arrived_;
       return;
     }
-    double const gone = -std::expm1(-steps), slope = (arrived_ - before) / steps;
+    double const gone = gone_.of(steps, [](double of) { return -std::expm1(-of); });
+    double const slope = (arrived_ - before) / steps;
     film_speed_ += gone * (before - slope - film_speed_) + (arrived_ - before);
   }
   double curve(double velocity) const { return 1.0 / (1.0 + velocity * velocity / (speed_ * speed_)); }
@@ -63,6 +65,7 @@ class LaggingCurve {
   bool is_late_;
   double relaxes_in_s_;
   LaggedSignal late_;
+  RememberedSteps<double> gone_{};  // in a step of so many relaxation times
   double arrived_ = 0.0, film_speed_ = 0.0;
 };
 

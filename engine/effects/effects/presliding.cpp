@@ -11,7 +11,6 @@
 // Source     Dahl 1968; Canudas de Wit, Olsson, Astrom, Lischinsky 1995 (LuGre)
 
 #include <array>
-#include <cmath>
 
 #include "engine/effects/memory_effect.hpp"
 
@@ -27,12 +26,15 @@ class DahlBristle {
     z_ = sign_(state.dq);
   }
 
-  void advance(JointState const& state, double) {
-    double const step = state.q - q_;
+  // the stiffness 1 / distance is the same both ways, so the weaker direction is full sooner
+  double decay_exponent(JointState const& state) const {
+    double const step = state.q - q_, full = sign_(step);
+    return full == 0.0 ? 0.0 : -step / (distance_ * full);
+  }
+  void advance(JointState const& state, double, double decay) {
+    double const step = state.q - q_, full = sign_(step);
     q_ = state.q;
-    double const full = sign_(step);
-    // the stiffness 1 / distance is the same both ways, so the weaker direction is full sooner
-    if (step != 0.0) z_ = full == 0.0 ? 0.0 : full + (z_ - full) * std::exp(-step / (distance_ * full));
+    if (step != 0.0) z_ = full == 0.0 ? 0.0 : full + (z_ - full) * decay;
   }
 
   std::array<double, 2> row(JointState const& state) const {

@@ -23,7 +23,7 @@ constexpr double infinity = Limits::infinity();
 constexpr std::size_t n = 20001;  // no multiple of any vector
 
 // as the header states them
-constexpr double exponential_ulp = 0.7, subnormal_ulp = 0.8, power_ulp = 0.7, wave_ulp = 0.9;
+constexpr double exponential_ulp = 0.7, subnormal_ulp = 0.8, logarithm_ulp = 0.6, power_ulp = 0.7, wave_ulp = 0.9;
 
 // distance to the next double of the size of `exact`
 long double ulp_at(long double exact) {
@@ -109,6 +109,17 @@ TEST_P(Elementary, ExponentialIsWithinItsError) {
   }
 }
 
+TEST_P(Elementary, LogarithmIsWithinItsErrorNearOneAsWell) {
+  if (LDBL_MANT_DIG <= DBL_MANT_DIG) GTEST_SKIP() << "long double is no better than double here";
+  for (auto x : {spread(0.5, 2.0), spread(0.999, 1.001), sizes(-1074.0, 1023.9), spread(1.0, 1e6)}) {
+    for (double& value : x) value = std::abs(value);
+    std::vector<double> out(n);
+    logarithm(x.data(), n, out.data());
+    for (std::size_t i = 0; i < n; ++i)
+      ASSERT_LE(error_in_ulp(out[i], std::log(static_cast<long double>(x[i]))), logarithm_ulp) << "ln " << x[i];
+  }
+}
+
 TEST_P(Elementary, PowerIsWithinItsError) {
   if (LDBL_MANT_DIG <= DBL_MANT_DIG) GTEST_SKIP() << "long double is no better than double here";
   for (double const exponent : {0.2, 0.5, 0.87, 1.0, 1.3, 2.0, 3.0, -0.7, -2.0, 1e-3, 37.5, 1e4})
@@ -147,6 +158,13 @@ TEST_P(Elementary, KnowsTheSpecialValues) {
   for (std::size_t i : {5, 7}) EXPECT_EQ(out[i], 0.0);
   EXPECT_TRUE(std::isnan(out[8]));
 
+  logarithm(x.data(), x.size(), out.data());
+  for (std::size_t i : {0, 1}) EXPECT_EQ(out[i], -infinity);
+  for (std::size_t i : {3, 5, 7, 8}) EXPECT_TRUE(std::isnan(out[i])) << x[i];
+  EXPECT_DOUBLE_EQ(out[2], std::log(tiny));
+  EXPECT_EQ(out[6], infinity);
+  EXPECT_EQ(out[9], 0.0);
+
   for (double const exponent : {0.5, 1.0, 2.0, 0.0, -1.0}) {
     power_of_size(x.data(), exponent, x.size(), out.data());
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -173,14 +191,17 @@ TEST_P(Elementary, KnowsTheSpecialValues) {
 TEST_P(Elementary, GivesTheBitsOfOneElementAtEveryPlaceInPlace) {
   auto const x = sizes(-20.0, 8.0);
   for (std::size_t const count : {0, 1, 2, 3, 7, 8, 9, 31}) {
-    std::vector<double> e(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(count)), p = e, c = e, s = e;
+    std::vector<double> e(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(count)), p = e, c = e, s = e, l = e;
     exponential(e.data(), count, e.data());
+    logarithm(l.data(), count, l.data());
     power_of_size(p.data(), 0.7, count, p.data());
     cosine_sine_of_multiple(1.7, s.data(), count, c.data(), s.data());
     for (std::size_t i = 0; i < count; ++i) {
       double one = 0.0, other = 0.0;
       exponential(&x[i], 1, &one);
       ASSERT_EQ(e[i], one);
+      logarithm(&x[i], 1, &one);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(l[i]), std::bit_cast<std::uint64_t>(one));
       power_of_size(&x[i], 0.7, 1, &one);
       ASSERT_EQ(p[i], one);
       cosine_sine_of_multiple(1.7, &x[i], 1, &one, &other);

@@ -1,0 +1,154 @@
+#include "engine/effects/ageing_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace torquescope {
+namespace {
+
+// of a step: how long the contact stood in it as far as it does when it creeps
+double aged_s(double way, double step_s, double rest_speed) {
+  double const rests = way / (step_s * rest_speed);
+  return step_s / (1.0 + rests * rests);
+}
+
+// share of what it aged that is left at the end of the step: (1 - e^-x) / x
+double share_left(double renewed, double decay) {
+  constexpr double thin = 1e-3;  // below it the difference loses digits, and the next term of the series is below 1e-14
+  if (renewed < thin) return 1.0 - renewed * (1.0 / 2.0 - renewed * (1.0 / 6.0 - renewed / 24.0));
+  return (1.0 - decay) / renewed;
+}
+
+// friction after some age, without its sign
+struct Levels {
+  double ended = 0.0;    // 1 - e^-(age / dwell)
+  double endless = 0.0;  // ln(1 + age / dwell)
+};
+
+using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
+
+// as arrays
+struct BlockLevels {
+  Block ended, endless;
+  // dwells: age / dwell
+  explicit BlockLevels(Eigen::Ref<Eigen::ArrayXd const> const& dwells) : ended(-dwells), endless(1.0 + dwells) {
+    exponential(ended);
+    ended = 1.0 - ended;
+    logarithm(endless);
+  }
+};
+
+class AgeingContacts final : public EffectMemory {
+ public:
+  AgeingContacts(AgeingContact const& contact, std::size_t lanes) : contacts_(lanes, contact) {}
+
+  void append(EffectMemory const& other) override {
+    auto const& added = static_cast<AgeingContacts const&>(other).contacts_;
+    contacts_.insert(contacts_.end(), added.begin(), added.end());
+  }
+
+  void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
+    std::vector<std::size_t> left(contacts_.size());
+    for (std::size_t lane = 0; lane < left.size(); ++lane) left[lane] = lane;
+    while (!left.empty()) {
+      AgeingContact const& first = contacts_[left.front()];
+      auto const others = std::stable_partition(left.begin(), left.end(), [&](std::size_t lane) {
+        return contacts_[lane].renewal_distance == first.renewal_distance &&
+               contacts_[lane].rest_speed == first.rest_speed;
+      });
+      columns_of(std::vector<std::size_t>(left.begin(), others), input, out);
+      left.erase(left.begin(), others);
+    }
+  }
+
+  void advance(JointStates const& at, double step_s) override {
+    if (q_.empty()) return start(at);
+    Block decay(at.size());
+    for (Eigen::Index lane = 0; lane < at.size(); ++lane) {
+      auto const i = static_cast<std::size_t>(lane);
+      decay[lane] = -std::abs(at.q[lane] - q_[i]) / contacts_[i].renewal_distance;
+    }
+    Block const renewed = -decay;
+    exponential(decay);
+    Block dwells(at.size());
+    for (Eigen::Index lane = 0; lane < at.size(); ++lane) {
+      auto const i = static_cast<std::size_t>(lane);
+      double const way = std::abs(at.q[lane] - q_[i]);
+      ages_s_[i] = ages_s_[i] * decay[lane] +
+                   share_left(renewed[lane], decay[lane]) * aged_s(way, step_s, contacts_[i].rest_speed);
+      q_[i] = at.q[lane];
+      dwells[lane] = ages_s_[i] / contacts_[i].dwell_s;
+    }
+    BlockLevels const levels(dwells);
+    for (Eigen::Index lane = 0; lane < at.size(); ++lane)
+      levels_[static_cast<std::size_t>(lane)] = {levels.ended[lane], levels.endless[lane]};
+  }
+
+  void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
+    TORQUESCOPE_EXPECT(linear.size() == 2 && out.size() == levels_.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      double const sign = contacts_[i].sign(at.dq[static_cast<Eigen::Index>(i)]);
+      out[i] = linear[0] * (sign * levels_[i].ended) + linear[1] * (sign * levels_[i].endless);
+    }
+  }
+
+ private:
+  void start(JointStates const& at) {
+    TORQUESCOPE_EXPECT(static_cast<std::size_t>(at.size()) == contacts_.size() && at.size() <= states_at_once);
+    q_.assign(at.q.begin(), at.q.end());
+    ages_s_.assign(q_.size(), 0.0);
+    levels_.assign(q_.size(), {});
+  }
+
+  // of contacts that have the same age all the time
+  void columns_of(std::vector<std::size_t> const& lanes, EffectInput const& input,
+                  Eigen::Ref<Eigen::MatrixXd> out) const {
+    Motion const& motion = input.motion;
+    double age_s = 0.0;
+    for (Eigen::Index from = 0; from < input.size(); from += states_at_once) {
+      Eigen::Index const count = std::min(states_at_once, input.size() - from);
+      Block const ages_s = ages_after(age_s, contacts_[lanes.front()], motion, from, count);
+      age_s = ages_s[count - 1];
+      for (std::size_t const lane : lanes) {
+        AgeingContact const& contact = contacts_[lane];
+        BlockLevels const levels(ages_s / contact.dwell_s);
+        auto const signs = motion.dq.segment(from, count).array().unaryExpr(contact.sign);
+        auto const column = static_cast<Eigen::Index>(2 * lane);
+        out.col(column).segment(from, count).array() = signs * levels.ended;
+        out.col(column + 1).segment(from, count).array() = signs * levels.endless;
+      }
+    }
+  }
+
+  static Block ages_after(double age_s, AgeingContact const& contact, Motion const& motion, Eigen::Index from,
+                          Eigen::Index count) {
+    Block ways(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      ways[i] = from + i > 0 ? std::abs(motion.q[from + i] - motion.q[from + i - 1]) : 0.0;
+    Block decay = -ways / contact.renewal_distance;
+    Block const renewed = -decay;
+    exponential(decay);
+    Block ages_s(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      if (from + i > 0)
+        age_s = age_s * decay[i] +
+                share_left(renewed[i], decay[i]) *
+                    aged_s(ways[i], motion.time_s[from + i] - motion.time_s[from + i - 1], contact.rest_speed);
+      ages_s[i] = age_s;
+    }
+    return ages_s;
+  }
+
+  std::vector<AgeingContact> contacts_;
+  std::vector<double> q_, ages_s_;  // empty: not started
+  std::vector<Levels> levels_;
+};
+
+}  // namespace
+
+std::unique_ptr<EffectMemory> ageing_contacts(AgeingContact const& contact, std::size_t lanes) {
+  return std::make_unique<AgeingContacts>(contact, lanes);
+}
+
+}  // namespace torquescope
