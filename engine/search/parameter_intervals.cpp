@@ -18,13 +18,19 @@ ParameterEstimate estimate(std::string name, std::string unit, double value, dou
   return {std::move(name), std::move(unit), value, value - half, value + half};
 }
 
-// how far shapes can go inside their bounds from where they are
+// how far shapes can go inside their bounds from where they are, and what has no negative sign towards none
 CoefficientBounds room_of(ModelStage const& stage, CandidateColumns const& columns) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::Index at = columns.model_columns().cols();
   Eigen::Index const n = at + columns.tangents().cols();
   CoefficientBounds room{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
-  for (auto const& [effect, shape] : stage.model().effects()) {
+  for (std::size_t i = 0; i < stage.model().effects().size(); ++i) {
+    auto const& [effect, shape] = stage.model().effects()[i];
+    auto const linear_at = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+    for (std::size_t k = 0; k < effect->n_linear(); ++k)
+      if (effect->parameters()[k].sign() == Sign::non_negative)
+        room.lower[linear_at + static_cast<Eigen::Index>(k)] =
+            -std::max(0.0, stage.parameters()[linear_at + static_cast<Eigen::Index>(k)]);
     auto const ranges = effect->shape_bounds(columns.scales());
     for (std::size_t k = 0; k < shape.size(); ++k, ++at) {
       room.lower[at] = std::min(0.0, ranges[k].lower - shape[k]);
@@ -121,6 +127,13 @@ void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& s
   }
 }
 
+// what is no less than nothing is so in its interval, too
+void cut_at_none(std::vector<ParameterEstimate>& estimates, Effect const& effect) {
+  for (std::size_t k = 0; k < estimates.size(); ++k)
+    if (effect.parameters()[k].lower.factor >= 0.0 && estimates[k].value >= 0.0)
+      estimates[k].lower = std::max(0.0, estimates[k].lower);
+}
+
 // what the joint itself fixes was not measured
 void drop_fixed(std::vector<ParameterEstimate>& estimates, Effect const& effect, JointScales const& scales) {
   auto const bounds = effect.shape_bounds(scales);
@@ -156,6 +169,7 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
       own.push_back(estimate(parameter.name, parameter.unit_for(model.regressor().joint()), values[k], half[at]));
     }
     widen_placed(own, stage, i);
+    cut_at_none(own, effect);
     drop_fixed(own, effect, columns.scales());
     result.effects.push_back(std::move(own));
   }
