@@ -6,6 +6,7 @@
 SIMULATE is the program made of simulated_torque.cpp, "" where MuJoCo is not installed: exit code 77, skipped. CONCEALED is the
 folder of tests/concealed, whose scorer judges. The sealed case is an elbow; elbow.xml is its model with numbers 5 % off.
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -86,6 +87,9 @@ def diagnosis(torquescope, folder, concealed, out):
 def main(what, torquescope, make_case, simulate, concealed, out):
     if not simulate:
         print("skipped: MuJoCo is not installed (scripts/install-deps --tests, or libmujoco-dev)")
+        return SKIPPED
+    if what == "diagnosis" and not os.environ.get("TORQUESCOPE_FULL"):
+        print("skipped: takes the best part of a minute (scripts/test --full, or TORQUESCOPE_FULL=1)")
         return SKIPPED
     out = pathlib.Path(out).resolve()
     (out / "diagnosis.h5").unlink(missing_ok=True)
