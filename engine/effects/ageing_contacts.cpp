@@ -7,17 +7,17 @@
 namespace torquescope {
 namespace {
 
-// of a step: how long the contact stood in it as far as it does when it creeps
-double aged_s(double way, double step_s, double rest_speed) {
-  double const rests = way / (step_s * rest_speed);
-  return step_s / (1.0 + rests * rests);
-}
-
 // share of what it aged that is left at the end of the step: (1 - e^-x) / x
 double share_left(double renewed, double decay) {
   constexpr double thin = 1e-3;  // below it the difference loses digits, and the next term of the series is below 1e-14
   if (renewed < thin) return 1.0 - renewed * (1.0 / 2.0 - renewed * (1.0 / 6.0 - renewed / 24.0));
   return (1.0 - decay) / renewed;
+}
+
+// after a step of this way; decay: e^-renewed. While it creeps the contact ages as far as it stands
+double aged_s(double age_s, double way, double step_s, double rest_speed, double renewed, double decay) {
+  double const rests = way / (step_s * rest_speed);
+  return age_s * decay + share_left(renewed, decay) * (step_s / (1.0 + rests * rests));
 }
 
 // friction after some age, without its sign
@@ -75,8 +75,7 @@ class AgeingContacts final : public EffectMemory {
     for (Eigen::Index lane = 0; lane < at.size(); ++lane) {
       auto const i = static_cast<std::size_t>(lane);
       double const way = std::abs(at.q[lane] - q_[i]);
-      ages_s_[i] = ages_s_[i] * decay[lane] +
-                   share_left(renewed[lane], decay[lane]) * aged_s(way, step_s, contacts_[i].rest_speed);
+      ages_s_[i] = aged_s(ages_s_[i], way, step_s, contacts_[i].rest_speed, renewed[lane], decay[lane]);
       q_[i] = at.q[lane];
       dwells[lane] = ages_s_[i] / contacts_[i].dwell_s;
     }
@@ -132,9 +131,8 @@ class AgeingContacts final : public EffectMemory {
     Block ages_s(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       if (from + i > 0)
-        age_s = age_s * decay[i] +
-                share_left(renewed[i], decay[i]) *
-                    aged_s(ways[i], motion.time_s[from + i] - motion.time_s[from + i - 1], contact.rest_speed);
+        age_s = aged_s(age_s, ways[i], motion.time_s[from + i] - motion.time_s[from + i - 1], contact.rest_speed,
+                       renewed[i], decay[i]);
       ages_s[i] = age_s;
     }
     return ages_s;

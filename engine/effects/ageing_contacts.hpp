@@ -14,7 +14,7 @@
 namespace torquescope {
 
 struct AgeingContact {
-  double dwell_s = 1.0, renewal_distance = 1.0, rest_speed = 1.0;
+  double dwell_s = 1.0, renewal_distance = 1.0, rest_speed = 1.0;  // s; rad, m; rad/s, m/s
   FrictionSign sign{};
 };
 

@@ -14,6 +14,8 @@
 namespace torquescope {
 namespace {
 
+constexpr double two_sided = 1.96;
+
 ParameterEstimate estimate(std::string name, std::string unit, double value, double half) {
   return {std::move(name), std::move(unit), value, value - half, value + half};
 }
@@ -28,7 +30,7 @@ CoefficientBounds room_of(ModelStage const& stage, CandidateColumns const& colum
     auto const& [effect, shape] = stage.model().effects()[i];
     auto const linear_at = static_cast<Eigen::Index>(stage.model().first_parameter(i));
     for (std::size_t k = 0; k < effect->n_linear(); ++k)
-      if (effect->parameters()[k].sign() == Sign::non_negative)
+      if (effect->parameters()[k].sign() == Sign::non_negative && stage.pipeline->bounds_effects())
         room.lower[linear_at + static_cast<Eigen::Index>(k)] =
             -std::max(0.0, stage.parameters()[linear_at + static_cast<Eigen::Index>(k)]);
     auto const ranges = effect->shape_bounds(columns.scales());
@@ -51,6 +53,17 @@ Eigen::MatrixXd twins_apart(ModelStage const& stage, CandidateColumns const& col
 Eigen::VectorXd deviations_of(Eigen::MatrixXd const& steps) {
   auto const m = static_cast<double>(steps.cols());
   return (steps.rowwise().squaredNorm() / (m - 1.0) * (1.0 + 1.0 / m)).cwiseSqrt();
+}
+
+// the same of steps that a bound cuts on one side, as the other side says
+Eigen::VectorXd deviations_of(Eigen::MatrixXd const& steps, CoefficientBounds const& room) {
+  Eigen::VectorXd deviations = deviations_of(steps);
+  Eigen::VectorXd const up = deviations_of(std::sqrt(2.0) * steps.cwiseMax(0.0)),
+                        down = deviations_of(std::sqrt(2.0) * steps.cwiseMin(0.0));
+  for (Eigen::Index k = 0; k < deviations.size(); ++k)
+    if (-room.lower[k] < two_sided * deviations[k] || room.upper[k] < two_sided * deviations[k])
+      deviations[k] = std::max(up[k], down[k]);
+  return deviations;
 }
 
 // where leaving out a level of an effect's axis changes its parameters by more
@@ -82,10 +95,9 @@ void widen_by_levels(Eigen::VectorXd& half, ModelStage const& stage, CandidateCo
 // half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more; and what a law that
 // leaves something may hide, which no chance is
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
-  constexpr double two_sided = 1.96;
   CoefficientBounds const room = room_of(stage, columns);
   Eigen::MatrixXd const all = columns.with_tangents();
-  Eigen::VectorXd const chance = two_sided * deviations_of(solve_scaled(all, twins_apart(stage, columns), room));
+  Eigen::VectorXd const chance = two_sided * deviations_of(solve_scaled(all, twins_apart(stage, columns), room), room);
   Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), all, room);
   Eigen::VectorXd half = chance.cwiseMax(blocks);
   widen_by_levels(half, stage, columns, room);
@@ -127,11 +139,13 @@ void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& s
   }
 }
 
-// what is no less than nothing is so in its interval, too
+// what is no less than nothing is so in its interval, too; instants and places are counted from somewhere
 void cut_at_none(std::vector<ParameterEstimate>& estimates, Effect const& effect) {
-  for (std::size_t k = 0; k < estimates.size(); ++k)
-    if (effect.parameters()[k].lower.factor >= 0.0 && estimates[k].value >= 0.0)
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    auto const& parameter = effect.parameters()[k];
+    if (parameter.lower.factor >= 0.0 && !is_placed(parameter) && estimates[k].value >= 0.0)
       estimates[k].lower = std::max(0.0, estimates[k].lower);
+  }
 }
 
 // what the joint itself fixes was not measured

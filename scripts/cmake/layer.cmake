@@ -50,11 +50,6 @@ function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
-# compile_lightly(TARGET): for layers that read, write and talk. They take two thirds of the time to compile, and the program none more
-function(compile_lightly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
 # precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a third of the
 # time of their cold build. Files compiled together read them once in fourteen files anyhow, and gain less than precompiling takes
 function(precompile target)

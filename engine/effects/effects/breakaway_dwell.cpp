@@ -42,7 +42,9 @@ class BreakawayDwell final : public MemoryEffect {
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const& scales,
                                        std::size_t lanes) const override {
-    return ageing_contacts({shape[0], shape[1], shape[2], scales.friction_sign()}, lanes);
+    return ageing_contacts(
+        {.dwell_s = shape[0], .renewal_distance = shape[1], .rest_speed = shape[2], .sign = scales.friction_sign()},
+        lanes);
   }
 };
 

@@ -1,4 +1,4 @@
-"""Every figure of every kind of result can be a PDF and a PNG; the same numbers give the same bytes."""
+"""Every figure of every kind of result can be a PDF or a PNG, tried in turns; the same numbers give the same bytes."""
 
 import itertools
 import subprocess

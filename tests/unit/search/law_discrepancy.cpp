@@ -77,6 +77,28 @@ TEST(LawDiscrepancy, MovesAShapeNoFurtherThanItsBounds) {
   EXPECT_NEAR(discrepancy_shifts(left(2.0, 40.0), columns, room)[3], 0.5 * free[3], 1e-9 * free[3]);
 }
 
+// oracle: the largest coefficient among many points on the ellipsoid of that energy that lie within the bounds
+TEST(LawDiscrepancy, KnowsWhatTheBoundsOfAnotherLeave) {
+  constexpr double energy = 0.9 * 3.0;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, 2);
+  columns(0, 0) = 1.0;
+  columns(0, 1) = 0.99;  // nearly the same
+  columns(1, 1) = std::sqrt(1.0 - 0.99 * 0.99);
+  for (double const room_of_other : {0.0, 0.3, 2.0, 1e3}) {
+    CoefficientBounds room{Eigen::Vector2d(-1e9, -room_of_other), Eigen::Vector2d(1e9, room_of_other)};
+    double most = 0.0;
+    for (int i = 0; i < 200000; ++i) {
+      double const angle = 2e-5 * std::acos(-1.0) * 0.5 * i;
+      Eigen::Vector2d const x =
+          columns.topRows(2).inverse() * Eigen::Vector2d(std::cos(angle), std::sin(angle)) * std::sqrt(energy);
+      if (std::abs(x[1]) <= room_of_other) most = std::max(most, std::abs(x[0]));
+    }
+    // without room for the other the points within are none but two
+    if (room_of_other == 0.0) most = std::sqrt(energy);
+    EXPECT_NEAR(discrepancy_shifts(left(3.0, 16.45), columns, room)[0], most, 2e-3 * most) << room_of_other;
+  }
+}
+
 TEST(LawDiscrepancy, OfColumnsThatAreTheSameKnowsTheirSumOnly) {
   Eigen::MatrixXd columns = normal_numbers(n, k, 4);
   columns.col(1) = columns.col(0);
