@@ -1,12 +1,14 @@
 // Elastic end stop, or anything the joint leans on at one end of its travel.
 //
-// Equation   tau = (k (q - q_c) + d dq) [q beyond q_c]; beyond: above it when q_c lies in the upper half of the travel,
+// Equation   tau = (k x |x / x_r|^(p - 1) + d dq) [q beyond q_c], x = q - q_c, x_r a hundredth of the travel; beyond: above it when q_c lies in the upper half of the travel,
 //            below it in the lower half. Plausible in the outer fifth of the travel on either side: what begins in the middle
 //            is no stop, and would pass for one as a bent line
-// Parameters end_stop k >= 0 [N m/rad; N/m], end_stop_damping d >= 0 [N m s/rad; N s/m]; end_stop_position q_c [rad; m]
+// Parameters end_stop k >= 0 [N m/rad; N/m]: torque over depth at x_r; end_stop_damping d >= 0 [N m s/rad; N s/m]; end_stop_position
+//            q_c [rad; m]; end_stop_power p [1]: 1 a spring, 1.5 round bodies that touch (Hertz), 2 a cushion. Taken for 1 the stop
+//            is found too late, where it has become as stiff as it is on average
 // Signature  position: one end only
 // Confused   cable
-// Source     PHYSICS.md G4; Hunt, Crossley 1975 (damping acts in contact only)
+// Source     PHYSICS.md G4; Hunt, Crossley 1975 (power of the depth; damping acts in contact only)
 
 #include <cmath>
 
@@ -20,13 +22,14 @@ class EndStop final : public InstantEffect {
   EndStop()
       : InstantEffect({.name = "end_stop",
                        .title = "elastic stop at one end of the travel",
-                       .equation = "(k (q - q_c) + d dq) [q beyond q_c]",
+                       .equation = "(k x |x / x_r|^(p - 1) + d dq) [q beyond q_c], x = q - q_c, x_r 1 % of the travel",
                        .source = "Hunt, Crossley 1975",
                        .separated_by = "a slow approach to the stop, and the same positions left again",
                        .parameters = {{"end_stop", "N m/rad", "N/m", {0.0}},
                                       {"end_stop_damping", "N m s/rad", "N s/m", {0.0}},
                                       shape_parameter("end_stop_position", "rad", "m", {-0.49, RelativeTo::position},
-                                                      {0.49, RelativeTo::position}, Spacing::linear)},
+                                                      {0.49, RelativeTo::position}, Spacing::linear),
+                                      shape_parameter("end_stop_power", "1", "1", {1.0}, {2.0}, Spacing::linear)},
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},
                        .parity = Parity::neither,
@@ -38,12 +41,16 @@ class EndStop final : public InstantEffect {
   }
 
  private:
+  static constexpr double share_of_travel = 0.01;  // x_r
+
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,
            LawColumns out) const override {
     double const side = shape[0] >= scales.position_centre ? 1.0 : -1.0;
-    auto const is_beyond = side * (at.q - shape[0]) > 0.0;
-    out.col(0) = is_beyond.select(at.q - shape[0], 0.0);
-    out.col(1) = is_beyond.select(at.dq, 0.0);
+    double const unit = share_of_travel * scales.position_range;
+    Scratch depth = (side * (at.q - shape[0])).max(0.0) / unit;
+    out.col(1) = (depth > 0.0).select(at.dq, 0.0);
+    if (shape[1] != 1.0) power_of_size(depth, shape[1]);
+    out.col(0) = side * unit * depth;
   }
 };
 

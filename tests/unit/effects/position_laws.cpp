@@ -43,11 +43,19 @@ TEST(EndStop, PushesBackAtItsOwnEndOnly) {
   JointScales scales;
   scales.position_centre = 1.0;
   // upper stop at 1.4, lower stop at 0.6: the motor must push towards the stop
-  EXPECT_NEAR(torque("end_stop", {.q = 1.5}, {20.0, 0.0, 1.4}, scales), 2.0, 1e-14);
-  EXPECT_EQ(torque("end_stop", {.q = 0.2, .dq = 1.0}, {20.0, 3.0, 1.4}, scales), 0.0);
-  EXPECT_NEAR(torque("end_stop", {.q = 0.5}, {20.0, 0.0, 0.6}, scales), -2.0, 1e-14);
-  EXPECT_EQ(torque("end_stop", {.q = 1.8, .dq = 1.0}, {20.0, 3.0, 0.6}, scales), 0.0);
-  EXPECT_NEAR(torque("end_stop", {.q = 0.5, .dq = 2.0}, {0.0, 3.0, 0.6}, scales), 6.0, 1e-14);
+  EXPECT_NEAR(torque("end_stop", {.q = 1.5}, {20.0, 0.0, 1.4, 1.0}, scales), 2.0, 1e-14);
+  EXPECT_EQ(torque("end_stop", {.q = 0.2, .dq = 1.0}, {20.0, 3.0, 1.4, 1.0}, scales), 0.0);
+  EXPECT_NEAR(torque("end_stop", {.q = 0.5}, {20.0, 0.0, 0.6, 1.0}, scales), -2.0, 1e-14);
+  EXPECT_EQ(torque("end_stop", {.q = 1.8, .dq = 1.0}, {20.0, 3.0, 0.6, 1.0}, scales), 0.0);
+  EXPECT_NEAR(torque("end_stop", {.q = 0.5, .dq = 2.0}, {0.0, 3.0, 0.6, 1.0}, scales), 6.0, 1e-14);
+  // at a hundredth of the travel every power says the same
+  double const unit = 0.01 * scales.position_range;
+  for (double const power : {1.0, 1.5, 2.0}) {
+    EXPECT_NEAR(torque("end_stop", {.q = 1.4 + unit}, {20.0, 0.0, 1.4, power}, scales), 20.0 * unit, 1e-12);
+    EXPECT_NEAR(torque("end_stop", {.q = 0.6 - 4.0 * unit}, {20.0, 0.0, 0.6, power}, scales),
+                -20.0 * unit * std::pow(4.0, power), 1e-11);
+    EXPECT_EQ(torque("end_stop", {.q = 1.4}, {20.0, 0.0, 1.4, power}, scales), 0.0);
+  }
 }
 
 TEST(Cogging, RepeatsAlongTheAngleAtAnySpeedAndTorque) {
