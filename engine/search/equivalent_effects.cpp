@@ -68,7 +68,8 @@ std::vector<Rival> rivals_of(ModelStage const& stage, std::size_t i, std::vector
     if (group.rank() == 0 || !(refined.gain > 0.0) || !other->is_plausible(refined.shape, columns.scales())) continue;
     Rival rival{other, refined.shape, refined.gain / own_gain, 1.0, true};
     rival.p = chance_of_advantage(own.q, group.q, signal, apart);
-    bool const as_good_but_for_form = rival.gain_ratio > nearly_as_good && own_gain - refined.gain <= left;
+    bool const as_good_but_for_form =
+        rival.gain_ratio > nearly_as_good && (own_gain - refined.gain <= left || effect->is_event());
     rival.is_equivalent = as_good_but_for_form || rival.p > common_level;
     rivals.push_back(rival);
   }

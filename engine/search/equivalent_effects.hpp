@@ -6,7 +6,8 @@
 // Excluded   when the advantage of the accepted effect over it is larger than
 //              what chance gives if the rival were the truth: twins' residuals on top of the rival's torque, and
 //              what the accepted effect itself leaves unexplained, for a rival that explains nine tenths as much: a form that
-//              is wrong by that much cannot exclude another that is wrong by little more
+//              is wrong by that much cannot exclude another that is wrong by little more. What begins at an instant fits whatever
+//              happened once with the edges it wants: it excludes no law that explains nine tenths as much
 // Threads    spreads grid points over `threads`; same bits for any number
 // Source     PHYSICS.md section 2 step 10; non-nested models by simulation: Cox 1962, Williams 1970
 
