@@ -10,16 +10,11 @@
 //   double decay_exponent(JointState const& state) const                                    until this state
 //   void advance(JointState const& state, double step_s, double decay)                      decay: e to that, instead of the above
 //
-// Shared     a class whose memory does not depend on all of its shapes may say so, and is told once for those that share it:
-//   bool shares_memory(State const& other) const        both remember the same after the same motion
-//   void remember(State const& other)                   what the other does
-//
 // Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or time
 // Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
 //            them and not once for each: a twin takes 50 000 steps per second
 // Threads    an EffectMemory is used by one thread
 
-#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -60,7 +55,6 @@ class MemoryEffect : public Effect {
 // what a file in effects/ returns as memory(): `lanes` copies of a state that has not started
 template <typename State>
 std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
-  constexpr bool may_share = requires(State state) { state.shares_memory(state); };
   constexpr bool decays = requires(State state, JointState at) { state.decay_exponent(at); };
   class Lanes final : public EffectMemory {
    public:
@@ -72,22 +66,21 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
-      std::vector<State const*> const tellers = who_remember();
       if constexpr (decays) decays_.resize(states_.size());
       for (Eigen::Index i = 0; i < input.size(); ++i) {
         JointState const now = input.state(i);
         double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
         Eigen::Index column = 0;
-        if (i > 0) look_ahead(now);
+        if (i > 0) {
+          for (std::size_t lane = 0; lane < states_.size(); ++lane) look_ahead(lane, now);
+          fade();
+        }
         for (std::size_t lane = 0; lane < states_.size(); ++lane) {
-          State& state = states_[lane];
           if (i == 0)
-            state.start(now);
-          else if (tellers[lane] == &state)
+            states_[lane].start(now);
+          else
             go_on(lane, now, step_s);
-          else if constexpr (may_share)
-            state.remember(*tellers[lane]);
-          for (double const value : state.row(now)) out(i, column++) = value;
+          for (double const value : states_[lane].row(now)) out(i, column++) = value;
         }
       }
     }
@@ -98,7 +91,8 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
         for (std::size_t lane = 0; lane < states_.size(); ++lane) states_[lane].start(at.state(lane));
         return;
       }
-      look_ahead(at);
+      for (std::size_t lane = 0; lane < states_.size(); ++lane) look_ahead(lane, at.state(lane));
+      fade();
       for (std::size_t lane = 0; lane < states_.size(); ++lane) go_on(lane, at.state(lane), step_s);
     }
 
@@ -115,19 +109,13 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
-    // where all lanes are next, or each of them
-    void look_ahead([[maybe_unused]] JointState const& to) {
-      if constexpr (decays) {
-        for (std::size_t lane = 0; lane < states_.size(); ++lane) decays_[lane] = states_[lane].decay_exponent(to);
-        kernels::exponential(decays_.data(), decays_.size(), decays_.data());
-      }
+    // of all lanes, then fade(), then go_on() of all lanes
+    void look_ahead([[maybe_unused]] std::size_t lane, [[maybe_unused]] JointState const& to) {
+      if constexpr (decays) decays_[lane] = states_[lane].decay_exponent(to);
     }
-    void look_ahead([[maybe_unused]] JointStates const& to) {
-      if constexpr (decays) {
-        for (std::size_t lane = 0; lane < states_.size(); ++lane)
-          decays_[lane] = states_[lane].decay_exponent(to.state(lane));
-        kernels::exponential(decays_.data(), decays_.size(), decays_.data());
-      }
+
+    void fade() {
+      if constexpr (decays) kernels::exponential(decays_.data(), decays_.size(), decays_.data());
     }
 
     void go_on(std::size_t lane, JointState const& to, double step_s) {
@@ -135,18 +123,6 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
         states_[lane].advance(to, step_s, decays_[lane]);
       else
         states_[lane].advance(to, step_s);
-    }
-
-    // for each lane the first that shares its memory
-    std::vector<State const*> who_remember() const {
-      std::vector<State const*> tellers;
-      for (State const& state : states_) {
-        tellers.push_back(&state);
-        if constexpr (may_share)
-          tellers.back() = &*std::find_if(states_.begin(), states_.end(),
-                                          [&](State const& other) { return state.shares_memory(other); });
-      }
-      return tellers;
     }
 
     std::vector<State> states_;

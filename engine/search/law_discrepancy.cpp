@@ -1,6 +1,7 @@
 #include "engine/search/law_discrepancy.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/contract.hpp"

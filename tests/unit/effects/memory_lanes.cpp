@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/effects/memory_effect.hpp"
