@@ -3,6 +3,7 @@
 `make` writes the job file, runs it once, and writes regressor and torque out of its result for programs that search only:
 n and R as uint64, the regressor by columns, the torque, all of them 8 bytes each.
 """
+
 import pathlib
 import subprocess
 import sys
@@ -17,8 +18,12 @@ RUNS, MEMBERS, GENERATIONS = 30, 30, 100
 RATE_HZ = 1000
 
 # a way to the fitness: settings of the method, and of the output
-FITNESS = {"direct": ({"fitness": "direct"}, {}), "gram": ({"fitness": "gram"}, {}),
-           "float32": ({"fitness": "direct", "precision": "float32"}, {}), "lean": ({"fitness": "gram"}, {"samples": False})}
+FITNESS = {
+    "direct": ({"fitness": "direct"}, {}),
+    "gram": ({"fitness": "gram"}, {}),
+    "float32": ({"fitness": "direct", "precision": "float32"}, {}),
+    "lean": ({"fitness": "gram"}, {"samples": False}),
+}
 
 
 def job(n, runs, members, generations, fitness):

@@ -1,9 +1,9 @@
 #pragma once
-// A vector of doubles that begins on a cache line: an unaligned 64-byte load costs two. From 4 MB on it begins on a huge
-// page and asks for more of them: kernels that stream from memory wait for page tables otherwise.
+// A vector of doubles that begins on a cache line: an unaligned 64-byte load costs two. From 4 MB on it begins on a
+// huge page and asks for more of them: kernels that stream from memory wait for page tables otherwise.
 //
-// Measured   residual_energy, AVX-512, n = 1e6, 30 members, on a shared Intel Xeon (guest of a virtual machine), % of FMA
-//            peak for R = 4, 60 with 4 KB pages: 61 59, with huge pages: 85 75
+// Measured   residual_energy, AVX-512, n = 1e6, 30 members, on a shared Intel Xeon (guest of a virtual machine), % of
+//            FMA peak for R = 4, 60 with 4 KB pages: 61 59, with huge pages: 85 75
 // Errors     std::bad_alloc
 // Threads    as std::vector
 

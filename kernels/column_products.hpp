@@ -3,8 +3,8 @@
 //
 // Equation   out = A' B
 // Shapes     A: n x n_a, B: n x n_b, out: n_a x n_b, all column-major without gaps
-// Bits       the same on every instruction set and for any company of columns: lane l of a product sums rows l, l + 8, ... in
-//            order, one rounding each, then sum_lanes()
+// Bits       the same on every instruction set and for any company of columns: lane l of a product sums rows l, l + 8,
+//            ... in order, one rounding each, then sum_lanes()
 // Speed      `a` should fit into the L2 cache (40 columns of 6000 rows): it is read once for every four columns of `b`
 // Threads    free function; does not allocate
 

@@ -3,7 +3,8 @@
 // HWY_DYNAMIC_DISPATCH of Highway do, without its library.
 //
 // Use        TORQUESCOPE_EXPORT(sum_block);                           within #if HWY_ONCE, once per function
-//            auto const kernel = TORQUESCOPE_DISPATCH(sum_block);     a reference to the function; calling it costs one jump
+//            auto const kernel = TORQUESCOPE_DISPATCH(sum_block);     a reference to the function; calling it costs one
+//            jump
 // Why        libhwy measures its clock as it is loaded: 2 ms of every process. And a pointer that was taken with
 //            HWY_DYNAMIC_DISPATCH before anything was called is a function that asks the processor for its abilities on
 //            every call, each time four instructions that a virtual machine answers in 7 to 30 us
@@ -16,7 +17,8 @@
 
 namespace torquescope::kernels {
 
-// one bit per instruction set as in HWY_TARGETS, lower ones are better: all this machine has, or the one that was forced
+// one bit per instruction set as in HWY_TARGETS, lower ones are better: all this machine has, or the one that was
+// forced
 std::int64_t chosen_targets();
 
 }  // namespace torquescope::kernels

@@ -30,7 +30,8 @@ TORQUESCOPE_EXPORT(has_fma);
 // one bit per instruction set, lower bits are better
 std::int64_t machine_targets() {
 #if HWY_ARCH_X86 && (defined(__GNUC__) || defined(__clang__))
-  // Highway also asks for LZCNT and F16C, which every processor with AVX2, BMI2 and FMA has; clang 14 cannot ask for them
+  // Highway also asks for LZCNT and F16C, which every processor with AVX2, BMI2 and FMA has; clang 14 cannot ask for
+  // them
   __builtin_cpu_init();
   std::int64_t targets = HWY_STATIC_TARGET;
   if (!__builtin_cpu_supports("ssse3")) return targets;

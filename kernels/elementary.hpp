@@ -3,8 +3,8 @@
 //
 // Bits       the same on every instruction set, for any n and any place in the array: polynomials with fused
 //            multiply-adds in one order; nothing of the system's mathematics library, so also the same on every machine
-// Error      in ULP of the result; tests/unit/kernels/elementary.cpp holds these bounds against long double. Seen: largest of some 1e6
-//            arguments
+// Error      in ULP of the result; tests/unit/kernels/elementary.cpp holds these bounds against long double. Seen:
+//            largest of some 1e6 arguments
 // In place   every output may be the input
 // Threads    free functions; do not allocate
 // Source     Cody, Waite 1980 (reduction); Tang 1989 (exponential); fdlibm k_sin, k_cos (polynomials on [-pi/4, pi/4]);

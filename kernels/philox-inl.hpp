@@ -62,8 +62,8 @@ struct PhiloxLanes {
   }
 };
 
-// Blocks of streams that differ in their second word alone: the other three are one number for all lanes, so the first two rounds
-// and half of the third are scalar ones, but for one product that all blocks of a stream share.
+// Blocks of streams that differ in their second word alone: the other three are one number for all lanes, so the first
+// two rounds and half of the third are scalar ones, but for one product that all blocks of a stream share.
 class PhiloxBlocks {
  public:
   HWY_INLINE PhiloxBlocks(PhiloxStreams const& streams, Keys const& keys, Words stream)

@@ -1,7 +1,8 @@
 #pragma once
 // Philox4x32-10 of many counters at once: blocks of many neighbouring streams.
 //
-// Equation   blocks[i][b] = philox4x32-10(counter = (first_block + b, first_word_1 + i, word_2, word_3), key), as Random123 numbers its words
+// Equation   blocks[i][b] = philox4x32-10(counter = (first_block + b, first_word_1 + i, word_2, word_3), key), as
+//            Random123 numbers its words
 // Shapes     blocks: n_streams x n_blocks x 4 words of 32 bits
 // Bits       integers: the same on every instruction set, equal to engine/base/random_stream.hpp's philox4x32
 // Range      first_word_1 + n_streams <= 2^32, first_block + n_blocks <= 2^32

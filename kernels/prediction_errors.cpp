@@ -15,8 +15,9 @@
 #define TORQUESCOPE_KERNELS_PREDICTION_ERRORS
 namespace torquescope::kernels {
 
-// samples first .. first + 7 of a stretch. Of i < first all of them have weights; of the next seven i some have, the first four samples as
-// what is left beyond a multiple of four, the others twice: as a part of their sum while i < first + 4, as what is left afterwards
+// samples first .. first + 7 of a stretch. Of i < first all of them have weights; of the next seven i some have, the
+// first four samples as what is left beyond a multiple of four, the others twice: as a part of their sum while i <
+// first + 4, as what is left afterwards
 inline constexpr std::size_t eight = 8, ends_of_eight = 11;
 constexpr std::size_t weights_of_eight(std::size_t first) { return (first + ends_of_eight) * eight; }
 

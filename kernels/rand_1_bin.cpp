@@ -92,8 +92,8 @@ struct Rows {
   }
 };
 
-// Writes parameters j .. j + count - 1 of a lane's trial; returns whether all are inside. A member's parameters lie side by
-// side: gathering one of each member costs several times as much
+// Writes parameters j .. j + count - 1 of a lane's trial; returns whether all are inside. A member's parameters lie
+// side by side: gathering one of each member costs several times as much
 HWY_INLINE bool make_parameters(Rand1Bin const& population, Rows const& rows, std::size_t lane, std::size_t j,
                                 std::size_t count, double* trials) {
   using Few = hn::CappedTag<double, Rows::draws_at_once>;

@@ -6,7 +6,8 @@
 // Shapes     samples as in gram.hpp; parameters: n_candidates x R; residuals: n_candidates x n_samples, both row-major
 // Bits       the same on every instruction set and for any company of candidates: one rounding per multiply-add; a sum
 //            adds up rows t mod 8 apart, then ((0+4)+(2+6)) + ((1+5)+(3+7))
-// Speed      samples (a block of some thousand rows) should fit into the L2 cache: they are read for every four candidates
+// Speed      samples (a block of some thousand rows) should fit into the L2 cache: they are read for every four
+//            candidates
 // Threads    free functions; do not allocate
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 #pragma once
-// Regressor and torque of 32 samples at a time (64 in float), side by side: one stream of memory instead of one per column.
+// Regressor and torque of 32 samples at a time (64 in float), side by side: one stream of memory instead of one per
+// column.
 //
 // Shapes     tiles[tile][row][32]: row r < n_regressors is column r of phi, row n_regressors is tau;
 //            sample = 32 * tile + place

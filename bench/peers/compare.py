@@ -7,6 +7,7 @@ A peer's seconds are those of its searches, without reading its data; ours twice
 process that simulates the recording, searches and stores every generation. Long peers do fewer of the 30 runs (said in the
 column "runs"; the runs of a job are equal work) and are scaled to 30.
 """
+
 import argparse
 import pathlib
 import sys
@@ -37,7 +38,9 @@ def programs(build, job, data):
     searched = lambda run: run.printed["search_s"]  # noqa: E731
     for peer in COMPILED:
         runs = runs_of(peer, job.n)
-        yield peer, runs, lambda peer=peer, runs=runs: Run([build / "bench/peers/bench_peers", peer, data, runs]), searched
+        yield peer, runs, lambda peer=peer, runs=runs: Run(
+            [build / "bench/peers/bench_peers", peer, data, runs]
+        ), searched
     runs = runs_of("scipy_de", job.n)
     yield "scipy_de", runs, lambda runs=runs: Run([sys.executable, SCIPY, data, runs]), searched
     for fitness in OURS:
@@ -62,8 +65,12 @@ def compare(build, folder, n, rounds):
         mse = done[name][0].printed.get("mse")
         rows.append([name, runs, f"{seconds[name]:.4f}", f"{median_of(done[name], lambda run: run.peak_mb):.0f}",
                      f"{mse:.7g}" if mse else "", *[f"{seconds[peer] / seconds[name]:.2f}" for peer in REFERENCES]])
-    print(f"\nn = {n}: {RUNS} runs of {MEMBERS} members and {GENERATIONS} generations, R = 4, one thread, CPU, median of {rounds}")
-    print_table(["program", "runs", "CPU s for 30", "peak MB", "median MSE", *[f"{peer} /" for peer in REFERENCES]], rows)
+    print(
+        f"\nn = {n}: {RUNS} runs of {MEMBERS} members and {GENERATIONS} generations, R = 4, one thread, CPU, median of {rounds}"
+    )
+    print_table(
+        ["program", "runs", "CPU s for 30", "peak MB", "median MSE", *[f"{peer} /" for peer in REFERENCES]], rows
+    )
 
 
 def main():

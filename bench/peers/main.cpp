@@ -1,4 +1,5 @@
-// One peer on the seed's job: bench_peers PEER FILE RUNS prints the CPU seconds of the searches alone, and what they found.
+// One peer on the seed's job: bench_peers PEER FILE RUNS prints the CPU seconds of the searches alone, and what they
+// found.
 
 #include <algorithm>
 #include <cstdio>

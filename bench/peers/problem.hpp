@@ -1,5 +1,6 @@
 #pragma once
-// The seed's job as the peers see it: regressor and torque of a single joint, a box, a budget; nothing of ours is linked.
+// The seed's job as the peers see it: regressor and torque of a single joint, a box, a budget; nothing of ours is
+// linked.
 //
 // Equation   mse(v) = sum_t (tau_t - sum_r phi_tr v_r)^2 / n over the box -1 .. 1
 // Shapes     phi: n x R, column-major; tau: n. File: n and R as uint64, phi, tau (bench/seed_job.py writes it)

@@ -1,11 +1,11 @@
 // Evaluations until the law of a missing effect is found: projected searches against searches in all parameters.
 //
-// Problems   one planted mismatch per effect and recording (tests/science/projection), baseline of four parameters; left
-//            out where the best lies outside the box of the search in all parameters
+// Problems   one planted mismatch per effect and recording (tests/science/projection), baseline of four parameters;
+//            left out where the best lies outside the box of the search in all parameters
 // Target     residual energy at most 0.1 % above the best known
-// Read       median evaluations over the recordings, runs that reached the target within the budget, the median over that
-//            of the first method, which is what a diagnosis does, and how far above the best known the worst run ended;
-//            `>`: the median run spent the budget, or (methods that end by themselves) ended short of the target
+// Read       median evaluations over the recordings, runs that reached the target within the budget, the median over
+//            that of the first method, which is what a diagnosis does, and how far above the best known the worst run
+//            ended; `>`: the median run spent the budget, or (methods that end by themselves) ended short of the target
 // Bits       the table is the same on every run and for any number of threads; microseconds go to stderr
 // Use        bench_evaluations_to_target [EFFECT...]
 

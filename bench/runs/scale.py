@@ -39,7 +39,9 @@ def whole_program(bench, most_samples):
     while n <= most_samples:
         job = SeedJob(bench.build / "bin/torquescope", bench.folder, n)
         few = bench if n <= 100_000 else Bench(bench.build, bench.folder, 1)
-        done = few.interleaved(*[lambda fitness=fitness: job.run(fitness) for fitness in ("direct", "float32", "gram", "lean")])
+        done = few.interleaved(
+            *[lambda fitness=fitness: job.run(fitness) for fitness in ("direct", "float32", "gram", "lean")]
+        )
         data_mb = n * 5 * 8 / 1e6
         rows.append([f"{n:.0e}".replace("+0", ""), *[f"{median_of(runs, lambda run: run.cpu_s):.3f}" for runs in done],
                      f"{data_mb:.1f}", *[f"{done[which][0].peak_mb:.0f}" for which in (0, 2, 3)]])
@@ -50,8 +52,13 @@ def whole_program(bench, most_samples):
 
 def storing(bench):
     rows = []
-    for n, fitness, runs, generations in ((1000, "in_time", RUNS, 100), (10_000, "in_time", RUNS, 100), (10_000, "direct", RUNS, 100),
-                                          (10_000, "gram", RUNS, 100), (1000, "gram", 10_000, 200)):
+    for n, fitness, runs, generations in (
+        (1000, "in_time", RUNS, 100),
+        (10_000, "in_time", RUNS, 100),
+        (10_000, "direct", RUNS, 100),
+        (10_000, "gram", RUNS, 100),
+        (1000, "gram", 10_000, 200),
+    ):
         data = SeedJob(bench.build / "bin/torquescope", bench.folder, n).write_data()
         few = bench if runs == RUNS else Bench(bench.build, bench.folder, 1)
         searches = [lambda stored=stored: few.search(data, fitness, runs, MEMBERS, generations, stored=stored)
@@ -59,20 +66,49 @@ def storing(bench):
         without, stored = few.interleaved(*searches)
         storing_s = median_of(stored, lambda run: run.printed["storing_s"])
         search_s = median_of(without, lambda run: run.cpu_s)
-        rows.append([f"{n} {fitness}", runs, f"{search_s:.4f}", f"{median_of(stored, lambda run: run.cpu_s):.4f}",
-                     f"{storing_s:.4f}", f"{100 * storing_s / search_s:.1f}", f"{1e6 * storing_s / (runs * (generations + 1)):.2f}"])
+        rows.append(
+            [
+                f"{n} {fitness}",
+                runs,
+                f"{search_s:.4f}",
+                f"{median_of(stored, lambda run: run.cpu_s):.4f}",
+                f"{storing_s:.4f}",
+                f"{100 * storing_s / search_s:.1f}",
+                f"{1e6 * storing_s / (runs * (generations + 1)):.2f}",
+            ]
+        )
     print("\nstoring every generation (30 members, R = 4), process CPU s")
     print_table(["n, fitness", "runs", "without", "with", "storing", "storing %", "us/generation"], rows)
 
 
 def sizes(bench):
     rows = []
-    for members, R, runs, threads in ((30, 4, 30, 1), (120, 4, 30, 1), (480, 4, 30, 1), (30, 11, 30, 1), (30, 24, 30, 1),
-                                      (30, 60, 30, 1), (30, 4, 120, 1), (30, 4, 30, 2)):
-        (done,) = bench.interleaved(lambda: bench.search(f"random:10000:{R}", "in_time", runs, members, threads=threads))
+    for members, R, runs, threads in (
+        (30, 4, 30, 1),
+        (120, 4, 30, 1),
+        (480, 4, 30, 1),
+        (30, 11, 30, 1),
+        (30, 24, 30, 1),
+        (30, 60, 30, 1),
+        (30, 4, 120, 1),
+        (30, 4, 30, 2),
+    ):
+        (done,) = bench.interleaved(
+            lambda: bench.search(f"random:10000:{R}", "in_time", runs, members, threads=threads)
+        )
         search_s = median_of(done, lambda run: run.printed["search_s"])
         each = search_s / (runs * members * (GENERATIONS + 1))
-        rows.append([f"NP {members}", R, runs, threads, f"{search_s:.3f}", f"{1e6 * each:.3f}", f"{1e9 * each / 1e4 / (R + 1):.4f}"])
+        rows.append(
+            [
+                f"NP {members}",
+                R,
+                runs,
+                threads,
+                f"{search_s:.3f}",
+                f"{1e6 * each:.3f}",
+                f"{1e9 * each / 1e4 / (R + 1):.4f}",
+            ]
+        )
     print("\nn = 1e4, every sample in time: CPU of the searches")
     print_table(["members", "R", "runs", "threads", "CPU s", "us/evaluation", "ns/multiply-add"], rows)
 

@@ -1,12 +1,13 @@
-// Our side of the seed's job without simulation, reading and terminal: DE on a linear problem, with or without storing it.
+// Our side of the seed's job without simulation, reading and terminal: DE on a linear problem, with or without storing
+// it.
 //
 // Use        bench_seed_search DATA FITNESS RUNS MEMBERS GENERATIONS THREADS[:TOGETHER] [OUT.h5]
 //            DATA: a file of bench/seed_job.py, or random:N:R; FITNESS: in_time, direct, float32, gram
 //            TOGETHER: runs side by side; without it as many as `torquescope run` takes
 //            ("in_time" keeps every sample where it is; "direct" sorts by the direction of motion where it can)
 // Prints     JSON: CPU seconds of setting up (packing, statistics), of the searches, of storing; the median MSE
-// Threads    as many as said; CPU seconds are those of the process. Storing is measured in the thread that hands results
-//            over; with one thread, what the writing thread takes is added
+// Threads    as many as said; CPU seconds are those of the process. Storing is measured in the thread that hands
+//            results over; with one thread, what the writing thread takes is added
 
 #include <algorithm>
 #include <cmath>

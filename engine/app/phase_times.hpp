@@ -1,8 +1,8 @@
 #pragma once
 // How long each phase of a command took, so that the phases add up to the whole.
 //
-// Counted    a phase lasts from its first update to the first of the next one, or to finish(): what is done between the updates
-//            of two phases belongs to the earlier. A phase that comes again is added to what it was
+// Counted    a phase lasts from its first update to the first of the next one, or to finish(): what is done between the
+//            updates of two phases belongs to the earlier. A phase that comes again is added to what it was
 // Before     the time before the first update is the phase "prepare"
 // Units      seconds of the given clock
 // Threads    one at a time

@@ -1,7 +1,8 @@
 #pragma once
 // Where the words of one command go: results to stdout, everything else to stderr, a JSON document to its place.
 //
-// Rule       --quiet silences results and notes, never errors and verdicts; --json - leaves stdout to the document alone
+// Rule       --quiet silences results and notes, never errors and verdicts; --json - leaves stdout to the document
+//            alone
 // Errors     Error 74 when the JSON file or stdout cannot be written
 
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
-// SHA-256 of bytes and of plain numbers (little-endian, as they lie in memory): identity of jobs, recordings and results.
+// SHA-256 of bytes and of plain numbers (little-endian, as they lie in memory): identity of jobs, recordings and
+// results.
 //
 // Threads    a Digest is a value used by one thread
 

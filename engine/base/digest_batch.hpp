@@ -1,9 +1,9 @@
 #pragma once
-// SHA-256 of many texts of one length: sixteen side by side in the lanes of AVX-512 where the processor has it, else two
-// (digest_pair.hpp).
+// SHA-256 of many texts of one length: sixteen side by side in the lanes of AVX-512 where the processor has it, else
+// two (digest_pair.hpp).
 //
-// Speed      16 blocks of 64 KiB on an Intel Xeon (Sapphire Rapids or later): 3.6 GB/s; in pairs 2.2, one by one 1.7. On an AMD
-//            EPYC (Zen 4) 3.4, 3.3, 1.8
+// Speed      16 blocks of 64 KiB on an Intel Xeon (Sapphire Rapids or later): 3.6 GB/s; in pairs 2.2, one by one 1.7.
+//            On an AMD EPYC (Zen 4) 3.4, 3.3, 1.8
 // Threads    free functions
 
 #include <span>

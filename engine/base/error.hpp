@@ -1,7 +1,7 @@
 #pragma once
 // What a user is told when a job, a recording or the machine is at fault: what, where, why, and what to write instead.
 //
-// Use        validate(cutoff_hz < nyquist_hz, [&] { return Problem{ExitCode::bad_job, "cutoff_hz = 600 is above ..."}; });
+// Use        validate(cutoff_hz < nyquist_hz, [&] { return Problem{ExitCode::bad_job, "cutoff_hz = 600 is above"}; });
 //            or collect several Problems and throw one Error: the user sees all of them at once.
 // Style      lower case, the offending value shown, no stack, no "please" (UX.md section 4)
 // Threads    values; Error never crosses an OpenMP region (parallel.hpp carries it out)

@@ -1,6 +1,6 @@
 #pragma once
-// Option tables: each option stands once (key, member, unit, range, meaning); reading, checks, help and stored attributes
-// all come from that line.
+// Option tables: each option stands once (key, member, unit, range, meaning); reading, checks, help and stored
+// attributes all come from that line.
 //
 // Use        OptionTable<FadeOptions> const& FadeOptions::table();
 //            {"cr_start", &FadeOptions::cr_start, "1", 0.0, 1.0, "crossover rate before adaptation"}

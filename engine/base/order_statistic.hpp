@@ -2,8 +2,9 @@
 // The k-th smallest of many numbers, without a copy of them: they are asked for again a few times instead.
 //
 // Equation   values sorted upwards, the one at index k: the same number as std::nth_element would put there
-// Method     two values of an even sample enclose the k-th with all likelihood; how many lie below and which lie between
-//            is counted, until what is left fits into `most_kept` numbers. A sample that misled costs another round
+// Method     two values of an even sample enclose the k-th with all likelihood; how many lie below and which lie
+//            between is counted, until what is left fits into `most_kept` numbers. A sample that misled costs another
+//            round
 // Rounds     two for some 1e6 values, three for more
 // Memory     twice most_kept doubles, whatever n
 // Requires   no NaN; k < number of values; for_each gives the same values each time

@@ -1,6 +1,6 @@
 #pragma once
-// Plain values as bytes and back, between a process and its child (confined.hpp): both are the same program, so there is
-// no version and no byte order. What comes back from a child that read a hostile file is not trusted either.
+// Plain values as bytes and back, between a process and its child (confined.hpp): both are the same program, so there
+// is no version and no byte order. What comes back from a child that read a hostile file is not trusted either.
 //
 // Errors     PackedReader: std::out_of_range when the bytes end early or claim more than there is
 // Threads    values

@@ -1,8 +1,8 @@
 #pragma once
 // The only place with OpenMP pragmas: independent tasks over threads, no barrier but the end.
 //
-// Errors     an exception inside a task does not cross the OpenMP region: the first one (by task index) is rethrown after
-//            all running tasks have ended; tasks not yet begun are skipped
+// Errors     an exception inside a task does not cross the OpenMP region: the first one (by task index) is rethrown
+//            after all running tasks have ended; tasks not yet begun are skipped
 // Threads    task(index, thread) runs at most once per index; thread < thread_count
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #pragma once
 // exp, log and the normal quantile with the same last bit on every machine: libm's may differ between versions.
 //
-// Only + - * / and sqrt in a fixed order (IEEE 754, no contraction); used wherever a rounded bit could change a decision
-// of an optimiser or a simulated recording.
+// Only + - * / and sqrt in a fixed order (IEEE 754, no contraction); used wherever a rounded bit could change a
+// decision of an optimiser or a simulated recording.
 //
 // Range      portable_exp: any x (underflows to 0, overflows to inf); portable_log: x > 0, normal numbers
 // Error      both at most 2 ULP on the tested range (tests/unit/base/portable_math.cpp)

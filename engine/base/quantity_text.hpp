@@ -14,8 +14,8 @@ std::string two_digits(double value);
 // "0.35 N m"; small lengths, angles and times take a milli: "3.8 ms", "0.2 mrad"
 std::string quantity_text(double value, std::string const& unit);
 
-// "between 0.40 and 0.90 rad", "between 18.9 and 19.3 s": two ends of an interval, with digits enough to tell its width; the unit
-// once where both have it
+// "between 0.40 and 0.90 rad", "between 18.9 and 19.3 s": two ends of an interval, with digits enough to tell its
+// width; the unit once where both have it
 std::string between_text(double from, double to, std::string const& unit);
 
 // "12.1 %" of 0.121; below one percent two digits: "0.56 %"

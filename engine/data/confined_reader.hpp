@@ -1,5 +1,6 @@
 #pragma once
-// A recording whose format a foreign library reads (HDF5, matio), read in a process of its own (engine/base/confined.hpp).
+// A recording whose format a foreign library reads (HDF5, matio), read in a process of its own
+// (engine/base/confined.hpp).
 //
 // Errors     what `read` throws; Error 65 when the library crashes, loops or takes too much memory: the file is damaged
 

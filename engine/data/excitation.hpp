@@ -37,8 +37,8 @@ struct Excitation {
 // speeds, directions and quadrants come from between the edges that the filter drops
 Excitation measure_excitation(Recording const& recording, Motion const& motion, FilterOptions const& options);
 
-// the same in two halves, for a caller who gives the channels away for the motion: what they show by themselves, then the
-// motion
+// the same in two halves, for a caller who gives the channels away for the motion: what they show by themselves, then
+// the motion
 Excitation measure_channels(Recording const& recording);
 void measure_motion(Motion const& motion, FilterOptions const& options, Excitation& facts);
 

@@ -1,8 +1,8 @@
 #pragma once
 // Text inside gzip bytes (RFC 1952), several members included.
 //
-// Errors     Error 65 when the bytes are damaged, end early, grow beyond the limit or beyond 200 times their size (a zip
-//            bomb: 64 MiB are let through), or are no text
+// Errors     Error 65 when the bytes are damaged, end early, grow beyond the limit or beyond 200 times their size (a
+//            zip bomb: 64 MiB are let through), or are no text
 
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 // Filtered motion of one joint at the full sampling rate: what regressor columns are computed from.
 //
-// The torque in here is still raw: torque and columns go through the same low-pass and decimation together (the parallel
-// filter of ParallelFilter), after the columns were computed from the filtered motion.
+// The torque in here is still raw: torque and columns go through the same low-pass and decimation together (the
+// parallel filter of ParallelFilter), after the columns were computed from the filtered motion.
 //
 // Shapes     n_samples each
 // Units      s, rad, rad/s, rad/s^2, N m (prismatic: m, m/s, m/s^2, N)

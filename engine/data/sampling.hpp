@@ -2,8 +2,9 @@
 // What the time stamps of a recording say: backwards, repeated, missing, jittered, or even as far as they are printed.
 //
 // Rate       the median step's, taken as the roundest number the stamps allow (within 0.5 % when they jitter)
-// Even       no stamp is further from an even grid than 2 % of a step, or than the stamps' printed digits explain. Less than
-//            that is mostly the clock of the log, not of the loop: samples moved by it obey their controller no more
+// Even       no stamp is further from an even grid than 2 % of a step, or than the stamps' printed digits explain. Less
+//            than that is mostly the clock of the log, not of the loop: samples moved by it obey their controller no
+//            more
 // Repeats    a row whose stamp equals the one before is dropped, unless coarse printing of an even clock explains it
 // Errors     Error 65: time runs backwards or stands still, steps of half a second and more (counts or milliseconds),
 //            a gap of more than 10 steps

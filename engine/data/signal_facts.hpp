@@ -16,8 +16,8 @@ double quantisation_step(std::span<double const> values);
 // more often than the values beside it (a quantised signal turning round is not at a limit)
 double limit_share(std::span<double const> values);
 
-// rows for which every value is held before the next comes, 1 where values come as they like: the step of an even grid on which
-// nine of ten changes lie. A coarse signal also repeats itself, but changes on any row
+// rows for which every value is held before the next comes, 1 where values come as they like: the step of an even grid
+// on which nine of ten changes lie. A coarse signal also repeats itself, but changes on any row
 Eigen::Index held_rows(std::span<double const> values);
 
 // standard deviation of white noise: median absolute second difference. An upper bound while the signal itself bends

@@ -33,8 +33,8 @@ class TinyIsZero {
 #endif
 };
 
-// `width` columns from `from` on, each in its lane; the other lanes repeat the last of them, so that every sample takes the same few
-// instructions
+// `width` columns from `from` on, each in its lane; the other lanes repeat the last of them, so that every sample takes
+// the same few instructions
 template <Eigen::Index lanes>
 void load(Eigen::Ref<Eigen::MatrixXd const> const& signals, Eigen::Index from, Eigen::Index width, Eigen::Index pad,
           Block<lanes>& block) {

@@ -12,8 +12,8 @@
 namespace torquescope {
 namespace {
 
-// What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted from its
-// mean and not from where the encoder reads 0. model_columns: those of the model, as `torque` is sampled
+// What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted
+// from its mean and not from where the encoder reads 0. model_columns: those of the model, as `torque` is sampled
 Eigen::VectorXd beside_the_level(ModelStage const& stage, Effect const& effect, Eigen::MatrixXd const& model_columns,
                                  Eigen::VectorXd torque) {
   if (!effect.is_level_free()) return torque;
@@ -42,16 +42,17 @@ Eigen::VectorXd whole_torque(ModelStage const& stage, CandidateColumns const& co
   return columns.plain_columns(*effect, shape) * parameters_of(stage, i);
 }
 
-// What no parameters of the model's own terms would imitate: by so much the joint deviates from its model. A stiffness that gravity
-// takes up adds nothing, however large it is
+// What no parameters of the model's own terms would imitate: by so much the joint deviates from its model. A stiffness
+// that gravity takes up adds nothing, however large it is
 Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const& torque) {
   Eigen::MatrixXd const own = stage.comparison.common.columns_themselves().leftCols(
       static_cast<Eigen::Index>(stage.model().regressor().size()));
   return beside_columns(own, torque);
 }
 
-// What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it is whatever
-// keeps the joint there and no law of the motion: a joint that stands half of the time would have all its friction there
+// What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it
+// is whatever keeps the joint there and no law of the motion: a joint that stands half of the time would have all its
+// friction there
 ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
   Motion const& motion = stage.comparison.rows.motion;

@@ -1,5 +1,6 @@
 #pragma once
-// What is told of the models before and after the search: parameters, errors, floor, noise, and how unusual the recording is among its twins.
+// What is told of the models before and after the search: parameters, errors, floor, noise, and how unusual the
+// recording is among its twins.
 //
 // Threads    free functions
 

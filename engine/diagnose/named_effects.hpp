@@ -1,5 +1,6 @@
 #pragma once
-// What is told of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told from.
+// What is told of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told
+// from.
 //
 // Waves      a second wave of one kind belongs to the first: one name, both waves' parameters, the lower order first
 // Threads    spreads the refinement of rivals over `threads`; same bits for any number

@@ -13,17 +13,18 @@
 //
 // To identify
 //            EffectInput const input{motion, scales, load_torque, model_torque};    (fitted_baseline.hpp makes it)
-//            effect.columns(input, shape, phi);                                     full rate, before the parallel filter
-//            Effects with memory run their state over the samples in order, so the motion must be whole: mask and crop
-//            the columns, never the motion.
+//            effect.columns(input, shape, phi);                                     full rate, before the parallel
+//            filter Effects with memory run their state over the samples in order, so the motion must be whole: mask
+//            and crop the columns, never the motion.
 // To simulate
 //            auto const runner = effect.runner(parameters, scales);
-//            per step: runner->advance(state, step_s);  then runner->torque(state) as often as needed: it is const, so a
-//            trial state (other ddq, other sign of dq) may be asked for. torque(state, step_s) does both.
-//            The first advance() only tells where the memory starts. state.load_torque and state.motor_torque must be set
-//            when needs_baseline(). acts_on() says where it goes: into the joint's equation of motion, into the torque
+//            per step: runner->advance(state, step_s);  then runner->torque(state) as often as needed: it is const, so
+//            a trial state (other ddq, other sign of dq) may be asked for. torque(state, step_s) does both. The first
+//            advance() only tells where the memory starts. state.load_torque and state.motor_torque must be set when
+//            needs_baseline(). acts_on() says where it goes: into the joint's equation of motion, into the torque
 //            channel, or (then it is a position) into the position channel.
-//            Columns use the fitted baseline where simulation has the motor torque: they agree to first order of the effect.
+//            Columns use the fitted baseline where simulation has the motor torque: they agree to first order of the
+//            effect.
 
 #include <Eigen/Core>
 #include <limits>
@@ -165,7 +166,8 @@ class Effect {
   std::vector<ParameterRange> linear_bounds(JointScales const&) const;  // n_linear()
   // n_shape() numbers, or none where that is the plain form
   bool takes_shape(std::size_t numbers) const { return numbers == n_shape() || (has_plain_form() && numbers == 0); }
-  // least squares can fit it and a plant can hold it as it is: no shape or a plain form, no memory, nothing but the motion
+  // least squares can fit it and a plant can hold it as it is: no shape or a plain form, no memory, nothing but the
+  // motion
   bool is_plain_term() const;
 
   virtual void columns(EffectInput const& input, std::span<double const> shape,

@@ -44,7 +44,8 @@ enum class ActsOn {
   recorded_position,  // position that is read but not there
 };
 
-// of a search over a shape parameter; cubic: from a bound that is 0, where the law is without it, by decades and yet down to it
+// of a search over a shape parameter; cubic: from a bound that is 0, where the law is without it, by decades and yet
+// down to it
 enum class Spacing { linear, logarithmic, cubic };
 
 std::string word(EffectFamily family);  // "velocity_law"

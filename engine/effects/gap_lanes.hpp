@@ -1,8 +1,9 @@
 #pragma once
-// Eight loads behind gaps side by side in vector registers, each with a law of its own: what they do in one part of a step.
+// Eight loads behind gaps side by side in vector registers, each with a law of its own: what they do in one part of a
+// step.
 //
-// Order      of a step: drive_to(), with dry friction speed_to(begins); for each part before_dry_sub_step(), whole_sub_step(),
-//            after_dry_sub_step(), drive_on(); with dry friction speed_to(not begins)
+// Order      of a step: drive_to(), with dry friction speed_to(begins); for each part before_dry_sub_step(),
+//            whole_sub_step(), after_dry_sub_step(), drive_on(); with dry friction speed_to(not begins)
 // Bits       those of one load alone (load_behind_gap.hpp) on every instruction set
 // Threads    functions of their arguments
 
@@ -39,8 +40,8 @@ struct EightLoads {
   Eight weight{}, drive{};  // where the joint is
   Eight now{}, jerk{};      // what drives them in a step
   Eight event{};            // 1 where contact begins or ends, and nothing was changed
-  // of those with dry friction: the joint's speed and what it gains in a part, the load's own direction, what drives it, friction
-  // included, and where it was before the part
+  // of those with dry friction: the joint's speed and what it gains in a part, the load's own direction, what drives
+  // it, friction included, and where it was before the part
   Eight dq{}, faster{}, slides{}, pulled{}, y_before{};
 };
 
@@ -49,13 +50,15 @@ void drive_to(EightLaws const& laws, Motions const& at, double step_s, EightLoad
 // the drive goes on for a part of it
 void drive_on(EightSubSteps const& steps, EightLoads& loads);
 
-// the speed of the joint at the end of a step, for loads with dry friction: what is gained on the way, or that it is there
+// the speed of the joint at the end of a step, for loads with dry friction: what is gained on the way, or that it is
+// there
 void speed_to(EightSubSteps const& steps, Motions const& at, bool begins, EightLoads& loads);
 // LoadBehindGap::dry_sub_step up to the sub-step itself, and after it
 void before_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads);
 void after_dry_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, EightLoads& loads);
 
-// the part of this number, of loads that have so many; whether there was any event. driven: as loads.now, or friction included
+// the part of this number, of loads that have so many; whether there was any event. driven: as loads.now, or friction
+// included
 bool whole_sub_step(EightLaws const& laws, EightSubSteps const& steps, double part, Eight const& driven,
                     EightLoads& loads);
 

@@ -1,7 +1,8 @@
 #pragma once
 // The sizes of one joint in one recording, and bounds written relative to them.
 //
-// Why        a Stribeck speed of 0.2 to 20 % of the peak speed means the same on a wrist and on a gantry; 0.01 rad/s does not
+// Why        a Stribeck speed of 0.2 to 20 % of the peak speed means the same on a wrist and on a gantry; 0.01 rad/s
+//            does not
 // Units      SI; a slide reads m for rad and N for N m
 // Threads    plain records and functions of their arguments
 // Source     PHYSICS.md section 1: "bounds are relative so they transfer"

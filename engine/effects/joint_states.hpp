@@ -1,5 +1,6 @@
 #pragma once
-// One instant of a joint, instants side by side, one array per quantity, and the functions that laws of effects are written with.
+// One instant of a joint, instants side by side, one array per quantity, and the functions that laws of effects are
+// written with.
 //
 // Shapes     n instants, n <= states_at_once: a block of a recording, the lanes of a group of twins, or one instant
 // Bits       of a law over them: the same for any n and any place (kernels/elementary.hpp), so that simulation and

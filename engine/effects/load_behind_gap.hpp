@@ -2,10 +2,11 @@
 // The state of one load behind a gap whose flanks give way: effects/backlash.cpp has its equation.
 //
 // Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
-//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency. The load's dry
-//            friction is a part of what drives it while it slides; where it has come to rest by the end of a sub-step it stays,
-//            while the motor moves on, until it is pushed by more
-// Bits       loads_behind_gap.cpp writes whole sub-steps without an event a second time, operation by operation: change both
+//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency. The load's
+//            dry friction is a part of what drives it while it slides; where it has come to rest by the end of a
+//            sub-step it stays, while the motor moves on, until it is pushed by more
+// Bits       loads_behind_gap.cpp writes whole sub-steps without an event a second time, operation by operation: change
+//            both
 
 #include <algorithm>
 #include <array>

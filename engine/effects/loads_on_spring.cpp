@@ -30,7 +30,8 @@ struct EightLoads {
   Eight y{}, dy{}, ddq{};              // relative to the motor; the motor's acceleration
 };
 
-// of the motors. Not copied into an array of eight: a vector loaded from what single numbers were just stored into waits for them
+// of the motors. Not copied into an array of eight: a vector loaded from what single numbers were just stored into
+// waits for them
 struct Accelerations {
   double const* first = nullptr;
   bool is_common = false;

@@ -1,9 +1,9 @@
 #pragma once
-// Loads on springs that may stiffen, side by side in vector registers: of one shape for twins, of one shape each for columns.
-// effects/joint_elasticity.cpp has the equation.
+// Loads on springs that may stiffen, side by side in vector registers: of one shape for twins, of one shape each for
+// columns. effects/joint_elasticity.cpp has the equation.
 //
-// Memory     y and y' of each: of a straight spring exact for an acceleration that runs straight between two samples; what stiffens is
-//            a kick before and after each step
+// Memory     y and y' of each: of a straight spring exact for an acceleration that runs straight between two samples;
+//            what stiffens is a kick before and after each step
 // Why        a sample takes some thirty operations, each of which waits for the one before: eight loads wait together
 // Bits       the same on every instruction set and in every lane
 // Threads    the memory is used by one thread

@@ -4,15 +4,19 @@
 //
 //   void start(JointState const& state)
 //   void advance(JointState const& state, double step_s)                                    step_s > 0
-//   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it stands
+//   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it
+//   stands
 //
-// Decay      a class whose memory fades by an exponential may leave that to the lanes, which take all of theirs at once:
+// Decay      a class whose memory fades by an exponential may leave that to the lanes, which take all of theirs at
+//            once:
 //   double decay_exponent(JointState const& state) const                                    until this state
-//   void advance(JointState const& state, double step_s, double decay)                      decay: e to that, instead of the above
+//   void advance(JointState const& state, double step_s, double decay)                      decay: e to that, instead
+//   of the above
 //
-// Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or time
-// Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for all of
-//            them and not once for each: a twin takes 50 000 steps per second
+// Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or
+//            time
+// Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for
+//            all of them and not once for each: a twin takes 50 000 steps per second
 // Threads    an EffectMemory is used by one thread
 
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 // What a state computes from the length of a step, kept for the last few lengths.
 //
-// Why        the times of a recording are rounded: its steps are two or three neighbouring doubles in turns, each asked for thousands of
-//            times, and exponentials and sines of them would be most of the work
+// Why        the times of a recording are rounded: its steps are two or three neighbouring doubles in turns, each asked
+//            for thousands of times, and exponentials and sines of them would be most of the work
 // Threads    a value that belongs to one state
 
 #include <array>

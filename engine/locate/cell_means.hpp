@@ -1,9 +1,10 @@
 #pragma once
 // Sums of the recording's and every twin's residual over the cells of one axis, each direction of motion apart.
 //
-// Why apart  the residual itself shows what is even in the direction, the residual along the motion what is odd; both come
-//            from the same sums
-// Side       forward where `sign` > 0; sign is that of the velocity, or of the model's torque for CellReading::along_torque
+// Why apart  the residual itself shows what is even in the direction, the residual along the motion what is odd; both
+//            come from the same sums
+// Side       forward where `sign` > 0; sign is that of the velocity, or of the model's torque for
+//            CellReading::along_torque
 // Shapes     cells x (1 + M), the recording first, then the twins
 // Threads    spreads columns over `threads`; same bits for any number
 

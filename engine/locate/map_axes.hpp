@@ -7,9 +7,9 @@
 //            distances since a reversal     equally populated: they crowd near zero
 //            order, frequency               wave_spectrum.hpp
 // Load       load torque along the motion: sign(dq) * load torque; above zero the motor drives, below it is driven
-// Shown      what the mean of a cell is the mean of. The residual itself, but along the motion for load and distance since
-//            a velocity reversal, along the model's torque for distance since a torque reversal: what depends on these
-//            axes changes its sign with the direction, and would average out
+// Shown      what the mean of a cell is the mean of. The residual itself, but along the motion for load and distance
+//            since a velocity reversal, along the model's torque for distance since a torque reversal: what depends on
+//            these axes changes its sign with the direction, and would average out
 // Requires   rows that move one way (reversal_mask.hpp), or all but rests (friction_buildup.hpp)
 // Units      SI of the joint's kind
 // Threads    free functions

@@ -1,18 +1,18 @@
 #pragma once
 // The normal distribution of CMA-ES: where it samples, and what it learns from the order of its samples.
 //
-// Equation   x = m + sigma B D z,  C = B D^2 B^T;  m moves to the weighted mean of the better half; sigma follows the length of
-//            the path p_sigma (cumulative step size adaptation), C the path p_c (rank one) and the better half (rank mu).
-//            Weights are positive only: not active
-// Order      only the order of fitness counts, so nothing changes when fitness goes through an increasing function. Samples
-//            without finite fitness have no place in the order: with fewer than mu others, these share the weight; with
-//            none, nothing is learned
+// Equation   x = m + sigma B D z,  C = B D^2 B^T;  m moves to the weighted mean of the better half; sigma follows the
+//            length of the path p_sigma (cumulative step size adaptation), C the path p_c (rank one) and the better
+//            half (rank mu). Weights are positive only: not active
+// Order      only the order of fitness counts, so nothing changes when fitness goes through an increasing function.
+//            Samples without finite fitness have no place in the order: with fewer than mu others, these share the
+//            weight; with none, nothing is learned
 // Shapes     R parameters, in units of the search box (0 .. 1, but unbounded here); one sample per column
-// Limits     no standard deviation grows beyond the box; collapsed() when one is below 1e-12 of it, or when the axes of C
-//            differ by 1e14 in variance: rounding would decide from there on
+// Limits     no standard deviation grows beyond the box; collapsed() when one is below 1e-12 of it, or when the axes of
+//            C differ by 1e14 in variance: rounding would decide from there on
 // Threads    a value; const calls allocate
-// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016), appendix A and table 1; the rank-mu
-//            rate is that of its first version
+// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016), appendix A and table 1; the
+//            rank-mu rate is that of its first version
 
 #include <Eigen/Core>
 #include <cstddef>

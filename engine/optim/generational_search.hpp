@@ -4,8 +4,8 @@
 //
 // Random     trial of member i in generation t: stream (key, t, i); so ask() is a pure function of the state
 // Promise    candidates are inside the bounds; a candidate without finite fitness is counted and never selected
-// State      optimiser_state.hpp, and what the kind adds; restore() throws std::invalid_argument, and changes nothing, for
-//            another kind, size or key
+// State      optimiser_state.hpp, and what the kind adds; restore() throws std::invalid_argument, and changes nothing,
+//            for another kind, size or key
 
 #include <cstddef>
 #include <span>

@@ -48,7 +48,8 @@ inline void mutate_rand_1(MatrixView<double const> members, std::array<std::size
   for (std::size_t j = 0; j < mutant.size(); ++j) mutant[j] = base[j] + F * (plus[j] - minus[j]);
 }
 
-// v = x + F (x_best - x) + F (x_plus - x_minus)                          (JADE's current-to-pbest/1 where best is one of many)
+// v = x + F (x_best - x) + F (x_plus - x_minus)                          (JADE's current-to-pbest/1 where best is one
+// of many)
 inline void mutate_current_to_best_1(std::span<double const> target, std::span<double const> best,
                                      std::span<double const> plus, std::span<double const> minus, double F,
                                      std::span<double> mutant) {

@@ -51,8 +51,8 @@ class Optimiser {
   virtual std::size_t dimension() const = 0;
   // members of the next batch
   virtual std::size_t batch_size() const = 0;
-  // members of the largest batch, and of the largest population, from beginning to end: what is stored has room for them.
-  // More than batch_size() only where a population shrinks
+  // members of the largest batch, and of the largest population, from beginning to end: what is stored has room for
+  // them. More than batch_size() only where a population shrinks
   virtual std::size_t largest_batch() const { return batch_size(); }
   // fills batch_size() rows; calling it twice without tell() gives the same rows
   virtual void ask(MatrixView<double> candidates) const = 0;
@@ -60,8 +60,8 @@ class Optimiser {
   virtual void tell(MatrixView<double const> asked, std::span<double const> fitness) = 0;
 
   virtual Progress const& progress() const = 0;
-  // current population after selection: members x dimension, and its fitness (+inf where there was no finite one). Methods
-  // that keep a distribution rather than members: the candidates told last
+  // current population after selection: members x dimension, and its fitness (+inf where there was no finite one).
+  // Methods that keep a distribution rather than members: the candidates told last
   virtual MatrixView<double const> population() const = 0;
   virtual std::span<double const> fitness() const = 0;
 

@@ -1,13 +1,13 @@
 #pragma once
 // What F and CR succeeded with: the memory from which L-SHADE draws each trial's controls.
 //
-// Equation   F ~ Cauchy(M_F,r, 0.1), again while F <= 0, at most 1;  CR ~ Normal(M_CR,r, 0.1), clipped to 0 .. 1; r uniform.
-//            After a generation with successes the next entry, in turn, becomes their weighted Lehmer means
+// Equation   F ~ Cauchy(M_F,r, 0.1), again while F <= 0, at most 1;  CR ~ Normal(M_CR,r, 0.1), clipped to 0 .. 1; r
+//            uniform. After a generation with successes the next entry, in turn, becomes their weighted Lehmer means
 //              mean(S) = sum w s^2 / sum w s,  w = f(x) - f(u) of the success, over its sum
 //            An entry whose successes all had CR = 0 is terminal: CR = 0 from then on, and it stays terminal
 // Random     one draw for r, one for CR, one or more for F
-// Source     Tanabe, Fukunaga: Improving the search performance of SHADE using linear population size reduction, CEC 2014,
-//            eq. 1-7 and algorithm 1
+// Source     Tanabe, Fukunaga: Improving the search performance of SHADE using linear population size reduction, CEC
+//            2014, eq. 1-7 and algorithm 1
 
 #include <cstddef>
 #include <span>

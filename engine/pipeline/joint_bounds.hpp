@@ -24,8 +24,9 @@ struct JointBounds {
 
 JointBounds joint_bounds(JointModel const& model);
 
-// Which parameters cannot be negative and are by themselves all that an effect has of size. Of an effect with more of them one may be
-// 0, and stands for a shape then (a damping beside a distance) that would take its place if it could be less
+// Which parameters cannot be negative and are by themselves all that an effect has of size. Of an effect with more of
+// them one may be 0, and stands for a shape then (a damping beside a distance) that would take its place if it could be
+// less
 std::vector<bool> sizes_of_effects(JointModel const& model);
 
 // what a fit heeds of them (joint_fit.hpp)

@@ -1,10 +1,11 @@
 #pragma once
-// The noise of a recording's rows as least squares should see it: coloured along the rows, and dry friction that wanders.
+// The noise of a recording's rows as least squares should see it: coloured along the rows, and dry friction that
+// wanders.
 //
-// Wander     a random walk of the level of dry friction about its mean, torque(t) = friction(t) * x(t), in its Karhunen-Loeve
-//            modes: cosines of time. With modes W (rows x K, whitened, in standard deviations of the white noise) the covariance is I + W W', and signals
-//            become (I + W W')^(-1/2) signals: a direction along which friction may wander by itself counts for less, one
-//            that no wander can imitate counts in full
+// Wander     a random walk of the level of dry friction about its mean, torque(t) = friction(t) * x(t), in its
+//            Karhunen-Loeve modes: cosines of time. With modes W (rows x K, whitened, in standard deviations of the
+//            white noise) the covariance is I + W W', and signals become (I + W W')^(-1/2) signals: a direction along
+//            which friction may wander by itself counts for less, one that no wander can imitate counts in full
 // Equation   the same on torque and columns, so that torque = columns * parameters goes on holding
 // Shapes     friction: torque of dry friction at every kept sample of the pipeline; signals: rows x any number
 // Units      SI; variance of the wander: share of the level, squared, per second

@@ -33,7 +33,8 @@ std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const
 }
 
 // Twice the fastest flank that the catalogue looks for (effects/backlash.cpp): a part that rings or knocks integrates
-// what drives it twice, so that noise up there does not matter, and a flank of 100 Hz that is driven up to 60 Hz is another one
+// what drives it twice, so that noise up there does not matter, and a flank of 100 Hz that is driven up to 60 Hz is
+// another one
 FilterOptions driving_options(FilterOptions options, double rate_hz) {
   constexpr double per_parallel_cutoff = 6.0, most_of_rate = 0.4;
   double const wide_hz = std::min(per_parallel_cutoff * parallel_cutoff_of(options), most_of_rate * rate_hz);
@@ -81,8 +82,8 @@ ProcessedRecord RecordPipeline::process_smooth(Recording&& recording, SmoothPosi
   return record;
 }
 
-// columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle. What two
-// waves of the same effect have in common is there once: friction that changes along the travel has one slope
+// columns of the baseline, and those of effects that this joint has at all: a slide knows no sine of its angle. What
+// two waves of the same effect have in common is there once: friction that changes along the travel has one slope
 std::vector<Eigen::Index> RecordPipeline::present_columns(Eigen::MatrixXd const& columns) const {
   auto const baseline = static_cast<Eigen::Index>(model_.regressor().size());
   std::vector<Eigen::Index> present;

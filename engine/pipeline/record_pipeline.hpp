@@ -1,10 +1,11 @@
 #pragma once
-// What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot differ.
+// What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot
+// differ.
 //
 // Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, weights of the
 //            rows by their noise (noise_weights.hpp) where they were set, least squares
-// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column, but for
-//            parameters that are at a bound (joint_fit.hpp)
+// Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column, but
+//            for parameters that are at a bound (joint_fit.hpp)
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
 //            edges and mask, in time order
 // Memory     about 100 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
@@ -36,8 +37,7 @@ struct ProcessedRecord {
   // before whitening, in torque units throughout; empty where nothing was whitened
   Eigen::MatrixXd plain_columns{};
   Eigen::VectorXd plain_torque{};
-  Motion
-      drive{};  // the same with a wider band: what moves parts that have an inertia; empty in a twin whose model has none
+  Motion drive{};  // the same with a wider band, for parts that have an inertia; empty in a twin whose model has none
   std::string held{};  // "inertia" or "dry friction" where its fit is at a bound (joint_fit.hpp)
 
   double energy() const { return residual.squaredNorm(); }
@@ -92,7 +92,8 @@ class RecordPipeline {
   SmoothPositions smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const;
   // of a recording whose position is to be that column
   ProcessedRecord process_smooth(Recording&& recording, SmoothPositions const& positions, Eigen::Index column) const;
-  // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay empty
+  // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay
+  // empty
   ProcessedRecord prepare(Recording const& recording) const;
   // the same record on fewer of its rows, fitted again; name: of the recording, for the message when that fails
   ProcessedRecord restricted(ProcessedRecord record, std::vector<Eigen::Index> const& kept_rows,

@@ -42,8 +42,8 @@ RecordedLoop common_parts(Recording const& recording) {
   return result;
 }
 
-// A step of the encoder must not ask for more torque than the recording has: at a high rate a stiff loop would shake the
-// joint by rounding alone. Its answer is 2 inertia omega per difference of one sample
+// A step of the encoder must not ask for more torque than the recording has: at a high rate a stiff loop would shake
+// the joint by rounding alone. Its answer is 2 inertia omega per difference of one sample
 double widest_of_encoder(Recording const& recording, double inertia) {
   double const step = recording.rows.encoder_step;
   if (step <= 0.0 || recording.reference.size() == recording.position.size())
@@ -52,10 +52,12 @@ double widest_of_encoder(Recording const& recording, double inertia) {
   return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
 }
 
-// The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as the
-// filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it run away
+// The measured motion without what its encoder adds. Beyond its ends it goes on as its odd reflection, for as long as
+// the filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it
+// run away
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
-  // beside a reference this is the last resort, and a joint that runs away even so is what the torque cannot be right for
+  // beside a reference this is the last resort, and a joint that runs away even so is what the torque cannot be right
+  // for
   if (recording.reference.size() == recording.position.size()) return differentiate(recording, filter, {}).q;
   if (filter.cutoff_hz == 0.0) return recording.position;
   constexpr double periods = 3.0;
@@ -73,8 +75,8 @@ Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const&
   return differentiate(std::move(longer), filter, {}).q.segment(pad, n);
 }
 
-// Below it the velocity of the smoothed motion may be noise alone. What smoothing takes away is noise, and as much of it
-// per hertz is left below the cut-off
+// Below it the velocity of the smoothed motion may be noise alone. What smoothing takes away is noise, and as much of
+// it per hertz is left below the cut-off
 double slowest_velocity(Recording const& recording, Eigen::VectorXd const& smooth, double encoder_step,
                         FilterOptions const& filter) {
   constexpr double standard_deviations = 5.0;
@@ -86,8 +88,9 @@ double slowest_velocity(Recording const& recording, Eigen::VectorXd const& smoot
   return standard_deviations * 2.0 * std::numbers::pi * band_hz * noise * std::sqrt(share / 3.0);
 }
 
-// Whether of the torque that was asked for beyond a limit of the law the joint has needed, and so has got, the greater part: the drive's
-// limit lets nothing of it through, the channel's lets all of it. side: 1 of the upper limit, -1 of the lower one
+// Whether of the torque that was asked for beyond a limit of the law the joint has needed, and so has got, the greater
+// part: the drive's limit lets nothing of it through, the channel's lets all of it. side: 1 of the upper limit, -1 of
+// the lower one
 bool is_limit_of_channel(ControllerFit const& fit, double side, Eigen::VectorXd const& needed) {
   constexpr double half = 0.5;  // as near to all of it as to nothing
   double const limit = side > 0.0 ? fit.law.most : fit.law.least;

@@ -2,11 +2,12 @@
 // What makes a diagnosis of a recording hopeless before it begins: no search, no name, a way out.
 //
 // Insufficient   one direction, one speed, hardly more than the encoder's steps, too short
-//                a motion that keeps to one speed and only ramps through the others shows what happens at places, so it is
-//                searched; but when nothing is found, that says nothing of laws of the speed
-// Data fault     the torque channel sits at its limit, is held so long that it has less than four values in a period of the filter's
-//                cut-off (it would be late by an eighth of one), has nothing to do with the motion, or its sign is wrong: it takes work
-//                out of a joint that only has friction, and the fit asks for less inertia or friction than none
+//                a motion that keeps to one speed and only ramps through the others shows what happens at places, so it
+//                is searched; but when nothing is found, that says nothing of laws of the speed
+// Data fault     the torque channel sits at its limit, is held so long that it has less than four values in a period of
+//                the filter's cut-off (it would be late by an eighth of one), has nothing to do with the motion, or its
+//                sign is wrong: it takes work out of a joint that only has friction, and the fit asks for less inertia
+//                or friction than none
 // Units          as Excitation
 // Threads        free function
 // Source         PHYSICS.md section 2 step 1; UX.md section 3 (abstention)

@@ -28,8 +28,8 @@ void bridge(Eigen::VectorXd& values, std::vector<bool> const& known) {
   values.tail(values.size() - 1 - before).setConstant(values[before]);
 }
 
-// torque of the simulator that its terms do not give, at the full rate. Where the joint rests or turns the sign of a noisy
-// velocity says nothing about friction and both chatter, each in its own way: bridged, no row sees those samples
+// torque of the simulator that its terms do not give, at the full rate. Where the joint rests or turns the sign of a
+// noisy velocity says nothing about friction and both chatter, each in its own way: bridged, no row sees those samples
 Eigen::VectorXd beyond_terms(Recording const& recording, ProcessedRecord const& of_simulator,
                              Regressor const& regressor) {
   Eigen::VectorXd beyond =
@@ -44,8 +44,8 @@ Eigen::VectorXd beyond_terms(Recording const& recording, ProcessedRecord const& 
 SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& pipeline) {
   TORQUESCOPE_EXPECT(recording.simulated_torque.size() == recording.torque.size());
 
-  // the simulator seen through the terms of the model, on the same rows as the joint itself. It says what the motion of a row needs,
-  // where the joint's torque is held
+  // the simulator seen through the terms of the model, on the same rows as the joint itself. It says what the motion of
+  // a row needs, where the joint's torque is held
   Recording simulated = recording;
   simulated.torque = torque_to_hold(recording.simulated_torque);
   ProcessedRecord const of_simulator = pipeline.process(simulated);

@@ -7,8 +7,8 @@
 namespace torquescope {
 namespace {
 
-// Evaluations of a direct search that take as long as two sweeps. Measured on AVX-512 with 30 members (scripts/bench): 52, 60,
-// 106, 206 for 4, 11, 24, 60 parameters. A coarse rule does: a search of one run evaluates thousands of times.
+// Evaluations of a direct search that take as long as two sweeps. Measured on AVX-512 with 30 members (scripts/bench):
+// 52, 60, 106, 206 for 4, 11, 24, 60 parameters. A coarse rule does: a search of one run evaluates thousands of times.
 std::int64_t repaid_after(Eigen::Index n_parameters) { return 40 + 3 * static_cast<std::int64_t>(n_parameters); }
 
 FitnessChoice every_sample(ObjectiveOptions const& options, std::string const& why) {

@@ -21,7 +21,8 @@ struct FitnessChoice {
   std::string words;  // "statistics (auto): ...", for the log and the result file
 };
 
-// whether statistics have to be made: decided before they are, which costs two sweeps; evaluations: at most, of all runs
+// whether statistics have to be made: decided before they are, which costs two sweeps; evaluations: at most, of all
+// runs
 bool wants_statistics(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations);
 
 // statistics: may be nullptr when wants_statistics() says no

@@ -10,8 +10,8 @@ namespace {
 
 constexpr Eigen::Index rows_at_a_time = 8192;
 
-// visit(scores, fresh) of blocks of a recording's rows; the rows before the last `fresh` ones (at most `before`) belong to
-// the block before
+// visit(scores, fresh) of blocks of a recording's rows; the rows before the last `fresh` ones (at most `before`) belong
+// to the block before
 template <class Visit>
 void for_each_block(RowScores const& rows, std::size_t recording, Eigen::Index before, Visit const& visit) {
   Eigen::Index const begin = rows.first_row[recording], end = rows.first_row[recording + 1];

@@ -52,8 +52,8 @@ struct Needs {
   }
 };
 
-// The columns of every term, one term after the other. A used up motion goes as soon as no later term needs it, velocity and
-// acceleration anyway when phi holds them
+// The columns of every term, one term after the other. A used up motion goes as soon as no later term needs it,
+// velocity and acceleration anyway when phi holds them
 void make_columns(Motion& motion, Regressor const& regressor, RowMotion row_motion, RegressionData& rows) {
   constexpr Eigen::Index block_rows = 4096;
   Eigen::Index const n = motion.q.size();

@@ -64,8 +64,8 @@ struct RegressionData {
   bool forgotten_forwards_ = false, forgotten_backwards_ = false;
 };
 
-// what is wanted beside phi and tau: time_s, q, dq and ddq (several recordings); of them what phi and rate do not tell (a
-// single recording); nothing. What is not kept makes room for phi while it is made
+// what is wanted beside phi and tau: time_s, q, dq and ddq (several recordings); of them what phi and rate do not tell
+// (a single recording); nothing. What is not kept makes room for phi while it is made
 enum class RowMotion { kept, once, used_up };
 
 // the next recording's rows, below those that are there; takes the motion

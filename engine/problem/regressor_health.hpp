@@ -3,9 +3,9 @@
 //
 // Equation   condition = largest / smallest singular value of phi (raw) and of phi with columns of length one (scaled)
 //            correlation_ij = phi_i . phi_j / (|phi_i| |phi_j|), not centred: an offset column counts too
-// Limits     a pair is warned of above |correlation| 0.995, where each of the two is ten times less certain than alone; above
-//            0.95 (three times) it is worth a remark: every job with gravity and a travel below a turn has one, and its
-//            intervals say what that costs. A group above scaled condition 30 (Belsley, Kuh, Welsch 1980)
+// Limits     a pair is warned of above |correlation| 0.995, where each of the two is ten times less certain than alone;
+//            above 0.95 (three times) it is worth a remark: every job with gravity and a travel below a turn has one,
+//            and its intervals say what that costs. A group above scaled condition 30 (Belsley, Kuh, Welsch 1980)
 // Errors     not_identifiable: Error 65 naming the columns and the motion that would separate them
 // Threads    free functions
 
@@ -27,8 +27,8 @@ struct RegressorHealth {
   double condition_number_raw = 0.0;  // with units as they are: what limits a search that does not scale
   Eigen::MatrixXd correlation;        // [R][R]
   bool identifiable = true;
-  // "" when healthy: "viscous and offset correlate 0.9971: trust what both make together, neither value by itself; wider speeds
-  // would help"
+  // "" when healthy: "viscous and offset correlate 0.9971: trust what both make together, neither value by itself;
+  // wider speeds would help"
   std::string words;
   std::string remark;  // of what is healthy: "offset and gravity_cos correlate 0.98: ..."; "" when words say more
 };

@@ -4,8 +4,8 @@
 // Equation   [triangle; next block] = Q [new triangle; 0], from the first block to the last but one; what remains,
 //            [triangle; last block], has the R factor, the solution and the singular values of all rows
 // Why        a QR of the whole needs a copy of the regressor or two; this one needs a block
-// Error      as Householder QR of the whole: every step is an orthogonal transformation (Demmel, Grigori, Hoemmen, Langou
-//            2012, section 4); one block is the rows themselves, bit for bit
+// Error      as Householder QR of the whole: every step is an orthogonal transformation (Demmel, Grigori, Hoemmen,
+//            Langou 2012, section 4); one block is the rows themselves, bit for bit
 // Shapes     n rows, R columns; reduced: at most R + block_rows rows
 // Bits       the same for any number of threads; block_rows changes last digits
 // Threads    free functions

@@ -1,5 +1,6 @@
 #pragma once
-// The fitness of a search in float32: half the memory, up to twice the speed, for recordings whose noise hides the rounding.
+// The fitness of a search in float32: half the memory, up to twice the speed, for recordings whose noise hides the
+// rounding.
 //
 // Equation   fitness = sum_t (tau_t - phi_t x)^2, divided by n for FitnessScale::mse (kernels/float_energy.hpp)
 // Shapes     candidates: members x R, row-major

@@ -77,8 +77,8 @@ Eigen::VectorXd solve_root(RowMajor const& root, Eigen::VectorXd right) {
   return right;
 }
 
-// high + low = left right, all upper triangular. Along a weak direction the rows of the root cancel, and what rounding takes
-// from them would be left: a double holds 53 bits of each, these two 64
+// high + low = left right, all upper triangular. Along a weak direction the rows of the root cancel, and what rounding
+// takes from them would be left: a double holds 53 bits of each, these two 64
 void multiply(RowMajor const& left, RowMajor const& right, RowMajor& high, RowMajor& low) {
   auto const n = left.rows();
   high = low = RowMajor::Zero(n, n);

@@ -1,6 +1,6 @@
 #pragma once
-// Everything that has a name and can be listed or described: effects, optimisers, readers, losses, estimators, job sections.
-// Made from the registries and option tables; nothing is written twice.
+// Everything that has a name and can be listed or described: effects, optimisers, readers, losses, estimators, job
+// sections. Made from the registries and option tables; nothing is written twice.
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 // Which code computes here: what must be equal for two processes to write parts of one result.
 //
-// Bits       threads, shards and the vector target change none (kernels/dispatch.hpp), so none of them is in the identity;
-//            sources, compiler, kind of build and version are
+// Bits       threads, shards and the vector target change none (kernels/dispatch.hpp), so none of them is in the
+//            identity; sources, compiler, kind of build and version are
 // Threads    free functions
 
 #include <string>

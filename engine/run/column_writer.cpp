@@ -1,4 +1,5 @@
-// `torquescope diagnose --columns`: what the engine would search, as plain numbers in a file (RESULT_FORMAT.md, /columns).
+// `torquescope diagnose --columns`: what the engine would search, as plain numbers in a file (RESULT_FORMAT.md,
+// /columns).
 
 #include "engine/diagnose/column_export.hpp"
 #include "engine/run/diagnosis_input.hpp"

@@ -12,7 +12,8 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
                              std::function<Diagnosis()> const& find) {
   Beginning const beginning;
   auto const& parts = experiment.parts();
-  // whether there may be a file is asked before hours are spent; while they pass, there is none that a killed process would leave
+  // whether there may be a file is asked before hours are spent; while they pass, there is none that a killed process
+  // would leave
   { TempFile const asked(request.output); }
   Diagnosis diagnosis = find();
   ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});

@@ -114,7 +114,8 @@ void write_candidates(ResultWriter& writer, std::string const& group, std::vecto
       .numbers("p", [](C const& c) { return c.p; }, {"1", "p-value from the clean twins"})
       .numbers("q", [](C const& c) { return c.q; }, {"1", "false-discovery level"})
       .numbers("gain", [](C const& c) { return c.gain; }, {"1", "share of the mismatch explained"})
-      .numbers("cv_gain", [](C const& c) { return c.cv_gain; }, {"1", "of the mismatch on blocks of time that nothing was fitted to"})
+      .numbers("cv_gain", [](C const& c) { return c.cv_gain; },
+               {"1", "of the mismatch on blocks of time that nothing was fitted to"})
       .numbers("chance_z", [](C const& c) { return c.chance_z; }, {"1", "z that 95 % of the clean twins stay below"});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Writes a diagnosis into a result file: /diagnosis (RESULT_FORMAT.md), everything a page needs, and the verdict's JSON.
+// Writes a diagnosis into a result file: /diagnosis (RESULT_FORMAT.md), everything a page needs, and the verdict's
+// JSON.
 //
 // Absent     lists without entries are not written; unknown numbers are NaN
 // Errors     those of ResultWriter

@@ -1,8 +1,8 @@
 #pragma once
 // Is there room for what a job will write? Asked before hours are spent on it.
 //
-// Counts     numbers of the histories and of the samples, 8 bytes each, and a little for names; a tenth of it with gzip (histories
-//            shrink to a fifth, but a result that would fit must never be refused)
+// Counts     numbers of the histories and of the samples, 8 bytes each, and a little for names; a tenth of it with gzip
+//            (histories shrink to a fifth, but a result that would fit must never be refused)
 // Errors     74 with path, bytes needed and bytes free; where the file system does not say, there is room
 // Threads    free functions
 

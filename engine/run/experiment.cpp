@@ -153,8 +153,8 @@ std::vector<std::string> Experiment::warnings() const {
 
 std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
-  // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what costs an interval
-  // nothing but width is in the interval
+  // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what
+  // costs an interval nothing but width is in the interval
   std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;
   if (!words.empty()) lines.push_back("regressor: " + words);
   return lines;

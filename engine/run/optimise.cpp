@@ -15,9 +15,9 @@ namespace {
 // candidates of one task when a team splits a batch: two register groups of the kernel
 constexpr std::size_t team_block = 12;
 
-// Up to this size a recording waits for 30 candidates in a cache that is fast enough. Measured on a Xeon with 2 MB of L2
-// per core (bench_seed_search, 4 runs side by side against 1, CPU time, fastest of 4 or 5): no gain at 0.4 to 4 MB for R = 4,
-// 4 % at 5 MB for R = 60, 14 % at 49 MB for R = 60; from memory 3, 12 and 15 % for R = 4, 24, 60.
+// Up to this size a recording waits for 30 candidates in a cache that is fast enough. Measured on a Xeon with 2 MB of
+// L2 per core (bench_seed_search, 4 runs side by side against 1, CPU time, fastest of 4 or 5): no gain at 0.4 to 4 MB
+// for R = 4, 4 % at 5 MB for R = 60, 14 % at 49 MB for R = 60; from memory 3, 12 and 15 % for R = 4, 24, 60.
 constexpr std::size_t cached_bytes = std::size_t{4} << 20;
 // Candidates of a sweep that waits for arithmetic, not for memory: 240 gained at most 2 % over 120.
 constexpr std::size_t candidates_per_sweep = 120;

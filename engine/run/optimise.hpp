@@ -1,12 +1,13 @@
 #pragma once
-// Runs of a population method: ask, evaluate, tell, record, until a rule says stop. Several runs of one estimator go side
-// by side, generation by generation, and share one sweep over the recording; each ends when its own rules say so.
+// Runs of a population method: ask, evaluate, tell, record, until a rule says stop. Several runs of one estimator go
+// side by side, generation by generation, and share one sweep over the recording; each ends when its own rules say so.
 //
-// Bits       each history depends on its optimiser's key alone: not on its neighbours, nor on the size of the team, nor on
-//            where it was interrupted and went on
-// Errors     Error 75 when stop_requested() says so between two generations, every run having been kept; an exception of
-//            one run ends them all
-// Threads    all runs of a call in the caller's thread; a team of more than one splits each batch into blocks of candidates
+// Bits       each history depends on its optimiser's key alone: not on its neighbours, nor on the size of the team, nor
+//            on where it was interrupted and went on
+// Errors     Error 75 when stop_requested() says so between two generations, every run having been kept; an exception
+//            of one run ends them all
+// Threads    all runs of a call in the caller's thread; a team of more than one splits each batch into blocks of
+//            candidates
 
 #include <cstddef>
 #include <cstdint>
@@ -36,8 +37,8 @@ struct SearchSetting {
   std::function<double(std::span<double const>)> gap_to_floor;        // MSE above the OLS floor, without cancellation
   std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a sweep, any thread
   std::function<bool()> stop_requested{};
-  // asked after every generation; when true, and before a stop, keep() gets each run that has not ended (index: its place
-  // among the starts)
+  // asked after every generation; when true, and before a stop, keep() gets each run that has not ended (index: its
+  // place among the starts)
   std::function<bool()> keep_now{};
   std::function<void(std::size_t index, RunHistory const& so_far, Optimiser const& search)> keep{};
 };

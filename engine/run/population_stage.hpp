@@ -1,5 +1,6 @@
 #pragma once
-// All runs of one population method, or a shard's share of them: each from its beginning, or from where segments have it.
+// All runs of one population method, or a shard's share of them: each from its beginning, or from where segments have
+// it.
 //
 // Bits       a run's history is the same however often it was interrupted
 // Threads    commit() by one thread at a time, in the order of the runs, with `hdf5` held

@@ -1,7 +1,7 @@
 #pragma once
-// Writes how a result was made. What must be equal for equal bits stands in the result: /provenance. What differs from one
-// attempt to the next (when, where, how many threads, who wrote which segment) stands beside it in RESULT.made.json, so that
-// equal jobs give equal files, byte for byte (RESULT_FORMAT.md).
+// Writes how a result was made. What must be equal for equal bits stands in the result: /provenance. What differs from
+// one attempt to the next (when, where, how many threads, who wrote which segment) stands beside it in
+// RESULT.made.json, so that equal jobs give equal files, byte for byte (RESULT_FORMAT.md).
 //
 // Errors     those of ResultWriter; 74 when the file beside it cannot be written
 
@@ -26,7 +26,8 @@ struct Beginning {
   double seconds() const;  // since then
 };
 
-// the last that is written: /provenance, then the result is published, then what stands beside it. Returns content_sha256
+// the last that is written: /provenance, then the result is published, then what stands beside it. Returns
+// content_sha256
 std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
                           Beginning const& beginning, std::vector<SegmentOrigin> const& segments = {});
 

@@ -90,8 +90,8 @@ bool RunKeeper::all_handed_over() const {
   return std::all_of(under_way_.begin(), under_way_.end(), [&](auto const& run) { return run.second >= interval; });
 }
 
-// of runs that have ended the oldest first, and half of it, so that this is seldom; what is under way is handed over for an
-// interval's end or a stop only, and stays
+// of runs that have ended the oldest first, and half of it, so that this is seldom; what is under way is handed over
+// for an interval's end or a stop only, and stays
 void RunKeeper::let_go_of_some(std::size_t most_bytes) {
   if (pending_bytes_ <= most_bytes) return;
   for (auto run = pending_.begin(); run != pending_.end() && pending_bytes_ > most_bytes / 2;) {

@@ -1,7 +1,8 @@
 #pragma once
 // Some generations of one run, [first, first + count): what a segment holds, and what a run goes on from.
 //
-// Lists      of one number per generation, but population (NP x R) and fitness (NP); `history_lists` names them all once
+// Lists      of one number per generation, but population (NP x R) and fitness (NP); `history_lists` names them all
+//            once
 // Threads    plain records and free functions
 
 #include <array>

@@ -1,9 +1,10 @@
 #pragma once
-// Spreads independent runs over threads without a barrier and hands their results over in the order of the runs. A task is a
-// group of neighbouring runs that go side by side on one thread.
+// Spreads independent runs over threads without a barrier and hands their results over in the order of the runs. A task
+// is a group of neighbouring runs that go side by side on one thread.
 //
-// Threads    run(first, count, team) is called from any thread, each index being in one group; `team` threads are its own
-//            to split a population with; commit(index, result) is called by one thread at a time, index = 0, 1, 2, ...
+// Threads    run(first, count, team) is called from any thread, each index being in one group; `team` threads are its
+//            own to split a population with; commit(index, result) is called by one thread at a time, index = 0, 1, 2,
+//            ...
 // Errors     the first exception of a group ends the spreading and is rethrown after the running ones have ended
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
-// The box the population methods look in: [model.bounds] with "every = [-1, 1]" for all parameters, "inertia = [0, 2]" for one.
+// The box the population methods look in: [model.bounds] with "every = [-1, 1]" for all parameters, "inertia = [0, 2]"
+// for one.
 //
 // Errors     problems are appended (78): unknown parameter, not two numbers, low not below high
 

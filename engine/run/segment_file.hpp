@@ -3,9 +3,10 @@
 //
 // Use        write_segment() once; SegmentFile reads it back, its index first, histories when they are asked for
 // Trust      the index is believed after its own checksums; histories only after verify(), which reads everything
-// Harm       checksums do not keep out who computes them, and HDF5 crashes on some such files: look_at_segment() opens one
-//            in a child first, and what did no harm there is read here
-// Errors     writing: those of ResultWriter (74); reading: those of ResultReader (65 for whatever is damaged or not ours)
+// Harm       checksums do not keep out who computes them, and HDF5 crashes on some such files: look_at_segment() opens
+//            one in a child first, and what did no harm there is read here
+// Errors     writing: those of ResultWriter (74); reading: those of ResultReader (65 for whatever is damaged or not
+//            ours)
 // Threads    as HDF5: one of the process at a time
 
 #include <cstdint>
@@ -73,12 +74,12 @@ class SegmentFile {
   std::map<std::string, Index> estimators_;
 };
 
-// opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when HDF5
-// crashes, loops or takes too much memory
+// opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when
+// HDF5 crashes, loops or takes too much memory
 void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look);
 
-// The same for many, in one process: a process costs as much as a small segment. Whether each was read without complaint; what
-// was not is to be looked at by itself, which says why
+// The same for many, in one process: a process costs as much as a small segment. Whether each was read without
+// complaint; what was not is to be looked at by itself, which says why
 std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& names,
                                     std::function<void(SegmentFile const&)> const& look);
 

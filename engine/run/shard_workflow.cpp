@@ -1,4 +1,5 @@
-// `torquescope run --shard I/N`: some runs of a job, into segments that `merge` makes a result of; and what segments say.
+// `torquescope run --shard I/N`: some runs of a job, into segments that `merge` makes a result of; and what segments
+// say.
 
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is POSIX, <csignal> does not promise it
 

@@ -33,8 +33,8 @@ struct CheckLine {
 // a job that was read, checked and turned into objects (recordings are read, nothing has run)
 class Experiment {
  public:
-  // what a job is loaded for decides what it must have: [[estimator]] to identify, nothing more to diagnose; to check it,
-  // [[estimator]] or [diagnose]
+  // what a job is loaded for decides what it must have: [[estimator]] to identify, nothing more to diagnose; to check
+  // it, [[estimator]] or [diagnose]
   enum class Purpose { identify, diagnose, check };
   // Errors: 66, 65, 78 with everything that can be refused before starting
   static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
@@ -103,9 +103,9 @@ struct IdentifyReport {
   std::optional<WrittenResult> result{};  // what it says
 };
 
-// runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not needed.
-// Goes on from the segments of OUTPUT.parts, and leaves some there when it is stopped or killed (RESULT_FORMAT.md). Error 73
-// when a living process is at it, 74 when there is no room for the result
+// runs every estimator of the job and writes the result file; takes the experiment, to free what is written and not
+// needed. Goes on from the segments of OUTPUT.parts, and leaves some there when it is stopped or killed
+// (RESULT_FORMAT.md). Error 73 when a living process is at it, 74 when there is no room for the result
 IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
 
 // the share of the runs that options.shard says, into segments alone
@@ -115,8 +115,8 @@ struct ShardReport {
 };
 ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress);
 
-// the same file as identify() would have written, from segments alone. Error 75 when runs are missing, unless `partial`:
-// these are NaN then
+// the same file as identify() would have written, from segments alone. Error 75 when runs are missing, unless
+// `partial`: these are NaN then
 enum class Completeness { whole, partial };
 IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Completeness wanted,
                      ProgressSink const& progress);
@@ -152,13 +152,14 @@ struct DiagnoseRequest {
   ShardChoice shard{};           // of the twins; every shard makes the whole result
 };
 
-// Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With several
-// shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result stands. Error 74 when there is no
-// room for the result; 73 when a living process is at this shard; 75 too when another shard has published the result
+// Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With
+// several shards twins are exchanged in OUTPUT.parts (twin_folder.hpp), which goes when the result stands. Error 74
+// when there is no room for the result; 73 when a living process is at this shard; 75 too when another shard has
+// published the result
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress);
 
-// writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods other
-// than ours; no diagnosis is made. Returns how many effects have columns
+// writes the columns that every effect of the catalogue has on the job's recordings (column_export.hpp), for methods
+// other than ours; no diagnosis is made. Returns how many effects have columns
 struct ColumnsReport {
   std::size_t effects = 0;
   std::size_t rows = 0;  // of the training recording

@@ -23,14 +23,15 @@ bool is_axis_of(JointModel const& model, GenericAxis const& axis) {
   });
 }
 
-// of the first excess: a level of friction that falls once and for all is found and removed, and the weighed rest is still most of it
+// of the first excess: a level of friction that falls once and for all is found and removed, and the weighed rest is
+// still most of it
 double share_in_torque_itself(ModelStage const& baseline, ModelStage const& final) {
   double const first = excess_in_torque_itself(baseline);
   return first > 0.0 ? std::max(0.0, excess_in_torque_itself(final)) / first : 1.0;
 }
 
-// What it tells that a share of the energy lies within a share of the axis: the information (Kullback, Leibler) against energy that is
-// spread evenly; 0 where there is less than that. What spans its axis says nothing however much it holds
+// What it tells that a share of the energy lies within a share of the axis: the information (Kullback, Leibler) against
+// energy that is spread evenly; 0 where there is less than that. What spans its axis says nothing however much it holds
 double told_by(double energy, double even) {
   if (!(energy > even) || !(even > 0.0)) return 0.0;
   double const outside = energy < 1.0 ? (1.0 - energy) * std::log((1.0 - energy) / (1.0 - even)) : 0.0;
@@ -42,9 +43,9 @@ struct ToldPart {
   UnexplainedPart part{};
 };
 
-// A spectrum has one sign, so that its regions grow together over most of it: told is the stretch of one that tells most. Any law of
-// the motion leaves most where the torque has most, and noise is everywhere: what is beyond the twins must
-// surprise for the stretch's share of the torque and for its width
+// A spectrum has one sign, so that its regions grow together over most of it: told is the stretch of one that tells
+// most. Any law of the motion leaves most where the torque has most, and noise is everywhere: what is beyond the twins
+// must surprise for the stretch's share of the torque and for its width
 ToldPart told_stretch(MapAxis const& axis, MismatchRegion const& region) {
   std::vector<MapCell> cells;
   double energy = 0.0, beyond = 0.0;

@@ -1,8 +1,8 @@
 #pragma once
 // What a model leaves on blocks of time that it was not fitted to: what a cross-validated gain is a share of.
 //
-// Why        of the mismatch itself a gain on unseen blocks can be more than all of it: there the model alone predicts worse than on
-//            the rows that it was fitted to
+// Why        of the mismatch itself a gain on unseen blocks can be more than all of it: there the model alone predicts
+//            worse than on the rows that it was fitted to
 // Units      energy of the stage's rows
 // Threads    free function
 

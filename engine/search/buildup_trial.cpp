@@ -38,8 +38,8 @@ double left_beside(Eigen::MatrixXd const& nuisance, Eigen::VectorXd const& signa
   return beside(nuisance, signal).squaredNorm() - noise * (1.0 + 1.0 / m);
 }
 
-// Nested loops have parameters enough for any law of building up, and no bound on what they add up to: where the simpler
-// law explains half as much it is the one that is modelled, and the other is asked as its rival
+// Nested loops have parameters enough for any law of building up, and no bound on what they add up to: where the
+// simpler law explains half as much it is the one that is modelled, and the other is asked as its rival
 Trial simplest_of(std::vector<Trial> trials) {
   constexpr double half = 0.5;
   auto const most = std::max_element(trials.begin(), trials.end(),

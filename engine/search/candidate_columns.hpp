@@ -1,9 +1,10 @@
 #pragma once
 // The columns of effects on the common motion, as the fit would see them, and what is left of them beside the model.
 //
-// Motion     of the twin without noise, as a rule: no noise of the recording gets into a statistic. On the recording's own a law shows
-//            that shapes the motion itself (own_motion.hpp)
-// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those are
+// Motion     of the twin without noise, as a rule: no noise of the recording gets into a statistic. On the recording's
+//            own a law shows that shapes the motion itself (own_motion.hpp)
+// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those
+//            are
 // Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
 //            wrong shape leaves must not take a second name (LESSONS item 11)
 //            More can be added: laws that are neither known nor asked for
@@ -50,7 +51,8 @@ class CandidateColumns {
   OrthonormalGroup group(Effect const& effect, std::span<double const> shape) const;
   // of several shapes: their columns go through the filter side by side
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
-  // The same to the last digit as columns() and group() of one shape after the other, which the projection of groups() is not
+  // The same to the last digit as columns() and group() of one shape after the other, which the projection of groups()
+  // is not
   std::vector<Eigen::MatrixXd> columns_of_each(Effect const& effect,
                                                std::vector<std::vector<double>> const& shapes) const;
   std::vector<OrthonormalGroup> group_of_each(Effect const& effect,
@@ -71,7 +73,8 @@ class CandidateColumns {
   Eigen::MatrixXd model_columns_, tangents_, nuisance_;
 };
 
-// a step of a shape parameter for a difference quotient: small against its bounds, inside them; 0 where they leave one value
+// a step of a shape parameter for a difference quotient: small against its bounds, inside them; 0 where they leave one
+// value
 double shape_step(ParameterRange const& range, double value);
 
 }  // namespace torquescope

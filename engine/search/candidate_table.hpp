@@ -1,10 +1,10 @@
 #pragma once
 // The candidates as the diagnosis lists them: the step at which nothing was named yet, and what became of each.
 //
-// Order      by what they explain of the mismatch; without a mismatch by how far they are beyond chance. Names that are withdrawn
-//            come first: refined in shape they explained most, and they are what a verdict speaks of
-// Reason     of every one but what is named: what the search said of it last (Selection::rejected), else what is known of it from the
-//            first step
+// Order      by what they explain of the mismatch; without a mismatch by how far they are beyond chance. Names that are
+//            withdrawn come first: refined in shape they explained most, and they are what a verdict speaks of
+// Reason     of every one but what is named: what the search said of it last (Selection::rejected), else what is known
+//            of it from the first step
 // Threads    free functions
 
 #include <string>

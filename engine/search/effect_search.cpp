@@ -35,7 +35,8 @@ EffectSearch::EffectSearch(StageSetting const& setting, SelectionOptions const& 
   });
 }
 
-// What is missing may have taken nearly all of the inertia away, so that no loop holds the joint: then a heavier one is the start
+// What is missing may have taken nearly all of the inertia away, so that no loop holds the joint: then a heavier one is
+// the start
 bool EffectSearch::begin_somehow() {
   constexpr double heavier_share = 0.1;
   try {
@@ -129,7 +130,8 @@ bool EffectSearch::opens(CandidateColumns const& columns, std::vector<EffectScan
   double const drift = largest_drift_share(columns, scans, q);
   bool const is_clear =
       is_significant(stage()) || std::max(energy_share(stage(), found), drift) > smallest_mismatch_share;
-  // what a first name leaves is as certain as the name: to be worth another it must be more than a word's worth of the whole
+  // what a first name leaves is as certain as the name: to be worth another it must be more than a word's worth of the
+  // whole
   bool const may_be_faint = found > 0.0 && !is_clear && (is_first || found > worth_another * selection_.whole());
   double const certain = may_be_faint ? largest_certain_share(columns, scans, q) : 0.0;
   is_faint_ = is_first && !is_clear && certain <= smallest_mismatch_share;
@@ -156,8 +158,8 @@ double EffectSearch::largest_certain_share(CandidateColumns const& columns, std:
   return energy_share(stage(), largest);
 }
 
-// Of changes of dry friction over time, beyond chance: what they take from the mismatch in the torque itself, as a share of the whole
-// torque. Rows weighed by how much friction may wander make little of it, whatever its size
+// Of changes of dry friction over time, beyond chance: what they take from the mismatch in the torque itself, as a
+// share of the whole torque. Rows weighed by how much friction may wander make little of it, whatever its size
 double EffectSearch::largest_drift_share(CandidateColumns const& columns, std::vector<EffectScan> const& scans,
                                          std::vector<double> const& q) const {
   double largest = 0.0;
@@ -227,7 +229,8 @@ bool EffectSearch::is_taken(Effect const* effect) const {
   return !effect->is_wave() && selection_.has_accepted(effect);
 }
 
-// twins with the refined shape, or with that of the own motion where it promises to explain a good part of what they leave, and does
+// twins with the refined shape, or with that of the own motion where it promises to explain a good part of what they
+// leave, and does
 std::optional<ModelStage> EffectSearch::draft_of(Trial const& trial) const {
   ModelStage const& before = stage();
   auto const draft = [&](std::vector<double> const& shape) {

@@ -1,6 +1,6 @@
 #pragma once
-// One line of the forward search: a stage, what was accepted on the way to it, and the next round. What a round asks for is
-// said in forward_selection.hpp, whose part this is. A copy is cheap (stages are shared) and goes its own way.
+// One line of the forward search: a stage, what was accepted on the way to it, and the next round. What a round asks
+// for is said in forward_selection.hpp, whose part this is. A copy is cheap (stages are shared) and goes its own way.
 //
 // Threads    as the stages; a line is used by one thread
 // Errors     Error 65 from the constructor: the baseline cannot be fitted, or its twins do not follow the reference
@@ -29,7 +29,8 @@ inline bool is_drift_of_friction(Effect const& effect) {
 struct Round {
   bool is_taken = false;
   bool began_again = false;  // among twins whose friction wanders by itself: what was before is forgotten
-  // Nine tenths as good as what was taken, and refused by nothing but the order; not what happens once, nor a change over time
+  // Nine tenths as good as what was taken, and refused by nothing but the order; not what happens once, nor a change
+  // over time
   std::vector<Trial> nearly_taken{};
   std::shared_ptr<EffectSearch const> before{};  // the line when all had been searched and nothing taken
 };

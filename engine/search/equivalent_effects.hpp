@@ -2,12 +2,14 @@
 // Which other effects explain an accepted effect's part of the torque as well: what cannot be excluded.
 //
 // Part       mismatch of the final stage plus the accepted effect itself, beside all other effects of the model
-// Rival      of the same equivalence families, or with half of its gain in the first scan; its shape refined on that part
+// Rival      of the same equivalence families, or with half of its gain in the first scan; its shape refined on that
+//            part
 // Excluded   when the advantage of the accepted effect over it is larger than
 //              what chance gives if the rival were the truth: twins' residuals on top of the rival's torque, and
-//              what the accepted effect itself leaves unexplained, for a rival that explains nine tenths as much: a form that
-//              is wrong by that much cannot exclude another that is wrong by little more. What begins at an instant fits whatever
-//              happened once with the edges it wants: it excludes no law that explains nine tenths as much
+//              what the accepted effect itself leaves unexplained, for a rival that explains nine tenths as much: a
+//              form that is wrong by that much cannot exclude another that is wrong by little more. What begins at an
+//              instant fits whatever happened once with the edges it wants: it excludes no law that explains nine
+//              tenths as much
 // Threads    spreads grid points over `threads`; same bits for any number
 // Source     PHYSICS.md section 2 step 10; non-nested models by simulation: Cox 1962, Williams 1970
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double follows_p = 0.005;  // as a candidate that is certain
 
-// A controller's law is one of the torque as its rows say it: put back in time, the torque of a stiff one is no longer what it answers.
-// The loop that was found before stays, if twins follow in it
+// A controller's law is one of the torque as its rows say it: put back in time, the torque of a stiff one is no longer
+// what it answers. The loop that was found before stays, if twins follow in it
 Selection select_in_loop(StageSetting& setting, std::shared_ptr<RecordedLoop const> const& as_read,
                          SelectionOptions const& options, StageSink const& progress) {
   if (!setting.loop && loses_the_law(*as_read, setting.recording)) {

@@ -31,9 +31,9 @@ bool is_any_nothing(JointModel const& model, BaselineCorrection const& baseline)
   return false;
 }
 
-// A fit is a statistic from which twins take the bias. Where processing takes more from an effect's column than the effect gives, the fit of
-// a right one is negative, and that of its twins the more so: a bound would make all of them 0 and hide the effect.
-// Where one of them is nothing without the bias, too, all are fitted within their bounds
+// A fit is a statistic from which twins take the bias. Where processing takes more from an effect's column than the
+// effect gives, the fit of a right one is negative, and that of its twins the more so: a bound would make all of them 0
+// and hide the effect. Where one of them is nothing without the bias, too, all are fitted within their bounds
 BaselineTwin twin_of_free_or_bounded_fit(StageSetting const& setting, RecordPipeline& pipeline,
                                          TwinOptions const& options) {
   auto const make = [&] {

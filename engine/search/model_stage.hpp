@@ -1,6 +1,6 @@
 #pragma once
-// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes a
-// new stage, twins included, for a mismatch means nothing against twins of another model.
+// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes
+// a new stage, twins included, for a mismatch means nothing against twins of another model.
 //
 // Threads    spreads twins over `threads`; same bits for any number; a stage is a plain record
 // Source     LESSONS items 5, 8, 13 of our own prototype
@@ -64,13 +64,13 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
 // Errors     Error 65 as the pipeline and the twins, for a model without effects only
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);
 
-// The same model with all its twins, its levels known and rows weighed by the noise that its own twins have. What is missing at first passes for noise in part, so
-// that the weights of one stage are too coarse for the next
+// The same model with all its twins, its levels known and rows weighed by the noise that its own twins have. What is
+// missing at first passes for noise in part, so that the weights of one stage are too coarse for the next
 std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
 
-// Whether the last effect of the stage, as corrected by its own twins, is more than twice as large as it can be: a bound on a
-// linear parameter is told in sizes of the joint, by this stage or by the one before, whichever says more. Least squares on two columns that
-// are nearly the same finds such pairs, and no joint has them
+// Whether the last effect of the stage, as corrected by its own twins, is more than twice as large as it can be: a
+// bound on a linear parameter is told in sizes of the joint, by this stage or by the one before, whichever says more.
+// Least squares on two columns that are nearly the same finds such pairs, and no joint has them
 bool is_far_too_large(ModelStage const& stage, JointScales const& before);
 
 // energy of a stage's mismatch under another one's weights, over that under its own: what a unit of energy has become

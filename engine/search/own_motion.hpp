@@ -1,10 +1,11 @@
 #pragma once
 // The shape of a law as the recording's own motion tells it.
 //
-// Why        candidate columns are computed from the motion of a twin without the law (candidate_columns.hpp). A law that shapes the
-//            motion itself looks different there: a load that rings behind a spring takes out of the motor's motion the very frequency
-//            that drives it, one behind a gap knocks the motor at other instants. The recording's own motion has all that, and
-//            noise of its encoder, which biases a shape a little: good enough to make twins with, no statistic
+// Why        candidate columns are computed from the motion of a twin without the law (candidate_columns.hpp). A law
+//            that shapes the motion itself looks different there: a load that rings behind a spring takes out of the
+//            motor's motion the very frequency that drives it, one behind a gap knocks the motor at other instants. The
+//            recording's own motion has all that, and noise of its encoder, which biases a shape a little: good enough
+//            to make twins with, no statistic
 // Threads    spreads grid and populations over `threads`; same bits for any number
 
 #include <cstdint>
@@ -25,13 +26,14 @@ struct BothMotions {
 struct OwnMotionSearch {
   std::string optimiser = "de";
   std::uint64_t seed = 0;
-  // Not next to the grid's best point alone: what rings has a maximum of its own for every cycle that two shapes have in common, and
-  // the grid is too coarse to tell which is the highest. Eight members a shape: of six seeds,
-  // three to six found the shape of a gap with 20 members, five or six with 40
+  // Not next to the grid's best point alone: what rings has a maximum of its own for every cycle that two shapes have
+  // in common, and the grid is too coarse to tell which is the highest. Eight members a shape: of six seeds, three to
+  // six found the shape of a gap with 20 members, five or six with 40
   bool everywhere = false;
 };
 
-// The searches of one effect, each made once: that of the whole bounds begins with what is next to the grid's best point
+// The searches of one effect, each made once: that of the whole bounds begins with what is next to the grid's best
+// point
 class OwnMotionShapes {
  public:
   // own: columns on the recording's motion; scan: of the effect, with its grid; all of them outlive this

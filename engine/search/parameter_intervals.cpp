@@ -42,7 +42,8 @@ CoefficientBounds room_of(ModelStage const& stage, CandidateColumns const& colum
   return room;
 }
 
-// torque of twins apart from their mean: what the twin's own fit took up is put back, residual + columns (fit - mean fit)
+// torque of twins apart from their mean: what the twin's own fit took up is put back, residual + columns (fit - mean
+// fit)
 Eigen::MatrixXd twins_apart(ModelStage const& stage, CandidateColumns const& columns) {
   auto const& rows = stage.comparison.rows;
   Eigen::MatrixXd const fits = stage.comparison.twin_fits.transpose();
@@ -92,8 +93,8 @@ void widen_by_levels(Eigen::VectorXd& half, ModelStage const& stage, CandidateCo
   }
 }
 
-// half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more; and what a law that
-// leaves something may hide, which no chance is
+// half of the intervals: chance over twins, or what leaving out a tenth of the record changes when that is more; and
+// what a law that leaves something may hide, which no chance is
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   CoefficientBounds const room = room_of(stage, columns);
   Eigen::MatrixXd const all = columns.with_tangents();

@@ -2,8 +2,9 @@
 // The shape of one effect that explains most of the mismatch: a population search in the shapes alone, the linear
 // parameters solved inside (variable projection), then Levenberg-Marquardt from the best.
 //
-// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter too. Where parts
-//            ring, the grid is too coarse to point anywhere, and the whole of the bounds is searched (ShapeSearch::everywhere)
+// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter
+//            too. Where parts ring, the grid is too coarse to point anywhere, and the whole of the bounds is searched
+//            (ShapeSearch::everywhere)
 // Polish     steps of the mismatch on [columns | tangents of the shapes], damped, inside the bounds of the effect
 // Evaluation one evaluation = columns of the effect at one shape through the filter
 // Same bits  for any number of threads: members of a population are independent, random numbers addressed
@@ -51,13 +52,14 @@ struct RefinedEffect {
   std::vector<Improvement> improvements{};
 };
 
-// mismatch: n rows. Where the best shape is none that the effect could have (Effect::is_plausible), the best that it could have
-// if that explains nine tenths of it, which is what the form of a law may cost; else the best of all, for the caller to refuse
+// mismatch: n rows. Where the best shape is none that the effect could have (Effect::is_plausible), the best that it
+// could have if that explains nine tenths of it, which is what the form of a law may cost; else the best of all, for
+// the caller to refuse
 RefinedEffect refine_shape(CandidateColumns const& columns, EffectScan const& scan, Eigen::VectorXd const& mismatch,
                            ShapeSearch const& search, int threads);
 
-// the best that it could have, begun at the grid's point that explains most of the mismatch on these columns' motion; nothing where none
-// explains any
+// the best that it could have, begun at the grid's point that explains most of the mismatch on these columns' motion;
+// nothing where none explains any
 std::optional<RefinedEffect> refine_plausible(CandidateColumns const& columns, EffectScan const& scan,
                                               Eigen::VectorXd const& mismatch, ShapeSearch const& search, int threads);
 

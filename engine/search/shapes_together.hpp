@@ -1,6 +1,6 @@
 #pragma once
-// Shapes of one effect side by side: the filter takes eight columns in the time of one, and states that remember do not wait for
-// themselves.
+// Shapes of one effect side by side: the filter takes eight columns in the time of one, and states that remember do not
+// wait for themselves.
 //
 // Together   up to eight shapes, fewer where a thread would be left without
 // Threads    spreads the parts over `threads`

@@ -1,12 +1,13 @@
 #pragma once
-// In which order candidates with a refined shape are tried for a name, and whether they help where they were not fitted.
+// In which order candidates with a refined shape are tried for a name, and whether they help where they were not
+// fitted.
 //
-// Order      most gain first. Something that acts all the time and explains, on blocks it was not fitted to, half as much and no less
-//            than what happens once does there comes before that, for it fits any one peak. Among those that give 97 %
-//            of the first one's gain, another wave of what is named already first, then fewer parameters,
-//            those of a law's plain form (Effect::has_plain_form) where that gives as much
-// Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so that its
-//            spread says nothing
+// Order      most gain first. Something that acts all the time and explains, on blocks it was not fitted to, half as
+//            much and no less than what happens once does there comes before that, for it fits any one peak. Among
+//            those that give 97 % of the first one's gain, another wave of what is named already first, then fewer
+//            parameters, those of a law's plain form (Effect::has_plain_form) where that gives as much
+// Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so
+//            that its spread says nothing
 // Threads    free functions
 // Source     LESSONS items 9, 11 and 17 of our own prototype
 
@@ -38,8 +39,8 @@ std::vector<Trial> in_order_of_trial(std::vector<Trial> trials);
 
 bool helps_elsewhere(BlockedGain const& cv, double gain);
 
-// Nothing in other blocks of time can speak for it: it begins at an instant, or it reaches its limit mostly in one block, and what is left of
-// it elsewhere does not help. For its refusal; the order above asks for instants alone
+// Nothing in other blocks of time can speak for it: it begins at an instant, or it reaches its limit mostly in one
+// block, and what is left of it elsewhere does not help. For its refusal; the order above asks for instants alone
 bool happens_once(Trial const& trial);
 
 }  // namespace torquescope

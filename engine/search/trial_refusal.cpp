@@ -18,9 +18,9 @@ bool EffectSearch::is_large_in_torque_itself(CandidateColumns const& columns, Re
   return whole > 0.0 && gain >= least_share_of_rest * whole;
 }
 
-// Twins that follow a measured motion answer the noise of their encoder in another loop than the recording's, half a tick late
-// as it does, and are led through reversals by it: what is faint there, or follows the acceleration, may be a difference of loops;
-// so may a time of less than a row, however clear it is
+// Twins that follow a measured motion answer the noise of their encoder in another loop than the recording's, half a
+// tick late as it does, and are led through reversals by it: what is faint there, or follows the acceleration, may be a
+// difference of loops; so may a time of less than a row, however clear it is
 bool EffectSearch::may_be_another_loop(Effect const& effect, double gain, Eigen::VectorXd const& parameters) const {
   bool const follows_acceleration = effect.family() == EffectFamily::acceleration;
   if (setting_.loop->source != LoopSource::tracking) return false;
@@ -45,8 +45,8 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   if (!region.holds() && setting_.ablation.region_consistency)
     return fmt::format("takes {:.0f} % of its gain where it acts ({:.0f} % is asked for)", 100.0 * region.share,
                        100.0 * region.asked_for);
-  // What happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it. Where the whole
-  // mismatch is small it must be certain by itself
+  // What happens once cannot be checked on other blocks, and fits whatever twins cannot repeat: more is asked of it.
+  // Where the whole mismatch is small it must be certain by itself
   bool const is_once = happens_once(trial);
   if (is_once && is_faint_ && trial.q > faint_q)
     return "happens once, and is too faint to be told from what twins cannot repeat";

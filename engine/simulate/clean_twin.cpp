@@ -16,8 +16,8 @@ namespace {
 // streams have a second half, for what goes beside the first: no batch has so many groups
 constexpr std::uint32_t slow_groups = std::uint32_t{1} << 24;
 
-// Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise is
-// only logged, and one pattern of rounding would pass for all there is.
+// Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise
+// is only logged, and one pattern of rounding would pass for all there is.
 void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, TwinTrack const& track,
                  double* position) {
   for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
@@ -28,9 +28,9 @@ void draw_starts(TwinAddress const& address, std::uint32_t group, TwinLoop const
   }
 }
 
-// Where the encoder's steps lie is not known better than a step: what rounding makes of one motion is noise, not physics.
-// With the steps in one place all twins of an undisturbed joint would share nearly every reading, and one pattern of
-// rounding would pass for all there is.
+// Where the encoder's steps lie is not known better than a step: what rounding makes of one motion is noise, not
+// physics. With the steps in one place all twins of an undisturbed joint would share nearly every reading, and one
+// pattern of rounding would pass for all there is.
 void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const& loop, double* phase) {
   for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
     RandomStream random({address.seed, address.recording, RandomDomain::twin},
@@ -40,8 +40,8 @@ void draw_phases(TwinAddress const& address, std::uint32_t group, TwinLoop const
   }
 }
 
-// The recording's first position is what the encoder read: a joint whose readings are off begins where it would read that.
-// Otherwise the law sees the whole error arrive in one tick
+// The recording's first position is what the encoder read: a joint whose readings are off begins where it would read
+// that. Otherwise the law sees the whole error arrive in one tick
 void read_as_recorded(TwinJoint const& joint, LaneInstant const& start, double* position) {
   alignas(64) double read[twin_lanes];
   std::copy_n(position, twin_lanes, read);

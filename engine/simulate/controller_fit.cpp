@@ -50,8 +50,8 @@ double white_bound(SampleRows const& rows) { return z_white / std::sqrt(static_c
 
 using Terms = std::vector<ReferenceTerm>;
 
-// Both windows, by Schwarz's criterion: a law that looks further back than the narrow one would be taken for a shifted one,
-// and the wide one contains small shifts
+// Both windows, by Schwarz's criterion: a law that looks further back than the narrow one would be taken for a shifted
+// one, and the wide one contains small shifts
 int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) {
   constexpr std::size_t enough = 8192;
   SampleRows const rows = thinned(all, enough);
@@ -73,8 +73,8 @@ int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) 
   return best;
 }
 
-// For rows that the fit has not seen: the narrow window, unless the wide one explains so much more that the law must look
-// that far (a feedforward at the corners of a trapezoid)
+// For rows that the fit has not seen: the narrow window, unless the wide one explains so much more that the law must
+// look that far (a feedforward at the corners of a trapezoid)
 ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& all) {
   constexpr std::size_t enough = 8192;
   SampleRows const rows = thinned(all, enough);

@@ -2,7 +2,8 @@
 // The discrete controller of a recording, by one linear regression of the torque on what a controller can see.
 //
 // Equation   u_k = kp e_k + ki sum_(i<=k) e_i + sum_i d_i (q_(k-i) - q_(k-i-1)) + sum_j f_j (r_(k+j+1) - r_(k+j)) +
-//            terms of r fed forward + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, j = -5 .. 1, r read at k + shift
+//            terms of r fed forward + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, j = -5 .. 1, r read at
+//            k + shift
 // Choice     shift in -2 .. 2 by the least residual, 0 unless another is better at 0.1 %; 3, 6 or 12 lags by Akaike's
 //            criterion (a velocity filter needs more of the past than a difference)
 // Terms      friction and gravity fed forward, when there are any (feedforward_search.hpp)

@@ -2,7 +2,8 @@
 // Where the torque of a recording stops following its law because the controller could not ask for more.
 //
 // Law        the rows where the law asks for most, as many as one common level explains better than the law does: their
-//            mean is the limit, unless six deviations of the noise do not tell the two apart or a larger torque was reached
+//            mean is the limit, unless six deviations of the noise do not tell the two apart or a larger torque was
+//            reached
 // Units      of the torque
 // Shapes     rows ascend
 // Threads    free functions
@@ -20,8 +21,8 @@ struct ControllerLimits {
   bool any() const { return std::isfinite(least) || std::isfinite(most); }
 };
 
-// The inner part of the torque's range, where no limit can be. Choosing rows by the torque itself biases a little, hence
-// only for the first looks: alignment and limits.
+// The inner part of the torque's range, where no limit can be. Choosing rows by the torque itself biases a little,
+// hence only for the first looks: alignment and limits.
 SampleRows inner_rows(LoopSignals const& signals, SampleRows const& rows);
 
 ControllerLimits find_limits(LoopSignals const& signals, ControllerRegression const& fit, SampleRows const& rows);

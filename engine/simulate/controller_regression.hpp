@@ -1,9 +1,10 @@
 #pragma once
-// One linear regression of the torque on what a controller of a given shape can see (controller_fit.hpp chooses shapes).
+// One linear regression of the torque on what a controller of a given shape can see (controller_fit.hpp chooses
+// shapes).
 //
 // Equation   u_k = sum of columns: e_k = r_(k+shift) - q_k; q_(k-i) - q_(k-i-1), i = 0 .. lags-1; r_(k+shift+j+1) -
-//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; terms of the reference fed forward; sum_(i<=k) e_i last, if
-//            there is an integral
+//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; terms of the reference fed forward; sum_(i<=k) e_i
+//            last, if there is an integral
 // Rank       columns of no use (a reference that never accelerates) get the coefficient 0 and an infinite error
 // Shapes     signals: n samples; a regression: one number per row of `rows`, which ascend
 // Requires   lags + 1 and behind - shift samples before every row, shift + ahead after it
@@ -23,9 +24,9 @@ using SampleRows = std::vector<Eigen::Index>;
 struct ReferenceWindow {
   int behind = 0, ahead = 0;
 };
-// The narrow window is for looking at rows the fit has not seen: the higher differences of a smooth reference are nearly
-// dependent, and their coefficients run wild at its corners. The wide one is for the law: a velocity taken over several
-// samples, a sample of computing time, a feedforward.
+// The narrow window is for looking at rows the fit has not seen: the higher differences of a smooth reference are
+// nearly dependent, and their coefficients run wild at its corners. The wide one is for the law: a velocity taken over
+// several samples, a sample of computing time, a feedforward.
 inline constexpr ReferenceWindow narrow_window{1, 1}, wide_window{5, 2};
 
 struct ControllerColumns {

@@ -1,8 +1,10 @@
 #pragma once
-// A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the twin.
+// A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the
+// twin.
 //
-// Joint      add(): the joint needs smooth + inertia ddq + (forward while dq > 0, backward while dq < 0, anything between them at rest);
-//            called once per integration step or tick, in the order of time, so that a memory can advance by step_s
+// Joint      add(): the joint needs smooth + inertia ddq + (forward while dq > 0, backward while dq < 0, anything
+//            between them at rest); called once per integration step or tick, in the order of time, so that a memory
+//            can advance by step_s
 // Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
 //            controller sees it) and to the torque that is logged (nobody else does); called once per tick
 // Shapes     twin_lanes numbers each; every function adds to what is there
@@ -37,8 +39,8 @@ struct LaneDemand {
 class LaneEffect {
  public:
   virtual ~LaneEffect() = default;
-  // true: add() is called at every integration step; false: once per tick, for its middle (second order in the tick, and
-  // the torque is held between ticks anyway)
+  // true: add() is called at every integration step; false: once per tick, for its middle (second order in the tick,
+  // and the torque is held between ticks anyway)
   virtual bool follows_steps() const { return true; }
   virtual void add(LaneInstant const&, LaneDemand&) {}
   virtual void shift_position(LaneInstant const&, double*) {}

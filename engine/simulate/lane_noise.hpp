@@ -1,7 +1,8 @@
 #pragma once
 // What is random in a group of twins, lane by lane: noises, how strong each lane's are, and friction that wanders.
 //
-// Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its neighbours
+// Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its
+//            neighbours
 // Shapes     every array: twin_lanes
 // Threads    an object belongs to one group on one thread
 

@@ -1,8 +1,9 @@
 #pragma once
 // What goes round the equation of motion of one step of twins, side by side in vector registers.
 //
-// Why        an effect that follows steps is asked ten times in a tick. A vector that is loaded from what was just stored in smaller
-//            pieces waits until these are in the cache, so that everything between two steps is done in vectors
+// Why        an effect that follows steps is asked ten times in a tick. A vector that is loaded from what was just
+//            stored in smaller pieces waits until these are in the cache, so that everything between two steps is done
+//            in vectors
 // Bits       the same on every instruction set: one rounding per operation, no fused ones
 // Threads    free functions
 
@@ -11,7 +12,8 @@
 
 namespace torquescope {
 
-// half of at.step_s on from `state`, straight ahead; a velocity does not turn in it. at: with its time, step and motor torque
+// half of at.step_s on from `state`, straight ahead; a velocity does not turn in it. at: with its time, step and motor
+// torque
 void foresee_lanes(LaneState const& state, LaneInstant& at);
 
 // dry friction of the joint by itself, at its level of 1

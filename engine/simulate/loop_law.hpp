@@ -2,8 +2,9 @@
 // A discrete controller as its numbers, linear in what it measures: what an identified loop is, and what twins are
 // simulated with.
 //
-// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k) e_i +
-//            sum of the terms of the reference fed forward,  e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1
+// Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k)
+//            e_i + sum of the terms of the reference fed forward,  e_i = r_(i+shift) - q_i, then least <= u_k <= most;
+//            u_k is held until tick k+1
 // Shapes     position: lags 0, 1, ...; reference: `behind` samples before k + shift, that one, and those ahead of it
 // Units      q, r rad or m; u N m or N; gains their quotients
 // Threads    plain record

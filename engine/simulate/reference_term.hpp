@@ -1,9 +1,11 @@
 #pragma once
-// What a controller may add by looking at its reference alone, and not in proportion to it: friction and gravity fed forward.
+// What a controller may add by looking at its reference alone, and not in proportion to it: friction and gravity fed
+// forward.
 //
 // Equation   smooth_sign  tanh(v / width),  v = (r_(k+ahead) - r_(k+ahead-span)) / span;   sine, cosine  of r_(k+ahead)
 // Units      r rad or m; width the same, per sample; the term itself has none, its gain is N m or N
-// Ends       beyond them the reference goes on as its odd reflection: a ramp stays a ramp, or a law would see it stop dead
+// Ends       beyond them the reference goes on as its odd reflection: a ramp stays a ramp, or a law would see it stop
+//            dead
 // Threads    plain records
 
 #include <Eigen/Core>

@@ -1,10 +1,10 @@
 #pragma once
 // A stiff loop of our own round a measured motion, for recordings that have no reference.
 //
-// Equation   all poles of the frictionless joint at -2 pi bandwidth_hz; what the fitted joint needs for the motion itself is fed
-//            forward: inertia, viscous and dry friction, gravity. The motion has in it how the recording's own loop fought
-//            with friction at reversals: a loop that learned of friction by its error alone would fight once more, and
-//            shake the joint there half as much again
+// Equation   all poles of the frictionless joint at -2 pi bandwidth_hz; what the fitted joint needs for the motion
+//            itself is fed forward: inertia, viscous and dry friction, gravity. The motion has in it how the
+//            recording's own loop fought with friction at reversals: a loop that learned of friction by its error alone
+//            would fight once more, and shake the joint there half as much again
 // Dry        tanh(v / slow): where the measured velocity may be noise alone its sign is not fed forward
 // Units      SI; bandwidth Hz
 // Requires   inertia > 0, slow > 0, bandwidth_hz < 0.05 rate_hz (a faster one rings on the backward difference)

@@ -18,8 +18,8 @@ double cosine_of_turns(double turns);
 void sines_of_turns(std::span<double const> turns, std::span<double> sines);
 void sines_cosines_of_turns(std::span<double const> turns, std::span<double> sines, std::span<double> cosines);
 
-// sin(2 pi (f t + phase)) / omega and its derivatives are added to q, dq, ddq, omega = 2 pi f: the bits of one after the
-// other of these operations, each rounded alone
+// sin(2 pi (f t + phase)) / omega and its derivatives are added to q, dq, ddq, omega = 2 pi f: the bits of one after
+// the other of these operations, each rounded alone
 struct SineLine {
   double frequency_hz, phase_turns, omega, inverse_omega;
 };

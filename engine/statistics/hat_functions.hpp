@@ -14,7 +14,8 @@ Eigen::MatrixXd hats(Eigen::VectorXd const& x, Eigen::Index count);
 // all parts in one matrix; they have equally many rows
 Eigen::MatrixXd side_by_side(std::vector<Eigen::MatrixXd> const& parts);
 
-// what least squares on the columns leaves of each signal; a little ridge, because the functions of every axis sum to one
+// what least squares on the columns leaves of each signal; a little ridge, because the functions of every axis sum to
+// one
 Eigen::VectorXd left_of(Eigen::VectorXd const& signal, Eigen::MatrixXd const& columns);
 Eigen::MatrixXd left_of(Eigen::MatrixXd const& signals, Eigen::MatrixXd const& columns);
 

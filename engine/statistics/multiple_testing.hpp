@@ -1,11 +1,13 @@
 #pragma once
 // Many candidates, few false names: false-discovery control over single tests and over families of tests.
 //
-// q          the smallest level at which the test would still be rejected by Benjamini-Hochberg: q_(i) = min_{j >= i} p_(j) m / j
-// Families   first which families (Simes p of each, BH over families at level q), then which members of the selected ones
-//            (BH at level q * selected / families): the expected average of false discoveries over selected families is
-//            at most q. The hierarchical q of a member is the smallest level at which both steps find it
-// Requires   p in (0, 1]; independence or positive dependence, which statistics of one residual have in good approximation
+// q          the smallest level at which the test would still be rejected by Benjamini-Hochberg: q_(i) = min_{j >= i}
+//            p_(j) m / j
+// Families   first which families (Simes p of each, BH over families at level q), then which members of the selected
+//            ones (BH at level q * selected / families): the expected average of false discoveries over selected
+//            families is at most q. The hierarchical q of a member is the smallest level at which both steps find it
+// Requires   p in (0, 1]; independence or positive dependence, which statistics of one residual have in good
+//            approximation
 // Threads    free functions
 // Source     Benjamini, Hochberg 1995; Simes 1986; Benjamini, Bogomolov 2014 (JRSS B 76) section 3
 

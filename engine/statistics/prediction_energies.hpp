@@ -2,8 +2,8 @@
 // How well a recording, or a twin of it, is predicted without and with a law, or with all that was named.
 //
 // Energies   of residuals, summed over rows and recordings
-// Share      of the torque that the law adds, how much is there: 1 of a right law, 0 of one that has nothing to do with the recording,
-//            NaN or infinite of one that adds none
+// Share      of the torque that the law adds, how much is there: 1 of a right law, 0 of one that has nothing to do with
+//            the recording, NaN or infinite of one that adds none
 // Threads    plain record
 
 #include <cstddef>

@@ -1,10 +1,13 @@
 #pragma once
-// Makes rows whose noise is not white count for what they know: the noise of inverse dynamics grows with the fourth power
-// of frequency (an encoder's steps, differentiated twice), and least squares on such rows looks at the noise alone.
+// Makes rows whose noise is not white count for what they know: the noise of inverse dynamics grows with the fourth
+// power of frequency (an encoder's steps, differentiated twice), and least squares on such rows looks at the noise
+// alone.
 //
-// Noise      stationary along an unbroken stretch of rows; every stretch begins anew, so nothing crosses a masked reversal
-// Equation   row k of a stretch: gain_m (x_k - sum_i a_mi x_(k-i)), m = min(k, order): the inverse Cholesky factor of the
-//            stretch's covariance; the same on torque and columns, so that torque = columns * parameters goes on holding
+// Noise      stationary along an unbroken stretch of rows; every stretch begins anew, so nothing crosses a masked
+//            reversal
+// Equation   row k of a stretch: gain_m (x_k - sum_i a_mi x_(k-i)), m = min(k, order): the inverse Cholesky factor of
+//            the stretch's covariance; the same on torque and columns, so that torque = columns * parameters goes on
+//            holding
 // Gain       the quietest frequency below the cut-off keeps its size, louder ones shrink: results stay in torque units.
 //            Nothing is enlarged, whatever the filter left of it
 // Shapes     signals: rows x any number, in time order; kept_rows: of each row, consecutive numbers are neighbours
@@ -37,7 +40,8 @@ class RowWhitening {
   double noise_std_ = 0.0;
 };
 
-// noise: draws of it, one per column, mean zero.  cutoff: share of the row rate up to which the filter lets signals through
+// noise: draws of it, one per column, mean zero.  cutoff: share of the row rate up to which the filter lets signals
+// through
 RowWhitening whitening_of(Eigen::MatrixXd const& noise, std::span<Eigen::Index const> kept_rows, double cutoff);
 
 }  // namespace torquescope

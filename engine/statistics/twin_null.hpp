@@ -3,8 +3,8 @@
 //
 // Shapes     twins: one value per twin, M of them
 // p          empirical: (1 + number of twins at or above) / (M + 1), never below 1 / (M + 1), valid for any M;
-//            tail: beyond the twins' upper quartile an exponential continues their empirical tail, so that a multiple test
-//            over many candidates can fire; only for M >= 200, below that the empirical p is returned
+//            tail: beyond the twins' upper quartile an exponential continues their empirical tail, so that a multiple
+//            test over many candidates can fire; only for M >= 200, below that the empirical p is returned
 // z          (data - mean) / (spread * sqrt(1 + 1/M)): the data is one more draw, not part of the mean
 // Requires   larger is more unusual; M >= 2; finite values
 // Threads    free functions

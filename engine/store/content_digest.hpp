@@ -47,8 +47,8 @@ class ContentDigest {
   void attribute(std::string const& path, std::string const& name, OptionValue const& value);
   void dataset(std::string const& path, h5::Element element, h5::Shape const& shape);
   bool has_dataset(std::string const& path) const;
-  // row-major values of the rows of one block. While `owner` lives they stay as they are; without one they are copied, if
-  // they have to wait
+  // row-major values of the rows of one block. While `owner` lives they stay as they are; without one they are copied,
+  // if they have to wait
   void block(std::string const& path, std::size_t index, std::span<std::byte const> values,
              std::shared_ptr<void const> owner = {});
   // several blocks of block_bytes each, one after the other: none is copied, and one that repeats the one before (a

@@ -2,10 +2,11 @@
 // Takes blocks of a file to the disk in a thread of its own, so that computing goes on meanwhile.
 //
 // Order      pieces reach the sink one at a time, in the order in which they were put
-// Memory     at most `most_waiting` pieces wait or are being written (put() waits for room), as many wait to be used again
+// Memory     at most `most_waiting` pieces wait or are being written (put() waits for room), as many wait to be used
+//            again
 // Errors     the sink says the errno of its failure; the first one is remembered, everything behind it is dropped.
-//            put() and wait() then return at once, they never fail themselves. Where no thread can be started, or nothing
-//            shall wait, put() writes in the caller's
+//            put() and wait() then return at once, they never fail themselves. Where no thread can be started, or
+//            nothing shall wait, put() writes in the caller's
 // Threads    put() and wait() by one thread; the sink is called by one other, which takes no signals. The destructor
 //            is stop()
 

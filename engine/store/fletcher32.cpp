@@ -21,8 +21,8 @@ struct Sums {
   }
 };
 
-// four pairs of words as they lie in memory, low byte first (an extension of GCC and Clang; on x86-64 an SSE2 register).
-// Loops over plain arrays were left half scalar by GCC 12 and ran at HDF5's own speed
+// four pairs of words as they lie in memory, low byte first (an extension of GCC and Clang; on x86-64 an SSE2
+// register). Loops over plain arrays were left half scalar by GCC 12 and ran at HDF5's own speed
 using FourPairs [[gnu::vector_size(16)]] = std::uint32_t;
 
 struct LaneSums {

@@ -11,8 +11,9 @@
 namespace torquescope::h5 {
 namespace {
 
-// once per process: nothing printed, no filters loaded from folders that a file could name, and no tidying up at the exit: after
-// a call to the disk has failed, HDF5 1.10 crashes there (handles close themselves, so there is nothing to tidy)
+// once per process: nothing printed, no filters loaded from folders that a file could name, and no tidying up at the
+// exit: after a call to the disk has failed, HDF5 1.10 crashes there (handles close themselves, so there is nothing to
+// tidy)
 void prepare_library() {
   static bool const prepared = [] {
     H5dont_atexit();
@@ -85,8 +86,8 @@ Handle create_file(TempFile& file) {
   prepare_library();
   Handle const access = access_list();
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), "choose the file version");
-  // metadata of a larger file together, not in pieces of 2 KB all over it: each of them is a write of its own in the end, into
-  // a page that was written past the cache and has to be read again
+  // metadata of a larger file together, not in pieces of 2 KB all over it: each of them is a write of its own in the
+  // end, into a page that was written past the cache and has to be read again
   constexpr std::uintmax_t larger = std::uintmax_t{1} << 20;
   constexpr hsize_t metadata_bytes = std::size_t{16} << 10;
   if (file.expected_bytes() >= larger)

@@ -1,7 +1,8 @@
 #pragma once
 // Numbers in a small file that somebody else may take up: there and right in every bit, or not there.
 //
-// Layout     8 letters, the key (32 bytes), how many numbers (8 bytes), the numbers, SHA-256 of all before; little-endian
+// Layout     8 letters, the key (32 bytes), how many numbers (8 bytes), the numbers, SHA-256 of all before;
+//            little-endian
 // Writing    as TempFile: under its name when it is whole and safe against power loss
 // Trust      a file counts when its length, key and SHA-256 are right; no library reads it, so nothing can crash on it
 // Errors     writing: 74. Reading: none; whatever cannot be read is `damaged`

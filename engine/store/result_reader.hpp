@@ -6,7 +6,8 @@
 //            and of each chunk of values; type; size against that of the file, before memory is taken. Links to
 //            elsewhere are refused. verify_result() reads everything and compares content_sha256: it also notices what
 //            another program changed on purpose.
-// Errors     Error with exit code 66 when there is no such file; 74 when the disk cannot read it; 65 when anything above does not hold (the message
+// Errors     Error with exit code 66 when there is no such file; 74 when the disk cannot read it; 65 when anything
+//            above does not hold (the message
 // names
 //            the dataset); asking for what is not there is 65 too: the file lacks what its format promises
 // Threads    one at a time, and nothing else in the process may use HDF5 meanwhile

@@ -1,8 +1,10 @@
 #pragma once
-// The folder RESULT.parts, where a long job leaves its segments until the result file is whole: names, listing, removal.
+// The folder RESULT.parts, where a long job leaves its segments until the result file is whole: names, listing,
+// removal.
 //
-// Names      shard-<I>-of-<N>.<host>.<pid>.<began>.<number>.h5: one name per attempt and segment, so that no two processes
-//            ever write the same file, whatever else runs (an orphan of a dead Slurm daemon, the same command twice)
+// Names      shard-<I>-of-<N>.<host>.<pid>.<began>.<number>.h5: one name per attempt and segment, so that no two
+//            processes ever write the same file, whatever else runs (an orphan of a dead Slurm daemon, the same command
+//            twice)
 // Segments   complete HDF5 files written by ResultWriter: temp file, fsync, rename, fsync of the folder. Never changed.
 // Errors     74 when the folder cannot be made or listed; removal never fails loudly: what is left is stale, not wrong
 // Threads    free functions
@@ -46,8 +48,9 @@ std::vector<std::filesystem::path> segments_in(std::filesystem::path const& fold
 // how many parts of a diagnosis's twins are there (engine/run/twin_folder.hpp)
 std::size_t twin_parts_in(std::filesystem::path const& folder);
 
-// once the result is whole: all segments and twins, what killed processes left of unfinished ones, and the folder unless it holds
-// something else; and what killed processes left of the result itself. A file that a living process writes stays.
+// once the result is whole: all segments and twins, what killed processes left of unfinished ones, and the folder
+// unless it holds something else; and what killed processes left of the result itself. A file that a living process
+// writes stays.
 void remove_segments(std::filesystem::path const& result);
 
 // only the last of these: what killed processes left of the result itself

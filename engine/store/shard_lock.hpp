@@ -1,6 +1,7 @@
 #pragma once
-// Two processes at the same share of a job do its work twice: the second one is told so and ends. Nothing more depends on it:
-// segments have names of their own (segment_folder.hpp), so what two processes write is safe with it and without it.
+// Two processes at the same share of a job do its work twice: the second one is told so and ends. Nothing more depends
+// on it: segments have names of their own (segment_folder.hpp), so what two processes write is safe with it and without
+// it.
 //
 // File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; it says who that is
 // Locks      where there are none (some network file systems), or where the file cannot be made, both go on

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t block_bytes = std::size_t{1} << 19;
 // more would be memory that is written for the first time, which costs more than waiting for the disk now and then
 constexpr std::size_t most_waiting_blocks = 2;
-// A smaller file is not worth a thread: starting it, and taking turns with it, costs 1 of 16 ms of processor time for one of 5 MB,
-// and saves 2 ms of waiting
+// A smaller file is not worth a thread: starting it, and taking turns with it, costs 1 of 16 ms of processor time for
+// one of 5 MB, and saves 2 ms of waiting
 constexpr std::uintmax_t worth_a_thread = std::uintmax_t{8} << 20;
 constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache

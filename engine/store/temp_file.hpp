@@ -5,9 +5,9 @@
 // Of all the ways to write a file that were killed, cut off from power or left without space, only this one (and an
 // append-only journal) lost nothing.
 //
-// Speed      what is written at the end collects in blocks of 512 KiB, which another thread (disk_writer.hpp) writes past
-//            the page cache where the file system lets it: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6. The first block
-//            waits until publish(): HDF5 comes back to it again and again
+// Speed      what is written at the end collects in blocks of 512 KiB, which another thread (disk_writer.hpp) writes
+//            past the page cache where the file system lets it: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6. The first
+//            block waits until publish(): HDF5 comes back to it again and again
 // Memory     seven blocks
 // Lock       a temporary file is locked (flock) as long as its writer lives: one that is not may be removed
 // Signals    a call that one interrupts is made again

@@ -1,8 +1,9 @@
 #pragma once
-// What a result that was written just now says in its attributes and small arrays, without reading it: its tables need no more.
+// What a result that was written just now says in its attributes and small arrays, without reading it: its tables need
+// no more.
 //
-// Use        asked like a ResultReader, and with its answers. What was not kept (arrays above 64 KiB, and everything above 1 MiB
-//            together) is read from the file, which must have its final name by then
+// Use        asked like a ResultReader, and with its answers. What was not kept (arrays above 64 KiB, and everything
+//            above 1 MiB together) is read from the file, which must have its final name by then
 // Errors     those of ResultReader where it reads; 65 for what is not there
 // Threads    one at a time, and nothing else in the process may use HDF5 meanwhile
 

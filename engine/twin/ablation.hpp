@@ -1,8 +1,8 @@
 #pragma once
 // Parts of the method that can be taken away or misled, to see what they bring: for the scoreboard, never for use.
 //
-// Units      twin_noise: factor on everything random in the twins but the encoder (measurement, disturbance, wandering friction),
-//            after it was measured: what happens when a user states the noise wrongly
+// Units      twin_noise: factor on everything random in the twins but the encoder (measurement, disturbance, wandering
+//            friction), after it was measured: what happens when a user states the noise wrongly
 // Threads    plain record, free functions
 
 #include <string>

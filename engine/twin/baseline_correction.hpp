@@ -1,10 +1,11 @@
 #pragma once
-// The baseline's parameters without the bias of differentiation, encoder, filter and loop: those whose twins, sent through
-// the same pipeline, give on average what the recording gives.
+// The baseline's parameters without the bias of differentiation, encoder, filter and loop: those whose twins, sent
+// through the same pipeline, give on average what the recording gives.
 //
-// Equation   find a with mean over twins of fit(twin(a)) = fit(recording):  a <- a + g (fit(recording) - mean fit(twin(a))),
-//            g = 1 in the first two rounds, then 1/2, 1/3 ... (Robbins, Monro)
-// Stop       every |fit(recording) - mean fit(twin(a))| below 0.2 of the standard deviation of that parameter over twins, or 6 rounds
+// Equation   find a with mean over twins of fit(twin(a)) = fit(recording):  a <- a + g (fit(recording) - mean
+//            fit(twin(a))), g = 1 in the first two rounds, then 1/2, 1/3 ... (Robbins, Monro)
+// Stop       every |fit(recording) - mean fit(twin(a))| below 0.2 of the standard deviation of that parameter over
+//            twins, or 6 rounds
 // Twins      the same noise in every round, so that rounds differ by a alone
 // Errors     Error 65 as make_twin_joint and the pipeline
 // Threads    spreads twins over the threads and processes of `workers`; same bits for any number

@@ -22,8 +22,9 @@ struct Attempt {
     constexpr double clearly = 4.0;
     return !ran_away() && disturbance.z < -clearly;
   }
-  // What a law does not explain is noise of its twins. Twins that are louder than the recording, without any disturbance
-  // and where effects have little to say, are so because the law lacks something: a feedforward of friction, say
+  // What a law does not explain is noise of its twins. Twins that are louder than the recording, without any
+  // disturbance and where effects have little to say, are so because the law lacks something: a feedforward of
+  // friction, say
   bool law_is_too_poor() const { return loop.source == LoopSource::approximated && is_louder_than_the_recording(); }
 };
 
@@ -91,8 +92,8 @@ TrackedJoint fitted_joint(JointModel const& model, Eigen::VectorXd const& parame
           joint.lanes.gravity_cos};
 }
 
-// As its controller knows it: without what effects of the torque channel add, for it never saw a fault of the measurement
-// (LESSONS item 16)
+// As its controller knows it: without what effects of the torque channel add, for it never saw a fault of the
+// measurement (LESSONS item 16)
 struct InLoop {
   Recording recording;
   NeededTorque needed_torque;

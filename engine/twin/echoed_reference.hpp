@@ -1,6 +1,7 @@
 #pragma once
-// A reference column that is the measured motion itself: prescribed for a model, or logged from the encoder. A controller
-// answers the difference between the two; where there is none but rounding or noise, the column tells no loop.
+// A reference column that is the measured motion itself: prescribed for a model, or logged from the encoder. A
+// controller answers the difference between the two; where there is none but rounding or noise, the column tells no
+// loop.
 //
 // Rule       |reference - position| is never more than a step of the encoder; or its difference is white: means of 64
 //            rows have at most twice the variance that those of white noise have. A real loop lags: its means differ

@@ -1,19 +1,20 @@
 #pragma once
-// How much dry friction wanders by itself: no joint keeps its level to the last per mille, and a slow wander passes for any
-// effect of time, and for a little of everything, when the twins have none.
+// How much dry friction wanders by itself: no joint keeps its level to the last per mille, and a slow wander passes for
+// any effect of time, and for a little of everything, when the twins have none.
 //
-// Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a parabola
-//            of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s at least);
-//            mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor is an event
+// Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a
+//            parabola of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s
+//            at least); mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor
+//            is an event
 // By itself  the same with nothing but the parabola taken out: more, when something else is missing, seldom less. Where
-//            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever names a
-//            drift must do so against this reading
-// Rows       whitened as the pipeline whitens: the noise of the encoder hides slow changes, and an uncertain level makes
-//            twins that differ by it
+//            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever
+//            names a drift must do so against this reading
+// Rows       whitened as the pipeline whitens: the noise of the encoder hides slow changes, and an uncertain level
+//            makes twins that differ by it
 // Model      a random walk: from what the level does beside its parabola follows what chance may do to the parabola, so
 //            that a drift is named only where it is more than that
-// At most    3 % in a minute as an estimate (twins draw about a lower one, not about this): friction that changes by more
-//            does so for a reason, which is for the search to find
+// At most    3 % in a minute as an estimate (twins draw about a lower one, not about this): friction that changes by
+//            more does so for a reason, which is for the search to find
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
 // Level      noise_level.hpp
@@ -30,7 +31,8 @@ inline constexpr double most_wander_in_a_minute = 0.03;
 
 enum class WanderReading { beside_motion, by_itself };
 
-// the statistic of any record that went through this pipeline, which outlives it; functions of the motion are those of `recording`
+// the statistic of any record that went through this pipeline, which outlives it; functions of the motion are those of
+// `recording`
 class FrictionWander {
  public:
   FrictionWander(ProcessedRecord const& recording, RecordPipeline const& pipeline, TwinJoint const& joint,

@@ -3,16 +3,16 @@
 //
 // Twins      the method (twin_batch.hpp)
 // iid        white normal noise of the residual's variance: the null of an F-test
-// hac        residual times a moving average of independent normal numbers, so that the covariance of any statistic over draws is
-//            its Newey-West estimate, Bartlett weights, lags by Andrews' rule: the null of a HAC test
+// hac        residual times a moving average of independent normal numbers, so that the covariance of any statistic
+//            over draws is its Newey-West estimate, Bartlett weights, lags by Andrews' rule: the null of a HAC test
 // surrogate  the residual's amplitude spectrum with random phases: the null of a surrogate test
-// Draws      stand where the residuals of twins stand, less what the model's columns fit in them; so all that follows (search
-//            over shapes, largest statistic, multiple testing) is the same. What processing does to a perfect joint is
-//            in none of them: that is what they are here to show
+// Draws      stand where the residuals of twins stand, less what the model's columns fit in them; so all that follows
+//            (search over shapes, largest statistic, multiple testing) is the same. What processing does to a perfect
+//            joint is in none of them: that is what they are here to show
 // Rows       counted as if no reversal were left out between them
 // Random     addressed by (seed, null, draw): same bits for any number of threads
-// Source     Newey, West 1987; Andrews 1991; Shao 2010 (dependent wild bootstrap, whose Bartlett form is this); Theiler et
-//            al. 1992 (phase-randomised surrogates)
+// Source     Newey, West 1987; Andrews 1991; Shao 2010 (dependent wild bootstrap, whose Bartlett form is this); Theiler
+//            et al. 1992 (phase-randomised surrogates)
 
 #include <cstdint>
 #include <string>

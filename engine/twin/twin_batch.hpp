@@ -1,9 +1,10 @@
 #pragma once
-// Many twins through the pipeline, one after the other on every thread: what a statistic's null distribution is made from.
+// Many twins through the pipeline, one after the other on every thread: what a statistic's null distribution is made
+// from.
 //
 // visit      is called once per twin, from any thread, in no order: write to the twin's own place
-// Sharing    gather_twins() visits only the twins that are computed here, others bring their numbers: what a visit writes
-//            must stand in `places`, all of it
+// Sharing    gather_twins() visits only the twins that are computed here, others bring their numbers: what a visit
+//            writes must stand in `places`, all of it
 // Memory     one group of twins per thread at the full rate, whatever the count
 // Bits       what visit() gets depends on the address and the twin alone
 // Errors     whatever the pipeline or visit() throws; a twin that ran away is visited with ran_away = true and an empty
@@ -51,8 +52,8 @@ inline TwinPlaces column_each(Eigen::MatrixXd& m) { return {m.data(), m.rows(), 
 inline TwinPlaces row_each(Eigen::MatrixXd& m) { return {m.data(), m.cols(), m.rows(), 1}; }
 inline TwinPlaces entry_each(Eigen::VectorXd& v) { return {v.data(), 1, 1, 1}; }
 
-// the same work, shared with other processes where `workers` has any: fills the places of all twins. visit() is not called
-// for a twin that ran away; returns whether any did
+// the same work, shared with other processes where `workers` has any: fills the places of all twins. visit() is not
+// called for a twin that ran away; returns whether any did
 bool gather_twins(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAddress const& address,
                   TwinRange const& range, TwinWorkers const& workers, std::vector<TwinPlaces> const& places,
                   std::function<void(VisitedTwin const&)> const& visit);

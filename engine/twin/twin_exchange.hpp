@@ -1,8 +1,9 @@
 #pragma once
-// Who computes the clean twins of a diagnosis: this process alone, or several that make the same diagnosis and share them.
+// Who computes the clean twins of a diagnosis: this process alone, or several that make the same diagnosis and share
+// them.
 //
-// Batches    a diagnosis is deterministic: every process of it asks for the same batches in the same order, and each twin
-//            has the same numbers whoever computes it (engine/run/twin_folder.hpp exchanges them in files)
+// Batches    a diagnosis is deterministic: every process of it asks for the same batches in the same order, and each
+//            twin has the same numbers whoever computes it (engine/run/twin_folder.hpp exchanges them in files)
 // Threads    fill() by one thread at a time
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #pragma once
 // The noise of a recording's rows, as its clean twins show it, made into weights of rows.
 //
-// Noise      residuals of twins less their mean, on rows that all of them keep; twins whose friction does not wander, for
-//            that is no stationary noise. Wander: at the level the baseline found, its doubt included
+// Noise      residuals of twins less their mean, on rows that all of them keep; twins whose friction does not wander,
+//            for that is no stationary noise. Wander: at the level the baseline found, its doubt included
 // Result     equal weights where twins do not differ or run away
 // Threads    spreads twins over the threads and processes of `workers`; same bits for any number
 

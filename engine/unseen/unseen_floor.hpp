@@ -1,15 +1,17 @@
 #pragma once
 // What a complete model would leave of an unseen recording: the relative errors of twins of it.
 //
-// Twins      16 of the final model, predicted by the same parameters as the recording; disturbance and wander as in training
-// Loop       the one found in that recording; what a law does not explain there is noise of its twins, and a law that lacks something
-//            makes them louder than the recording. Then the law of training follows this recording's reference, with the noise it
-//            had there
-// No floor   a recording that leaves less than every one of its twins does not have their noise (one in 17 by chance): with neither
-//            law a floor is known
-// Reversals  where rows at reversals stay in, the filtered velocity misplaces the sign of friction by a few samples, and what that makes
-//            of a complete model outweighs what a law of sticking explains. It is the same in twins, which reverse where the
-//            recording does: their mean residual is the artefact, taken out of the recording's residual and of their own
+// Twins      16 of the final model, predicted by the same parameters as the recording; disturbance and wander as in
+//            training
+// Loop       the one found in that recording; what a law does not explain there is noise of its twins, and a law that
+//            lacks something makes them louder than the recording. Then the law of training follows this recording's
+//            reference, with the noise it had there
+// No floor   a recording that leaves less than every one of its twins does not have their noise (one in 17 by chance):
+//            with neither law a floor is known
+// Reversals  where rows at reversals stay in, the filtered velocity misplaces the sign of friction by a few samples,
+//            and what that makes of a complete model outweighs what a law of sticking explains. It is the same in
+//            twins, which reverse where the recording does: their mean residual is the artefact, taken out of the
+//            recording's residual and of their own
 // Units      1; artefact: N m or N
 // Threads    spreads twins over `threads`; same bits for any number
 
@@ -46,8 +48,8 @@ struct TwinRows {
   bool without_artefact = false;  // theirs is to be taken out
 };
 
-// the twins' own fits are not used: the parameters of `stage` predict them (for `transferred` moved as fits of training's twins are), and those of the baseline, `baseline`, without its effects.
-// loop: not tracking
+// the twins' own fits are not used: the parameters of `stage` predict them (for `transferred` moved as fits of
+// training's twins are), and those of the baseline, `baseline`, without its effects. loop: not tracking
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                               RecordedLoop const& loop, Eigen::VectorXd const& baseline, TwinRows const& rows = {});

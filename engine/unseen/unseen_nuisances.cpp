@@ -23,7 +23,8 @@ bool moves_both_ways(Eigen::VectorXd const& velocity) {
   return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
 }
 
-// whether a refit that leaves `least` of the head is beyond chance: three standard deviations; neighbours repeat each other
+// whether a refit that leaves `least` of the head is beyond chance: three standard deviations; neighbours repeat each
+// other
 bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double least) {
   constexpr double beyond = 9.0;
   double const r = std::clamp(autocorrelation(head, 1), 0.0, 0.99);
@@ -31,8 +32,8 @@ bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double l
   return head.squaredNorm() - least > beyond * variance;
 }
 
-// Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its size
-// and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
+// Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its
+// size and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
 bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
   constexpr int directions = 360;
   Eigen::Index const n = head_rows(left.size());
@@ -72,7 +73,8 @@ void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::V
 // it runs down from the beginning of a recording, and nobody says how far it had when another one began
 bool is_of_the_clock(Effect const& effect) { return effect.family() == EffectFamily::time && !effect.is_event(); }
 
-// How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is beyond chance
+// How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is
+// beyond chance
 bool scale_to_head(Eigen::MatrixXd const& columns, Eigen::VectorXd const& left,
                    Eigen::Ref<Eigen::VectorXd> parameters) {
   Eigen::Index const n = head_rows(left.size());

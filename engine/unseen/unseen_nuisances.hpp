@@ -1,5 +1,6 @@
 #pragma once
-// What of a model belongs to the recording it was fitted to: left out of a prediction of another one, or refitted on its first 5 %.
+// What of a model belongs to the recording it was fitted to: left out of a prediction of another one, or refitted on
+// its first 5 %.
 //
 // Refits     only beyond three standard errors, neighbours of a row repeating each other (autoregression of order 1)
 // Shapes     residuals, columns: rows of the unseen recording; parameters: of the whole model
@@ -13,7 +14,8 @@
 
 namespace torquescope {
 
-// the parameters a prediction begins with: those of events and of a channel that drifts are zero, and what was done is said in `nuisances`
+// the parameters a prediction begins with: those of events and of a channel that drifts are zero, and what was done is
+// said in `nuisances`
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances);
 
 // phases of waves, and how far what runs with the clock had gone; record: unseen, prepared for that model

@@ -4,17 +4,18 @@
 // Parameters least squares of the training rows for both models (columns of measured motion are predicted best by
 //            parameters that carry the same attenuation)
 // Rows       those of the baseline's mask, for both; of these the ones within a range, when one is given
-// Offset     a nuisance of each recording: refitted on its first 5 % when these move both ways (a fifth of them each: else an
-//            offset is friction's) and their mean residual is beyond three standard errors, and said so; the baseline takes its own, or none where that is better for it; where nothing was
-//            named both are one and take none
-// Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond three standard
-//            deviations, size and order kept, and said so
-// Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its share is
-//            refitted in the same way, between none and all
-// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one; and
-//            so is what the zero of a channel does with time
-// Reversals  where their rows stay in and the recording's loop is known, residuals are those beyond the artefact of processing
-//            (unseen_floor.hpp), for both models
+// Offset     a nuisance of each recording: refitted on its first 5 % when these move both ways (a fifth of them each:
+//            else an offset is friction's) and their mean residual is beyond three standard errors, and said so; the
+//            baseline takes its own, or none where that is better for it; where nothing was named both are one and take
+//            none
+// Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond
+//            three standard deviations, size and order kept, and said so
+// Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its
+//            share is refitted in the same way, between none and all
+// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one;
+//            and so is what the zero of a channel does with time
+// Reversals  where their rows stay in and the recording's loop is known, residuals are those beyond the artefact of
+//            processing (unseen_floor.hpp), for both models
 // Promised   relerr of 16 twins of this recording under the final model, with the same parameters
 // Floor      the same where it is one (unseen_floor.hpp)
 // Units      SI
@@ -37,7 +38,8 @@ struct UnseenPrediction {
   std::vector<PredictionEnergies> by_effect{};  // without and with each, no offset refitted in either
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
-  // all of them, when what processing makes of a complete model at reversals was taken out of the residuals (unseen_floor.hpp)
+  // all of them, when what processing makes of a complete model at reversals was taken out of the residuals
+  // (unseen_floor.hpp)
   std::vector<Eigen::Index> rows{};
 };
 
@@ -53,8 +55,8 @@ struct UnseenResult : UnseenPrediction {
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented);
 
-// Twins of the recording that have all effects, without and with that one in the prediction, what belongs to the training recording
-// left out in both; empty where the recording's loop is not known, or where one ran away
+// Twins of the recording that have all effects, without and with that one in the prediction, what belongs to the
+// training recording left out in both; empty where the recording's loop is not known, or where one ran away
 std::vector<PredictionEnergies> twins_without(Recording const& recording, StageSetting const& setting,
                                               ModelStage const& augmented, std::size_t effect);
 
@@ -75,8 +77,8 @@ class UnseenSum {
   std::vector<std::vector<PredictionEnergies>> twins_{};
 };
 
-// closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows the
-// measured motion: unknown
+// closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows
+// the measured motion: unknown
 ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
                                    ModelStage const& baseline, ModelStage const& augmented);
 

@@ -1,12 +1,13 @@
 #pragma once
 // Whether an unseen recording agrees with a model in which the training recording misses nothing.
 //
-// Why        a motion shows only what it excites: a pendulum that swings fast says little of its load's friction, and twins of it say
-//            "nothing is missing" while a slow one is predicted with four times the error its twins have
-// Null       twins of the unseen recording, each predicted by the parameters that each twin of the training recording is fitted with:
-//            what noise does in both, and how uncertain parameters are where the motion is another one
-// Rule       a quarter more than the worst of them (3200 where there are 200 twins, of 16 records), and more than their mean by a
-//            hundredth of the torque
+// Why        a motion shows only what it excites: a pendulum that swings fast says little of its load's friction, and
+//            twins of it say "nothing is missing" while a slow one is predicted with four times the error its twins
+//            have
+// Null       twins of the unseen recording, each predicted by the parameters that each twin of the training recording
+//            is fitted with: what noise does in both, and how uncertain parameters are where the motion is another one
+// Rule       a quarter more than the worst of them (3200 where there are 200 twins, of 16 records), and more than their
+//            mean by a hundredth of the torque
 // Units      relerr: 1
 // Threads    free functions
 
@@ -19,8 +20,8 @@
 
 namespace torquescope {
 
-// relerr of a twin when its prediction is off by each of these errors of the parameters (one per column); columns, torque, left of
-// the twin; left: with the parameters it was made with
+// relerr of a twin when its prediction is off by each of these errors of the parameters (one per column); columns,
+// torque, left of the twin; left: with the parameters it was made with
 std::vector<double> transfer_errors(Eigen::MatrixXd const& columns, Eigen::VectorXd const& torque,
                                     Eigen::VectorXd const& left, Eigen::MatrixXd const& parameter_errors);
 

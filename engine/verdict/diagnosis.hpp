@@ -3,8 +3,8 @@
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
 // Unknown    NaN: not measured (no unseen recording, no repeated laps, no reference to simulate with)
-// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all but rests where `rows`
-//            says so
+// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all
+//            but rests where `rows` says so
 // Threads    plain records
 // Source     DESIGN.md section 1 (verdict JSON); PHYSICS.md section 2 (abstention ladder)
 
@@ -85,7 +85,8 @@ struct Candidate {
 };
 
 struct EffectGain {
-  // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to, unseen
+  // shares of the energy that the baseline leaves there: on the rows, on blocks of them that it was not fitted to,
+  // unseen
   double train = unknown, cv = unknown, validation = unknown;
 };
 
@@ -151,7 +152,8 @@ struct ForwardSimulation {
   double encoder_step = 0.0;
 };
 
-// An unseen recording that is predicted worse than any twin of it, although its model explains the training recording (unseen_transfer.hpp)
+// An unseen recording that is predicted worse than any twin of it, although its model explains the training recording
+// (unseen_transfer.hpp)
 struct UnseenBeyond {
   std::string recording;
   double relerr = unknown, usual = unknown, most = unknown;  // its own; of twins on average and at most

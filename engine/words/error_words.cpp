@@ -19,8 +19,8 @@ bool is_other_kind(double unseen, double train, double floor) {
   return unseen > times * expected && unseen > expected + points;
 }
 
-// of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of names that are
-// refuted (unseen_refutation.hpp), which may stay where they move the prediction too little to be blamed
+// of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of
+// names that are refuted (unseen_refutation.hpp), which may stay where they move the prediction too little to be blamed
 bool keeps_little(double before, double after, double floor) {
   constexpr double quarter = 0.25;
   double const promised = before * before - floor * floor;

@@ -1,6 +1,6 @@
 #pragma once
-// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether an unseen recording is of
-// another kind, and whether the residual is like that of clean twins.
+// What the errors of a diagnosis say, as sentences: what naming brings, how near the floor, whether an unseen recording
+// is of another kind, and whether the residual is like that of clean twins.
 //
 // Unknown    a sentence whose numbers were not measured is ""
 // Wording    as sentences.hpp
@@ -12,31 +12,32 @@
 
 namespace torquescope {
 
-// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; what is below it has some twins below
-// it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
+// ", floor 6.0 %"; ", at the floor (about 6.3 %)" within a fiftieth, for it is a mean over twins; what is below it has
+// some twins below it as well (unseen_floor.hpp), and is told what the floor is; "" where none is known
 std::string floor_words(double relerr, double floor);
 
-// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the unseen error stays far
-// above its floor whatever was named, that is said
+// "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
+// unseen error stays far above its floor whatever was named, that is said
 std::string gain_sentence(JointDiagnosis const& joint);
 
-// An unseen error beyond three times and three points above both the error in training and the floor of the unseen recording,
-// before and after alike: "The unseen recording holds something that the training recording does not show: relerr 18.4 % there,
-// 0.82 % here."; "" otherwise
+// An unseen error beyond three times and three points above both the error in training and the floor of the unseen
+// recording, before and after alike: "The unseen recording holds something that the training recording does not show:
+// relerr 18.4 % there, 0.82 % here."; "" otherwise
 std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 
 // Of unseen recordings that are predicted worse than any twin of them while training shows nothing; "" without one
 std::string beyond_twins_sentence(JointDiagnosis const& joint);
 
-// where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen recording agrees
+// where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
+// recording agrees
 std::string way_out_of_a_fault(JointDiagnosis const& joint);
 
-// Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one that is
-// within the twins' spread while no effect stands out
+// Of a joint with a closed gate. Where p is small, what kept it closed is said: a mismatch below what matters, or one
+// that is within the twins' spread while no effect stands out
 std::string likeness_sentence(JointDiagnosis const& joint);
 
-// Of a joint with an open gate whose map shows nothing: what it is that twins do not have, the whole or what one candidate would make.
-// nothing_fits: a clause
+// Of a joint with an open gate whose map shows nothing: what it is that twins do not have, the whole or what one
+// candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
 }  // namespace torquescope

@@ -1,8 +1,8 @@
 #pragma once
 // What a diagnosis says to a person: what is missing, where, how much, how sure, what naming it buys.
 //
-// Wording    follows what kind of thing an effect is (where it acts, parity, units, axis of its region), not its name; an
-//            effect that the catalogue does not know is worded by what the record says of it
+// Wording    follows what kind of thing an effect is (where it acts, parity, units, axis of its region), not its name;
+//            an effect that the catalogue does not know is worded by what the record says of it
 // Never      "significant", "likely", a p-value of more than two digits or of zero (UX.md section 3)
 // Signs      ASCII minus
 // Threads    pure functions
@@ -19,8 +19,8 @@ namespace torquescope {
 // excluded)."
 std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effect);
 
-// of the whole verdict: the effects' sentences and what naming them brings (error_words.hpp); what is left when nothing is
-// named; what to do when the recording cannot tell; whether the unseen recording is of another kind
+// of the whole verdict: the effects' sentences and what naming them brings (error_words.hpp); what is left when nothing
+// is named; what to do when the recording cannot tell; whether the unseen recording is of another kind
 std::string reason_sentence(Diagnosis const& diagnosis);
 
 // "below 0.12 rad/s in both directions", "around 12 waves per turn"; "" for an interval without axis

@@ -1,5 +1,5 @@
-# Run at every build: what the numbers of a result depend on, as one sha256, and the commit for people. Writes OUTPUT only
-# when it changed, so that nothing is linked again for nothing.
+# Run at every build: what the numbers of a result depend on, as one sha256, and the commit for people. Writes OUTPUT
+# only when it changed, so that nothing is linked again for nothing.
 #
 #   cmake -D SOURCE=... -D OUTPUT=... -P code_identity.cmake
 set(layers kernels)

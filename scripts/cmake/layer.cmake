@@ -12,7 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(torquescope_flags INTERFACE
     -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
-# GCC looks for memory to free from 256 MB on and finds little: a twentieth of the time of a file with Eigen, which takes 1.1 GB
+# GCC looks for memory to free from 256 MB on and finds little: a twentieth of the time of a file with Eigen, which
+# takes 1.1 GB
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(torquescope_flags INTERFACE --param=ggc-min-heapsize=500000)
 endif()
@@ -42,16 +43,17 @@ function(layer name)
   set_property(GLOBAL APPEND PROPERTY TORQUESCOPE_LAYERS ${name})
 endfunction()
 
-# compile_together(TARGET N): N files of a target at a time, where many small ones read the same large headers. A cold build
-# takes minutes less (a layer on Eigen three tenths); presets dev and tidy go file by file, which is quicker after a change and
-# sees every missing include
+# compile_together(TARGET N): N files of a target at a time, where many small ones read the same large headers. A cold
+# build takes minutes less (a layer on Eigen three tenths); presets dev and tidy go file by file, which is quicker after
+# a change and sees every missing include
 option(TORQUESCOPE_TOGETHER "compile several files of most layers at a time" ON)
 function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
-# precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a third of the
-# time of their cold build. Files compiled together read them once in fourteen files anyhow, and gain less than precompiling takes
+# precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a
+# third of the time of their cold build. Files compiled together read them once in fourteen files anyhow, and gain less
+# than precompiling takes
 function(precompile target)
   if(TORQUESCOPE_TOGETHER)
     return()
@@ -66,8 +68,9 @@ function(precompile_matrices target)
   endif()
 endfunction()
 
-# choices(TARGET KIND a b c): compiles KINDs/a.cpp ... and writes KIND_choices.inc with one TORQUESCOPE_CHOICE(a) per name.
-# Adding a choice is one new file and one word in this list; the registry, list, describe and the job reader follow.
+# choices(TARGET KIND a b c): compiles KINDs/a.cpp ... and writes KIND_choices.inc with one TORQUESCOPE_CHOICE(a) per
+# name. Adding a choice is one new file and one word in this list; the registry, list, describe and the job reader
+# follow.
 function(choices target kind)
   set(text "")
   foreach(name IN LISTS ARGN)
@@ -101,9 +104,9 @@ function(test_program target)
   target_compile_definitions(${target} PRIVATE TORQUESCOPE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()
 
-# tests_together(FOLDER): the unit_test()s of this CMakeLists.txt become one program, twelve files compiled at a time, which takes
-# a third of the time of a cold build. What a file keeps to itself is in a namespace of its own, named like it
-# (namespace damage_test), because files compiled together share their unnamed one
+# tests_together(FOLDER): the unit_test()s of this CMakeLists.txt become one program, twelve files compiled at a time,
+# which takes a third of the time of a cold build. What a file keeps to itself is in a namespace of its own, named like
+# it (namespace damage_test), because files compiled together share their unnamed one
 function(tests_together folder)
   string(REPLACE "/" "_" flat ${folder})
   test_program(test_${flat})
@@ -113,8 +116,8 @@ function(tests_together folder)
 endfunction()
 
 # unit_test(FOLDER NAME LINKS ...): tests/FOLDER/NAME.cpp becomes the program test_FOLDER_NAME, or a part of that of
-# tests_together(), labelled by its first folder. COST: its seconds, where they are more than ten; ctest starts the longest
-# tests first, so that none is left alone at the end
+# tests_together(), labelled by its first folder. COST: its seconds, where they are more than ten; ctest starts the
+# longest tests first, so that none is left alone at the end
 function(unit_test folder name)
   cmake_parse_arguments(TEST "" "TIMEOUT;COST" "LINKS;LABELS" ${ARGN})
   string(REPLACE "/" "_" flat ${folder})

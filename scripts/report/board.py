@@ -7,14 +7,33 @@ import quantities as q
 
 OURS = "torquescope"
 # verdicts without a name, and other words of the file that are no name of an effect
-WORDS = {"none": "nothing missing", "unexplained": "something else", "insufficient": "too poor", "data_fault": "recording at fault",
-         "missing": "no answer", "invalid": "unreadable answer", "train": "motion", "torquescope": "Torquescope"}
+WORDS = {
+    "none": "nothing missing",
+    "unexplained": "something else",
+    "insufficient": "too poor",
+    "data_fault": "recording at fault",
+    "missing": "no answer",
+    "invalid": "unreadable answer",
+    "train": "motion",
+    "torquescope": "Torquescope",
+}
 # what stands first in the names of drawn cases (tests/concealed/decoys.hpp, drawn_name.hpp)
 CIRCUMSTANCES = {
-    "one_speed": "one speed only", "one_direction": "one direction only", "narrow": "narrow travel", "encoder": "encoder steps unknown",
-    "stamps": "time stamps wrong", "late": "torque late", "filter": "torque filtered", "hold": "torque held", "noise": "twice the noise",
-    "gains": "gains a tenth off", "outside_memory_drag": "drag with memory", "outside_sloshing": "sloshing load",
-    "outside_hidden_shaft": "hidden shaft", "outside_supply_sag": "sagging supply"}
+    "one_speed": "one speed only",
+    "one_direction": "one direction only",
+    "narrow": "narrow travel",
+    "encoder": "encoder steps unknown",
+    "stamps": "time stamps wrong",
+    "late": "torque late",
+    "filter": "torque filtered",
+    "hold": "torque held",
+    "noise": "twice the noise",
+    "gains": "gains a tenth off",
+    "outside_memory_drag": "drag with memory",
+    "outside_sloshing": "sloshing load",
+    "outside_hidden_shaft": "hidden shaft",
+    "outside_supply_sag": "sagging supply",
+}
 
 
 def plain(word):
@@ -60,14 +79,22 @@ def verdict(board):
     clean, family = board.row("clean_false_name"), board.row("single_family")
     parts = []
     if clean["n"]:
-        parts.append(f"{q.count_word(clean['hits']).capitalize()} of {q.count(clean['n'], 'clean record')} got a false name")
+        parts.append(
+            f"{q.count_word(clean['hits']).capitalize()} of {q.count(clean['n'], 'clean record')} got a false name"
+        )
     if family["n"]:
         parts.append(f"{family['hits']} of {q.count(family['n'], 'single effect')} were named by their family")
     sentence = "; ".join(parts) + "." if parts else f"{q.count(board.suite['cases'], 'case')} judged."
     evidence = (f"{held} of {len(levels)} pass levels hold, {failed} do not, {rest} cannot be told from so few cases. "
                 "An independent plant concealed the effects; only the scorer read what they are.")
-    return {"mark": "●" if failed == 0 and rest == 0 else "◍", "word": "Scoreboard of concealed effects", "tone": "blue",
-            "sentence": sentence, "headlines": [sentence], "evidence": evidence}
+    return {
+        "mark": "●" if failed == 0 and rest == 0 else "◍",
+        "word": "Scoreboard of concealed effects",
+        "tone": "blue",
+        "sentence": sentence,
+        "headlines": [sentence],
+        "evidence": evidence,
+    }
 
 
 def left_out(board):
@@ -76,8 +103,10 @@ def left_out(board):
     if not cases:
         return ""
     verb = "is" if len(cases) == 1 else "are"
-    return (f"{q.count_word(len(cases)).capitalize()} of {q.count(board.suite['cases'] + len(cases), 'case')} {verb} in no row, because "
-            f"half the step of the plant would have given another recording: {q.listed(one['case'] for one in cases)}.")
+    return (
+        f"{q.count_word(len(cases)).capitalize()} of {q.count(board.suite['cases'] + len(cases), 'case')} {verb} in no row, because "
+        f"half the step of the plant would have given another recording: {q.listed(one['case'] for one in cases)}."
+    )
 
 
 def head(board):
@@ -131,11 +160,25 @@ def effects_table(board):
     sizes = sorted({size for row in board.ours["effects"] for size in row["sizes"]}, key=float)
     rows = []
     for row in board.ours["effects"]:
-        found = [f"{row['sizes'][size][0]} of {row['sizes'][size][1]}" if size in row["sizes"] else "" for size in sizes]
-        instead = ", ".join(plain(word) + (f" ({times})" if times > 1 else "") for word, times in row["instead"].items())
+        found = [
+            f"{row['sizes'][size][0]} of {row['sizes'][size][1]}" if size in row["sizes"] else "" for size in sizes
+        ]
+        instead = ", ".join(
+            plain(word) + (f" ({times})" if times > 1 else "") for word, times in row["instead"].items()
+        )
         rows.append([plain(row["effect"]), plain(row["family"]), *found,
                      *(f"{row[level]} of {row['cases']}" for level in ("exact", "class")), instead])
-    return {"head": ["concealed", "family", *(f"SNR {size}" for size in sizes), "exact name", "name or class", "said instead"], "rows": rows}
+    return {
+        "head": [
+            "concealed",
+            "family",
+            *(f"SNR {size}" for size in sizes),
+            "exact name",
+            "name or class",
+            "said instead",
+        ],
+        "rows": rows,
+    }
 
 
 def clean_answer(board):
@@ -152,7 +195,12 @@ def clean_table(board):
 
 
 def circumstances_table(board):
-    kinds = {"T4": "outside the catalogue", "T5": "weak motion", "T6": "measurement decoy", "T7": "rig out of the ordinary"}
+    kinds = {
+        "T4": "outside the catalogue",
+        "T5": "weak motion",
+        "T6": "measurement decoy",
+        "T7": "rig out of the ordinary",
+    }
     return {"head": ["kind", "which", "cases", "right", "with a false name"],
             "rows": [[kinds[row["tier"]], concealed_words(row["words"]), row["cases"], row["right"], row["false_names"]]
                      for row in board.ours["circumstances"]]}
@@ -176,6 +224,10 @@ def misses(board):
 def provenance(board):
     suite = board.suite
     several = lambda hashes: ", ".join(hashes) or "unknown"
-    return [("cases", str(suite["cases"])), ("suite seed", ", ".join(map(str, suite["suite_seeds"])) or "none (sealed cases)"),
-            ("sealed truths, SHA-256", suite["truths_sha256"]), ("program, SHA-256", several(suite["programs_sha256"])),
-            ("plant, SHA-256", several(suite["plants_sha256"]))]
+    return [
+        ("cases", str(suite["cases"])),
+        ("suite seed", ", ".join(map(str, suite["suite_seeds"])) or "none (sealed cases)"),
+        ("sealed truths, SHA-256", suite["truths_sha256"]),
+        ("program, SHA-256", several(suite["programs_sha256"])),
+        ("plant, SHA-256", several(suite["plants_sha256"])),
+    ]

@@ -31,8 +31,13 @@ HERE = Path(__file__).resolve().parent
 def page(study):
     """The text of the page."""
     body = _of_diagnosis(study) if study.diagnosis else _of_study(study)
-    return render(all_cases(study), study=study, tables=tables,
-                  legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators], **body)
+    return render(
+        all_cases(study),
+        study=study,
+        tables=tables,
+        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators],
+        **body,
+    )
 
 
 def render(cases, **said):
@@ -73,9 +78,19 @@ def _figure(name, case, most):
         data = {"layout": figure.trace_layout, "samples": name} if case.traces else {}
         drawn.append(svg.inline(figure, name, case.title, case.sentence, css_class, data))
     thinned = case.traces and len(case.traces["time"]) > most
-    sentence = case.sentence + (f" Zooming shows {quantities.whole(most)} of {quantities.whole(len(case.traces['time']))} "
-                                f"samples: where the {case.traces['guided_by']} is lowest and highest in each stretch." if thinned else "")
-    return {"title": case.title, "sentence": sentence, "svg": "".join(drawn), "wide": case.wide, "zooms": bool(case.traces)}
+    sentence = case.sentence + (
+        f" Zooming shows {quantities.whole(most)} of {quantities.whole(len(case.traces['time']))} "
+        f"samples: where the {case.traces['guided_by']} is lowest and highest in each stretch."
+        if thinned
+        else ""
+    )
+    return {
+        "title": case.title,
+        "sentence": sentence,
+        "svg": "".join(drawn),
+        "wide": case.wide,
+        "zooms": bool(case.traces),
+    }
 
 
 def _variables(theme):

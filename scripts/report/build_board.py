@@ -15,12 +15,25 @@ from figures import board_cases
 
 def page(board):
     """The text of the page."""
-    return build.render(board_cases(board), parts=["board.html"], verdict=words.verdict(board), head=words.head(board),
-                        numbers=words.big_numbers(board), verdict_json="", legend=[], scoreboard=words.scoreboard(board),
-                        tiers=words.tiers_table(board), rivals=words.methods_table(board) if len(board.methods) > 1 else None,
-                        left_out=words.left_out(board), effects=words.effects_table(board), clean=words.clean_table(board),
-                        clean_answer=words.clean_answer(board),
-                        circumstances=words.circumstances_table(board), misses=words.misses(board), provenance=words.provenance(board))
+    return build.render(
+        board_cases(board),
+        parts=["board.html"],
+        verdict=words.verdict(board),
+        head=words.head(board),
+        numbers=words.big_numbers(board),
+        verdict_json="",
+        legend=[],
+        scoreboard=words.scoreboard(board),
+        tiers=words.tiers_table(board),
+        rivals=words.methods_table(board) if len(board.methods) > 1 else None,
+        left_out=words.left_out(board),
+        effects=words.effects_table(board),
+        clean=words.clean_table(board),
+        clean_answer=words.clean_answer(board),
+        circumstances=words.circumstances_table(board),
+        misses=words.misses(board),
+        provenance=words.provenance(board),
+    )
 
 
 def main(arguments):

@@ -11,7 +11,11 @@ import h5py
 import numpy as np
 
 BLOCK_BYTES = 65536  # rows of a dataset that are digested together
-ABOUT_THE_FILE = ("complete", "content_sha256", "provenance_sha256")  # attributes of "/" that say nothing about the content
+ABOUT_THE_FILE = (
+    "complete",
+    "content_sha256",
+    "provenance_sha256",
+)  # attributes of "/" that say nothing about the content
 
 
 def _count(number):

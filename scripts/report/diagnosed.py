@@ -12,8 +12,15 @@ AXES = {
     "time": "time", "frequency": "frequency", "order": "order of angle",
 }
 # the axis on which candidates of a family would show first
-FAMILY_AXES = {"velocity_law": "velocity", "reversal": "since_velocity_reversal", "static_position": "position", "load": "load",
-               "time": "time", "acceleration": "acceleration", "order_locked": "position"}
+FAMILY_AXES = {
+    "velocity_law": "velocity",
+    "reversal": "since_velocity_reversal",
+    "static_position": "position",
+    "load": "load",
+    "time": "time",
+    "acceleration": "acceleration",
+    "order_locked": "position",
+}
 Z95 = 1.96  # of a normal spread: 95 % of the clean twins
 
 
@@ -78,7 +85,9 @@ def is_quiet(row):
 
 def strongest_rows(joint):
     """Rows that are no spectra, the one with most residual beyond the twins first."""
-    return sorted((row for row in rows_drawn(joint) if not row.is_spectrum), key=lambda row: -np.nan_to_num(row.energy_share))
+    return sorted(
+        (row for row in rows_drawn(joint) if not row.is_spectrum), key=lambda row: -np.nan_to_num(row.energy_share)
+    )
 
 
 def rows_without_effects(joint):

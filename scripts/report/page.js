@@ -1,4 +1,5 @@
-// Zooming of the trace rows, and the switch between light and dark. Without this script the page shows its first pictures.
+// Zooming of the trace rows, and the switch between light and dark. Without this script the page shows its first
+// pictures.
 //
 // A trace svg carries data-layout (pixel lines of its rows, limits, names of its lines) and data-samples (the script
 // element with the samples: int16 differences, deflated, base64). Both widths of one figure share one view.
@@ -48,7 +49,8 @@
     return low;
   }
 
-  // M4: first, lowest, highest, last of each pixel column draw the same picture as all samples; a gap where values are NaN
+  // M4: first, lowest, highest, last of each pixel column draw the same picture as all samples; a gap where values are
+  // NaN
   function path(time, values, view, box) {
     const begin = Math.max(firstAtOrAfter(time, view.start) - 1, 0);
     const end = Math.min(firstAtOrAfter(time, view.stop) + 1, time.length);

@@ -33,15 +33,22 @@ def _joint(group):
     kinds = {"int": 0, "float": UNKNOWN, "str": ""}
     said = {name: group.get(name, kinds[f.type.__name__]) for name, f in Joint.__dataclass_fields__.items()
             if f.type in (int, float, str)}
-    return Joint(**said, nuisances=group.get("nuisances", []), baseline=_parameters(group.get("baseline")),
-                 augmented=_parameters(group.get("augmented")), map=_map(group.get("map")),
-                 candidates=_rows(group.get("candidates"), Candidate, _CANDIDATE_COLUMNS),
-                 effects=[_effect(one) for one in _numbered(group.get("effects"), "effect")],
-                 unexplained=_unexplained(group.get("unexplained")),
-                 advice=[Advice(one.lacks, one.get("would_separate", [])) for one in _numbered(group.get("excitation"), "advice")],
-                 traces=[_trace(one) for one in _numbered(group.get("traces"), "trace")],
-                 forward=_rows(group.get("forward"), Forward, {"recording": "recordings"}),
-                 twin_energy=group.get("twin_energy", np.empty(0)))
+    return Joint(
+        **said,
+        nuisances=group.get("nuisances", []),
+        baseline=_parameters(group.get("baseline")),
+        augmented=_parameters(group.get("augmented")),
+        map=_map(group.get("map")),
+        candidates=_rows(group.get("candidates"), Candidate, _CANDIDATE_COLUMNS),
+        effects=[_effect(one) for one in _numbered(group.get("effects"), "effect")],
+        unexplained=_unexplained(group.get("unexplained")),
+        advice=[
+            Advice(one.lacks, one.get("would_separate", [])) for one in _numbered(group.get("excitation"), "advice")
+        ],
+        traces=[_trace(one) for one in _numbered(group.get("traces"), "trace")],
+        forward=_rows(group.get("forward"), Forward, {"recording": "recordings"}),
+        twin_energy=group.get("twin_energy", np.empty(0)),
+    )
 
 
 _CANDIDATE_COLUMNS = {"name": "names", "family": "families", "decision": "decisions", "reason": "reasons"}
@@ -78,15 +85,37 @@ def _map(group):
 
 def _map_row(axis, group):
     names = {"start": "from", "stop": "to"}
-    cells = {name: group.get(names.get(name, name), np.empty(0)) for name in
-             ("start", "stop", "centre", "samples", "mean_residual", "twin_mean", "twin_std", "z", "after_residual", "after_z")}
+    cells = {
+        name: group.get(names.get(name, name), np.empty(0))
+        for name in (
+            "start",
+            "stop",
+            "centre",
+            "samples",
+            "mean_residual",
+            "twin_mean",
+            "twin_std",
+            "z",
+            "after_residual",
+            "after_z",
+        )
+    }
     regions = []
     if "regions" in group:
         found = group.regions
-        regions = [Region(Interval(axis, start, stop, group.unit), *shares) for start, stop, *shares in
-                   zip(*(getattr(found, key).tolist() for key in ("from", "to", "time_share", "energy_share", "repeatable_share")))]
+        regions = [
+            Region(Interval(axis, start, stop, group.unit), *shares)
+            for start, stop, *shares in zip(
+                *(
+                    getattr(found, key).tolist()
+                    for key in ("from", "to", "time_share", "energy_share", "repeatable_share")
+                )
+            )
+        ]
     # "unit" of the group is that of the axis, not of a dataset
-    return MapRow(axis, group.attributes()["unit"], bool(group.is_spectrum), group.energy_share, group.p, **cells, regions=regions)
+    return MapRow(
+        axis, group.attributes()["unit"], bool(group.is_spectrum), group.energy_share, group.p, **cells, regions=regions
+    )
 
 
 def _interval(group, name):
@@ -105,9 +134,17 @@ def _effect(group):
     if "curve" in group:
         drawn = group.curve
         curve = Curve(_interval(drawn, "range"), drawn.at, drawn.partial, drawn.modelled, drawn.spread)
-    return NamedEffect(**plain, **numbers, equivalent=group.get("equivalent", []), p_is_bound=bool(group.get("p_is_bound", 0)),
-                       region=region, places=places, parameters=_parameters(group.get("parameters")), curve=curve,
-                       is_fault=bool(group.get("is_fault", plain["acts_on"] not in ("", "joint"))))
+    return NamedEffect(
+        **plain,
+        **numbers,
+        equivalent=group.get("equivalent", []),
+        p_is_bound=bool(group.get("p_is_bound", 0)),
+        region=region,
+        places=places,
+        parameters=_parameters(group.get("parameters")),
+        curve=curve,
+        is_fault=bool(group.get("is_fault", plain["acts_on"] not in ("", "joint"))),
+    )
 
 
 def _unexplained(group):

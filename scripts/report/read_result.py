@@ -194,7 +194,9 @@ class Result(Group):
     def verify(self):
         """Read everything; ResultError unless the content is what its sha256 says."""
         if self.format != NEWEST_FORMAT:
-            raise ResultError(f"{self._file.filename} has format {self.format}; only the digest of format {NEWEST_FORMAT} is known")
+            raise ResultError(
+                f"{self._file.filename} has format {self.format}; only the digest of format {NEWEST_FORMAT} is known"
+            )
         try:
             found = content_sha256(self._file)
         except OSError as error:
@@ -244,7 +246,9 @@ def _diagnosis_summary(diagnosis):
         yield ""
         rows = [[f"joint {joint.joint}", "unit", "before", "after"]]
         for name, one in {**joint.baseline, **joint.augmented}.items():
-            before, after = (known[name].value if name in known else None for known in (joint.baseline, joint.augmented))
+            before, after = (
+                known[name].value if name in known else None for known in (joint.baseline, joint.augmented)
+            )
             rows.append([name, one.unit, _number(before), _number(after)])
         yield from _table(rows)
 

@@ -42,12 +42,20 @@ COMPARED = ("measured", *KIND_COLOUR.values())
 
 # nine steps from nothing to much; in the dark the page's background is nothing, so the ramp turns round
 RAMP = (
-    ("#f4f3fb", "#1d1f2b"), ("#e2dff4", "#272743"), ("#cdc8ec", "#332f5c"), ("#b5aee2", "#413a78"), ("#9c92d6", "#514796"),
-    ("#8275c8", "#6758b2"), ("#6757b4", "#8276c9"), ("#4a3a94", "#a59bde"), ("#2f2169", "#d0caf3"),
+    ("#f4f3fb", "#1d1f2b"),
+    ("#e2dff4", "#272743"),
+    ("#cdc8ec", "#332f5c"),
+    ("#b5aee2", "#413a78"),
+    ("#9c92d6", "#514796"),
+    ("#8275c8", "#6758b2"),
+    ("#6757b4", "#8276c9"),
+    ("#4a3a94", "#a59bde"),
+    ("#2f2169", "#d0caf3"),
 )
 PALETTE.update({f"ramp{step}": pair for step, pair in enumerate(RAMP)})
 
-# the mismatch map, from just beyond chance to far beyond it: the model asks too little, too much; of a spectrum: too weak
+# the mismatch map, from just beyond chance to far beyond it: the model asks too little, too much; of a spectrum: too
+# weak
 TOO_LITTLE = (("#efe3f1", "#372a40"), ("#d3b6dc", "#65407c"), ("#9f72b0", "#a36fc2"), ("#762a83", "#dcb6ee"))
 TOO_MUCH = (("#dff1dc", "#1c3822"), ("#a6dba0", "#27683a"), ("#5aae61", "#4fa863"), ("#1b7837", "#a9e8ac"))
 TOO_WEAK = (("#dcdfe3", "#33393f"), ("#b3b9c0", "#5a626a"), ("#737b84", "#949ca5"), ("#2c3237", "#d8dde2"))
@@ -60,17 +68,46 @@ LIGHT = {name: light for name, (light, _) in PALETTE.items()}
 DASHES = {"de": (0, (5, 2))}
 MORE_DASHES = ((0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (1.5, 1.5)))
 
-matplotlib.rcParams.update({
-    "figure.dpi": 72, "savefig.dpi": 72, "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none",
-    "svg.fonttype": "none", "pdf.fonttype": 42, "path.simplify": True, "axes.unicode_minus": True,
-    "font.family": "DejaVu Sans", "font.size": TEXT, "text.color": LIGHT["ink"],
-    "axes.labelsize": TEXT, "axes.titlesize": TEXT, "xtick.labelsize": TEXT, "ytick.labelsize": TEXT,
-    "axes.labelcolor": LIGHT["muted"], "xtick.color": LIGHT["muted"], "ytick.color": LIGHT["muted"],
-    "axes.edgecolor": LIGHT["grid"], "grid.color": LIGHT["grid"], "grid.linewidth": 1, "axes.grid": True,
-    "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "axes.spines.left": False,
-    "axes.spines.bottom": False, "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0,
-    "xtick.major.pad": 6, "ytick.major.pad": 5, "lines.linewidth": 1.4, "lines.solid_capstyle": "round",
-})
+matplotlib.rcParams.update(
+    {
+        "figure.dpi": 72,
+        "savefig.dpi": 72,
+        "figure.facecolor": "none",
+        "axes.facecolor": "none",
+        "savefig.facecolor": "none",
+        "svg.fonttype": "none",
+        "pdf.fonttype": 42,
+        "path.simplify": True,
+        "axes.unicode_minus": True,
+        "font.family": "DejaVu Sans",
+        "font.size": TEXT,
+        "text.color": LIGHT["ink"],
+        "axes.labelsize": TEXT,
+        "axes.titlesize": TEXT,
+        "xtick.labelsize": TEXT,
+        "ytick.labelsize": TEXT,
+        "axes.labelcolor": LIGHT["muted"],
+        "xtick.color": LIGHT["muted"],
+        "ytick.color": LIGHT["muted"],
+        "axes.edgecolor": LIGHT["grid"],
+        "grid.color": LIGHT["grid"],
+        "grid.linewidth": 1,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.spines.left": False,
+        "axes.spines.bottom": False,
+        "xtick.major.size": 0,
+        "ytick.major.size": 0,
+        "xtick.minor.size": 0,
+        "ytick.minor.size": 0,
+        "xtick.major.pad": 6,
+        "ytick.major.pad": 5,
+        "lines.linewidth": 1.4,
+        "lines.solid_capstyle": "round",
+    }
+)
 
 
 def estimator_looks(kinds):

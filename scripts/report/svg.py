@@ -37,8 +37,10 @@ def inline(figure, name, title, description, css_class, attributes=None):
     body = text[text.index(">") + 1:]
     width, height = (round(72 * inches) for inches in figure.get_size_inches())
     data = "".join(f' data-{key}="{html.escape(value)}"' for key, value in (attributes or {}).items())
-    return (f'<svg class="{css_class}" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img"{data}>'
-            f"<title>{html.escape(title)}</title><desc>{html.escape(description)}</desc>{body}")
+    return (
+        f'<svg class="{css_class}" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img"{data}>'
+        f"<title>{html.escape(title)}</title><desc>{html.escape(description)}</desc>{body}"
+    )
 
 
 def _font(match):

@@ -45,7 +45,9 @@ def joint_form(study):
     if names is None or e is None or e.joint_form is None:
         return None
     said = []
-    for name, unit, value, error in zip(names, study.model.joint_form_units, e.joint_form[0], e.joint_form_standard_error[0]):
+    for name, unit, value, error in zip(
+        names, study.model.joint_form_units, e.joint_form[0], e.joint_form_standard_error[0]
+    ):
         decimals = q.decimals_for(words.Z95 * error, value)
         said.append(f"{name.replace('_', ' ')} {q.fixed(value, decimals)} ± "
                     + q.with_unit(q.fixed(words.Z95 * error, decimals), unit))
@@ -54,14 +56,24 @@ def joint_form(study):
 
 def correlation(study):
     names = [name.replace("_", " ") for name in study.model.names]
-    return {"head": [""] + names,
-            "rows": [[name] + [q.fixed(value, 2) for value in row] for name, row in zip(names, study.health.correlation)]}
+    return {
+        "head": [""] + names,
+        "rows": [[name] + [q.fixed(value, 2) for value in row] for name, row in zip(names, study.health.correlation)],
+    }
 
 
 def estimators(study):
     square = q.square(study.effort_unit)
-    head = ["estimator", f"MSE, median {square}", "above the floor", "best MSE", "worst MSE", "std over runs", "evaluations",
-            "runs ended by"]
+    head = [
+        "estimator",
+        f"MSE, median {square}",
+        "above the floor",
+        "best MSE",
+        "worst MSE",
+        "std over runs",
+        "evaluations",
+        "runs ended by",
+    ]
     rows = []
     for e in study.estimators:
         several = int(e.runs) > 1
@@ -81,9 +93,15 @@ def beside_the_paper(study):
     third = {"head": ["parameter", "unit"] + [f"{label}, paper" for label in labels]
              + [f"{label}, here" for label in labels if ours[label]], "rows": []}
     for index, (name, unit) in enumerate(zip(study.model.names, study.model.units)):
-        third["rows"].append([name.replace("_", " "), q.unit(unit)] + [q.fixed(seed.TABLE_3[label][index], 4) for label in labels]
-                             + [q.fixed(ours[label].parameters_mean[index], 4) for label in labels if ours[label]])
-    fourth = {"head": ["", "MSE, paper", "std, paper", "std at most", "MSE, here", "std of the residual, here"], "rows": []}
+        third["rows"].append(
+            [name.replace("_", " "), q.unit(unit)]
+            + [q.fixed(seed.TABLE_3[label][index], 4) for label in labels]
+            + [q.fixed(ours[label].parameters_mean[index], 4) for label in labels if ours[label]]
+        )
+    fourth = {
+        "head": ["", "MSE, paper", "std, paper", "std at most", "MSE, here", "std of the residual, here"],
+        "rows": [],
+    }
     for label in labels:
         mse, deviation = seed.TABLE_4[label]
         e = ours[label]
@@ -105,7 +123,9 @@ def provenance(study):
             ("job sha256", study.job.sha256), ("result sha256", study.digest)]
     for which, data in (("training", study.train), ("unseen", study.validate)):
         if data is not None:
-            told += [(f"{which} data", f"{name}, sha256 {digest}") for name, digest in zip(data.recordings, data.sha256)]
+            told += [
+                (f"{which} data", f"{name}, sha256 {digest}") for name, digest in zip(data.recordings, data.sha256)
+            ]
     return [(what, value) for what, value in told if value not in (None, "")]
 
 
@@ -114,7 +134,9 @@ def filters(study):
     data = study.train
     said = []
     if data.cutoff_hz:
-        said.append(f"motion low-passed at {q.tick(data.cutoff_hz)} Hz" + (f", order {data.order}" if data.order else ""))
+        said.append(
+            f"motion low-passed at {q.tick(data.cutoff_hz)} Hz" + (f", order {data.order}" if data.order else "")
+        )
     if data.parallel_cutoff_hz:
         said.append(f"both sides of the equation at {q.tick(data.parallel_cutoff_hz)} Hz")
     if data.kept_rate_hz and data.rate_hz and data.kept_rate_hz != data.rate_hz:

@@ -15,19 +15,30 @@ MARKS = {"named": "●", "class": "◍", "measurement": "✕", "no": "○", "not
 def candidates(joint):
     """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. Strongest first; what
     was not tested is none of the strongest and comes last."""
-    scale = (DOTS_WIDTH - 12) / max([1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)])
-    return [_candidate(one, joint, scale) for one in sorted(joint.candidates, key=lambda one: one.decision == "not tested")]
+    scale = (DOTS_WIDTH - 12) / max(
+        [1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)]
+    )
+    return [
+        _candidate(one, joint, scale) for one in sorted(joint.candidates, key=lambda one: one.decision == "not tested")
+    ]
 
 
 def _candidate(one, joint, scale):
     tested = one.decision != "not tested" and math.isfinite(one.z)
     pixels = lambda value: round(6 + max(value, 0.0) * scale, 1)  # noqa: E731
-    return {"name": one.name, "family": diagnosed.plain(one.family), "mark": MARKS.get(one.decision, "○"), "decision": one.decision,
-            "reason": one.reason or diagnosed.plain(one.decision),
-            "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
-            "z_pixel": pixels(one.z) if tested else None, "z": q.fixed(one.z, 1) if tested else "–",
-            "p": diagnosed.p_cell(one.p, joint) if tested else "–", "q": _q(one.q) if tested else "–",
-            "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain)}
+    return {
+        "name": one.name,
+        "family": diagnosed.plain(one.family),
+        "mark": MARKS.get(one.decision, "○"),
+        "decision": one.decision,
+        "reason": one.reason or diagnosed.plain(one.decision),
+        "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
+        "z_pixel": pixels(one.z) if tested else None,
+        "z": q.fixed(one.z, 1) if tested else "–",
+        "p": diagnosed.p_cell(one.p, joint) if tested else "–",
+        "q": _q(one.q) if tested else "–",
+        "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain),
+    }
 
 
 def _q(value):
@@ -38,15 +49,25 @@ def forward(joint):
     """{"head", "rows"} of the closed-loop simulations."""
     unit = q.unit(joint.unit_position)
     changed = diagnosed.has_after(joint)
-    head = ["recording", f"motion, rms {unit}", f"error before {unit}"] + ([f"error after {unit}"] if changed else []) + [f"encoder step {unit}"]
-    rows = [[one.recording, q.number(one.motion_rms), q.number(one.before_rms)] + ([q.number(one.after_rms)] if changed else [])
-            + [q.number(one.encoder_step) if one.encoder_step else "–"] for one in joint.forward]
+    head = (
+        ["recording", f"motion, rms {unit}", f"error before {unit}"]
+        + ([f"error after {unit}"] if changed else [])
+        + [f"encoder step {unit}"]
+    )
+    rows = [
+        [one.recording, q.number(one.motion_rms), q.number(one.before_rms)]
+        + ([q.number(one.after_rms)] if changed else [])
+        + [q.number(one.encoder_step) if one.encoder_step else "–"]
+        for one in joint.forward
+    ]
     return {"head": head, "rows": rows}
 
 
 def equations(study, joint):
     """The model's line, then one (name, equation) per effect put into it."""
-    return tables.equation(study), [(diagnosed.plain(effect.name), signs(effect.equation)) for effect in joint.effects if effect.equation]
+    return tables.equation(study), [
+        (diagnosed.plain(effect.name), signs(effect.equation)) for effect in joint.effects if effect.equation
+    ]
 
 
 def signs(text):

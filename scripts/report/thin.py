@@ -26,7 +26,9 @@ def m4(x, y, columns, start=None, stop=None):
     kept = []
     for begin, end in zip(begins, ends):
         piece = y[first + begin:first + end]
-        kept.extend({begin, begin + _finite(np.argmin, piece, np.inf), begin + _finite(np.argmax, piece, -np.inf), end - 1})
+        kept.extend(
+            {begin, begin + _finite(np.argmin, piece, np.inf), begin + _finite(np.argmax, piece, -np.inf), end - 1}
+        )
     return first + np.unique(kept)
 
 

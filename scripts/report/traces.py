@@ -93,14 +93,23 @@ def _shade(axes, regions, window):
             codes += [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
     # an empty first view keeps a point, so that zooming has a path to rewrite
     shape = Path(vertices or [(window[0], 0)], codes or [Path.MOVETO])
-    shaded = axes.add_patch(PathPatch(shape, color=style.LIGHT["region"], linewidth=0, zorder=0.3, transform=axes.get_xaxis_transform()))
+    shaded = axes.add_patch(
+        PathPatch(shape, color=style.LIGHT["region"], linewidth=0, zorder=0.3, transform=axes.get_xaxis_transform())
+    )
     shaded.set_gid("part:regions")
 
 
 def _line(axes, time, line, window, columns):
     kept = thin.m4(time, line.values, columns, *window)
-    drawn, = axes.plot(time[kept], line.values[kept], color=line.colour, linestyle=line.dashes, linewidth=line.thickness,
-                       solid_joinstyle="round", zorder=3 if line.on_top else 2)
+    (drawn,) = axes.plot(
+        time[kept],
+        line.values[kept],
+        color=line.colour,
+        linestyle=line.dashes,
+        linewidth=line.thickness,
+        solid_joinstyle="round",
+        zorder=3 if line.on_top else 2,
+    )
     drawn.set_gid(f"part:{line.part}")
 
 

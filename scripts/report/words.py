@@ -22,7 +22,14 @@ def verdict(study):
     else:
         mark, word, tone = "●", "Identified", "ink"
     sentence = _search_sentence(study.searches, late) if study.searches else _fit_sentence(study)
-    return {"mark": mark, "word": word, "tone": tone, "sentence": sentence, "headlines": [sentence], "evidence": _evidence(study, words)}
+    return {
+        "mark": mark,
+        "word": word,
+        "tone": tone,
+        "sentence": sentence,
+        "headlines": [sentence],
+        "evidence": _evidence(study, words),
+    }
 
 
 def _arrived(e):
@@ -69,8 +76,10 @@ def _evidence(study, words):
         said.append(f"Mean square error above the floor, median of {q.count(runs, 'run')}: {q.listed(gaps)} "
                     f"{q.square(study.effort_unit)}.")
     e = study.ols or study.estimators[0]
-    said.append(f"{e.short} leaves {q.with_unit(q.number(e.residual_std_median), study.effort_unit)} (standard deviation) on "
-                f"{q.count(study.train.rows, 'sample')}.")
+    said.append(
+        f"{e.short} leaves {q.with_unit(q.number(e.residual_std_median), study.effort_unit)} (standard deviation) on "
+        f"{q.count(study.train.rows, 'sample')}."
+    )
     return " ".join(said)
 
 
@@ -133,15 +142,19 @@ def search_answer(study):
     if not study.searches:
         return "Every estimator of this job solves its equations directly; there is nothing to search."
     total = sum(int(e.evaluations_total) for e in study.searches)
-    return (f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} in all. "
-            "The problem is linear, so the exact optimum is known: each search is measured by its distance from it.")
+    return (
+        f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} in all. "
+        "The problem is linear, so the exact optimum is known: each search is measured by its distance from it."
+    )
 
 
 def recording_answer(study):
     data = study.train
     made = "simulated" if data.simulated else "recorded"
-    said = (f"{q.seconds(data.duration_s)} {made} at {q.tick(data.rate_hz)} Hz, "
-            f"{q.count(data.rows, 'sample')} kept at {q.tick(data.kept_rate_hz)} Hz, {q.count(data.reversals, 'reversal')}.")
+    said = (
+        f"{q.seconds(data.duration_s)} {made} at {q.tick(data.rate_hz)} Hz, "
+        f"{q.count(data.rows, 'sample')} kept at {q.tick(data.kept_rate_hz)} Hz, {q.count(data.reversals, 'reversal')}."
+    )
     warnings = len(data.warned)
     return said + (f" {q.count(warnings, 'warning')}, listed below." if warnings else " No warnings.")
 

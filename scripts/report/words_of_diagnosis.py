@@ -29,7 +29,9 @@ def verdict(study):
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
     headlines, evidence = _set(found)
     word = word.format(count=q.count_word(several[0]) if several else "several")
-    if found.verdict in ("named", "class") and any(diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects):
+    if found.verdict in ("named", "class") and any(
+        diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects
+    ):
         word += ", and a fault of the recording"
     return {"mark": mark, "word": word, "tone": tone,
             "sentence": " ".join(headlines), "headlines": [kept_together(line) for line in headlines],
@@ -86,9 +88,15 @@ def big_numbers(joint):
     if math.isfinite(floor):
         error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
         reached = diagnosed.is_at_floor(error, floor)
-        found.append((f"about {q.percent(floor)}", "", "floor: it is reached") if reached and not diagnosed.is_below_floor(error, floor) else
-                     (f"about {q.percent(floor)}", "", "floor, as clean twins have it on average: the error is below") if reached else
-                     (q.percent(floor), "", "floor: what a complete model would leave"))
+        found.append(
+            (f"about {q.percent(floor)}", "", "floor: it is reached")
+            if reached and not diagnosed.is_below_floor(error, floor)
+            else (
+                (f"about {q.percent(floor)}", "", "floor, as clean twins have it on average: the error is below")
+                if reached
+                else (q.percent(floor), "", "floor: what a complete model would leave")
+            )
+        )
     closed = diagnosed.share_closed(joint)
     if math.isfinite(closed):
         found.append((q.percent(closed), "", "of the closable gap is closed"))
@@ -119,8 +127,10 @@ def candidates_answer(joint):
     said = f"{q.count(tested, 'candidate')} tested, strongest first" if tested else "No candidate was tested"
     if tested and not named:
         said += "; none is named"
-    return (f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on blocks of "
-            "time that nothing was fitted to; –: not tried.")
+    return (
+        f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on blocks of "
+        "time that nothing was fitted to; –: not tried."
+    )
 
 
 def fit_answer(study, joint):
@@ -130,7 +140,9 @@ def fit_answer(study, joint):
     refitted = f" Refitted on the head of the unseen recording: {q.listed(joint.nuisances)}." if joint.nuisances else ""
     if not diagnosed.has_after(joint):
         at = _floor_words(joint.validation_relerr, joint.floor_relerr)
-        return f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}{at}." + refitted
+        return (
+            f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}{at}." + refitted
+        )
     before, after, floor = diagnosed.unseen_errors(joint)
     to = _floor_words(after, floor)
     return f"Unseen error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
@@ -142,7 +154,11 @@ def _floor_words(error, floor):
         return ""
     if diagnosed.is_below_floor(error, floor):
         return f", at the floor (about {q.percent(floor)}: what clean twins leave on average)"
-    return f", at the floor (about {q.percent(floor)})" if diagnosed.is_at_floor(error, floor) else f", floor {q.percent(floor)}"
+    return (
+        f", at the floor (about {q.percent(floor)})"
+        if diagnosed.is_at_floor(error, floor)
+        else f", floor {q.percent(floor)}"
+    )
 
 
 def title(effect):
@@ -153,7 +169,11 @@ def effect_line(joint, effect):
     """The evidence for one effect in one line."""
     p = diagnosed.p_cell(effect.p, joint, effect.p_is_bound)
     said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
-    gains = [(effect.gain_train, "in training"), (effect.gain_cv, "cross-validated"), (effect.gain_validation, "unseen")]
+    gains = [
+        (effect.gain_train, "in training"),
+        (effect.gain_cv, "cross-validated"),
+        (effect.gain_validation, "unseen"),
+    ]
     gains = [f"{diagnosed.share_words(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
     if gains:
         said.append(f"of the residual's energy it takes {q.listed(gains)}")

@@ -40,6 +40,10 @@ def row(verdicts, sealed, names):
 def table_lines(rows):
     """rows: {method: row()}"""
     heads = list(next(iter(rows.values())))
-    shown = lambda value: "-" if value is None else f"{value[0]}/{value[1]}" if isinstance(value, tuple) else f"{value:.2f}"
+    shown = lambda value: (
+        "-" if value is None else f"{value[0]}/{value[1]}" if isinstance(value, tuple) else f"{value:.2f}"
+    )
     lines = [f"{'':24}" + "".join(f"{head:>24}" for head in heads)]
-    return lines + [f"{method:24}" + "".join(f"{shown(entry[head]):>24}" for head in heads) for method, entry in rows.items()]
+    return lines + [
+        f"{method:24}" + "".join(f"{shown(entry[head]):>24}" for head in heads) for method, entry in rows.items()
+    ]

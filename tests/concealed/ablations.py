@@ -11,6 +11,7 @@ OUT is a folder of run_suite.py; cases that are missing there are made, and diag
 
 Exit code: 0 whatever the table says; 64 usage; 70 when make_case fails.
 """
+
 import argparse
 import concurrent.futures
 import json
@@ -93,7 +94,9 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("program", "make_case", "out"):
         parser.add_argument(name, type=pathlib.Path)
-    parser.add_argument("--drawn", required=True, help="names of drawn cases: a file, one per line, or separated by commas")
+    parser.add_argument(
+        "--drawn", required=True, help="names of drawn cases: a file, one per line, or separated by commas"
+    )
     parser.add_argument("--only", help="ablations, separated by commas")
     parser.add_argument("--shard", help="I/N: as run_suite.py")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
@@ -109,7 +112,9 @@ def main(arguments):
         return 64
     if options.shard:
         cases = {name: cases[name] for name in shard.share(list(cases), shard.of(options.shard, {}))}
-    whole = run_suite.Suite(options.program.resolve(), options.make_case.resolve(), options.out.resolve(), options.threads)
+    whole = run_suite.Suite(
+        options.program.resolve(), options.make_case.resolve(), options.out.resolve(), options.threads
+    )
     suites = {"torquescope": whole, **{name: Ablated(whole, name) for name in wanted}}
     rows = {}
     try:

@@ -14,20 +14,26 @@
 Every dataset has the attributes unit and long_name. What is unknown is NaN, a count that is unknown -1. Texts have a fixed
 length (UTF-8).
 """
+
 import math
 
 import h5py
 import numpy as np
 
 UNITS = {"seconds": "s"}
-LONG = {"snr_eff": "smallest effect: rms of the residual after baseline refit over the noise",
-        "wanted_snr": "size each effect was made with",
-        "low": "one-sided 95 % lower bound", "high": "one-sided 95 % upper bound",
-        "iou": "shared over joint occupancy of reported and true region",
-        "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data; oracle: true laws, recorded motion",
-        "loop_ratio": "closed-loop position error of the unseen recording, after over before",
-        "seal": "SHA-256 of the sealed truth", "level": "how the first true effect was found",
-        "parameter_error": "relative error of the main parameter", "train": "motion of the training recording"}
+LONG = {
+    "snr_eff": "smallest effect: rms of the residual after baseline refit over the noise",
+    "wanted_snr": "size each effect was made with",
+    "low": "one-sided 95 % lower bound",
+    "high": "one-sided 95 % upper bound",
+    "iou": "shared over joint occupancy of reported and true region",
+    "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data; oracle: true laws, recorded motion",
+    "loop_ratio": "closed-loop position error of the unseen recording, after over before",
+    "seal": "SHA-256 of the sealed truth",
+    "level": "how the first true effect was found",
+    "parameter_error": "relative error of the main parameter",
+    "train": "motion of the training recording",
+}
 
 
 def put(group, name, values, long_name=None):
@@ -35,7 +41,9 @@ def put(group, name, values, long_name=None):
     if all(isinstance(value, str) for value in values):
         longest = max((len(value.encode()) for value in values), default=1)
         data = np.array([value.encode() for value in values], dtype=h5py.string_dtype("utf-8", max(1, longest)))
-    elif all(isinstance(value, (bool, int)) or value is None for value in values) and any(value is not None for value in values):
+    elif all(isinstance(value, (bool, int)) or value is None for value in values) and any(
+        value is not None for value in values
+    ):
         data = np.array([-1 if value is None else int(value) for value in values], dtype=np.int64)
     else:
         data = np.array([math.nan if value is None else value for value in values], dtype=np.float64)
@@ -60,7 +68,12 @@ def _first(case, key):
 def write_cases(group, cases):
     put(group, "case", [c["case"] for c in cases])
     put_rows(group, cases, ("drawn", "tier", "seal", "expected", "wanted_snr"))
-    put(group, "seed", [int(c["drawn"].rsplit(":", 1)[1]) if c["drawn"] else None for c in cases], "seed in the name of a drawn case")
+    put(
+        group,
+        "seed",
+        [int(c["drawn"].rsplit(":", 1)[1]) if c["drawn"] else None for c in cases],
+        "seed in the name of a drawn case",
+    )
     put(group, "concealed", [_joined(c["concealed"]) for c in cases])
     put(group, "snr_eff", [min((f["snr"] for f in c["found"]), default=c["snr"]) for c in cases])
     for part in ("joint", "controller", "law", "noise", "train"):
@@ -102,8 +115,15 @@ def write(path, board):
     suite = board["suite"]
     unfinished = path.with_suffix(".h5.new")
     with h5py.File(unfinished, "w") as file:
-        file.attrs.update({"title": "Torquescope scoreboard of concealed effects", "schema": board["schema"], "cases": suite["cases"],
-                           "truths_sha256": suite["truths_sha256"], "suite_seeds": np.array(suite["suite_seeds"], dtype=np.int64)})
+        file.attrs.update(
+            {
+                "title": "Torquescope scoreboard of concealed effects",
+                "schema": board["schema"],
+                "cases": suite["cases"],
+                "truths_sha256": suite["truths_sha256"],
+                "suite_seeds": np.array(suite["suite_seeds"], dtype=np.int64),
+            }
+        )
         for key in ("programs_sha256", "plants_sha256"):
             file.attrs[key] = ", ".join(suite[key])
         file.attrs["left_out"] = _joined(one["case"] for one in suite["left_out"])

@@ -14,7 +14,9 @@ def number(row, value):
 def measured(row):
     if row["value"] is None:
         return "-"
-    return number(row, row["value"]) + (f"  ({row['hits']} of {row['n']})" if row["hits"] is not None else f"  (n = {row['n']})")
+    return number(row, row["value"]) + (
+        f"  ({row['hits']} of {row['n']})" if row["hits"] is not None else f"  (n = {row['n']})"
+    )
 
 
 def bounds(row):
@@ -25,15 +27,22 @@ def bounds(row):
 
 def verdict(row, level):
     """Level and whether it holds; the bound the protocol states for it is in the Markdown table and on the page."""
-    return f"{row[level].split(' (')[0]:18} {SHORT.get(row[level + '_holds'], row[level + '_holds']):4}" if row[level] else ""
+    return (
+        f"{row[level].split(' (')[0]:18} {SHORT.get(row[level + '_holds'], row[level + '_holds']):4}"
+        if row[level]
+        else ""
+    )
 
 
 def head_lines(suite):
     several = lambda hashes: ", ".join(h[:12] for h in hashes) or "unknown"
     mixed = "   MIXED: these cases were not all diagnosed by one program" if len(suite["programs_sha256"]) > 1 else ""
-    return [f"{suite['cases']} cases, suite seed {', '.join(map(str, suite['suite_seeds'])) or '-'}; "
-            f"sealed truths {suite['truths_sha256']}",
-            f"program {several(suite['programs_sha256'])}, plant {several(suite['plants_sha256'])}{mixed}", *left_out_lines(suite)]
+    return [
+        f"{suite['cases']} cases, suite seed {', '.join(map(str, suite['suite_seeds'])) or '-'}; "
+        f"sealed truths {suite['truths_sha256']}",
+        f"program {several(suite['programs_sha256'])}, plant {several(suite['plants_sha256'])}{mixed}",
+        *left_out_lines(suite),
+    ]
 
 
 def left_out_lines(suite):
@@ -53,7 +62,9 @@ def case_line(j, width):
 def table_lines(rows):
     lines = [f"{'':58} {'measured':21} {'95 % sure above, below':23} {'pass':18} {'':4} stretch"]
     for row in rows:
-        lines.append(f"{row['words']:58} {measured(row):21} {bounds(row):23} {verdict(row, 'pass')} {verdict(row, 'stretch')}".rstrip())
+        lines.append(
+            f"{row['words']:58} {measured(row):21} {bounds(row):23} {verdict(row, 'pass')} {verdict(row, 'stretch')}".rstrip()
+        )
     return lines + ["? too few cases to say; - not measured"]
 
 
@@ -68,8 +79,11 @@ def tier_lines(tiers):
 def power_lines(power):
     share = lambda band: f"{band['hits']:3} of {band['n']:<3}"
     lines = [f"{'tier':5} {'SNR_eff':>7}  {'exact':10} {'class':10} {'family':10} {'3 guesses':10} {'false name':10}"]
-    return lines + [f"{row['tier']:5} {row['size']:7g}  {share(row['exact']):10} {share(row['class']):10} {share(row['family']):10} "
-                    f"{share(row['guess']):10} {share(row['false_name']):10}".rstrip() for row in power]
+    return lines + [
+        f"{row['tier']:5} {row['size']:7g}  {share(row['exact']):10} {share(row['class']):10} {share(row['family']):10} "
+        f"{share(row['guess']):10} {share(row['false_name']):10}".rstrip()
+        for row in power
+    ]
 
 
 def rival_lines(methods):
@@ -78,7 +92,9 @@ def rival_lines(methods):
     tables = [method["table"] for method in methods.values()]
     lines = [f"{'':58} " + "".join(f"{name:{width}}" for name in methods).rstrip()]
     for rows in zip(*tables):
-        lines.append(f"{rows[0]['words']:58} " + "".join(f"{number(row, row['value']):{width}}" for row in rows).rstrip())
+        lines.append(
+            f"{rows[0]['words']:58} " + "".join(f"{number(row, row['value']):{width}}" for row in rows).rstrip()
+        )
     return lines
 
 
@@ -91,7 +107,11 @@ def text(board, judgements=()):
         lines += [case_line(j, width) for j in judgements] + [""]
     lines += [*head_lines(board["suite"]), "", *table_lines(ours["table"]), "", *tier_lines(ours["tiers"])]
     if ours["power"]:
-        lines += ["", "everything found and nothing invented, by the size each effect was made with", *power_lines(ours["power"])]
+        lines += [
+            "",
+            "everything found and nothing invented, by the size each effect was made with",
+            *power_lines(ours["power"]),
+        ]
     if len(board["methods"]) > 1:
         lines += ["", "the same cases, every method", *rival_lines(board["methods"])]
     return "\n".join(lines)
@@ -100,14 +120,26 @@ def text(board, judgements=()):
 def markdown(board):
     methods = board["methods"]
     ours, *rivals = methods
-    lines = [f"{board['suite']['cases']} cases, suite seed {', '.join(map(str, board['suite']['suite_seeds'])) or '-'}, "
-             f"sealed truths `{board['suite']['truths_sha256'][:16]}`.", *left_out_lines(board["suite"]), "",
-             "| | measured | 95 % sure above, below | pass level | holds | stretch level | holds |"
-             + "".join(f" {rival} |" for rival in rivals),
-             "|---|---|---|---|---|---|---|" + "---|" * len(rivals)]
+    lines = [
+        f"{board['suite']['cases']} cases, suite seed {', '.join(map(str, board['suite']['suite_seeds'])) or '-'}, "
+        f"sealed truths `{board['suite']['truths_sha256'][:16]}`.",
+        *left_out_lines(board["suite"]),
+        "",
+        "| | measured | 95 % sure above, below | pass level | holds | stretch level | holds |"
+        + "".join(f" {rival} |" for rival in rivals),
+        "|---|---|---|---|---|---|---|" + "---|" * len(rivals),
+    ]
     for index, row in enumerate(methods[ours]["table"]):
         others = [methods[rival]["table"][index] for rival in rivals]
-        cells = [row["words"], measured(row), bounds(row), row["pass"], row["pass_holds"], row["stretch"], row["stretch_holds"],
-                 *(number(other, other["value"]) for other in others)]
+        cells = [
+            row["words"],
+            measured(row),
+            bounds(row),
+            row["pass"],
+            row["pass_holds"],
+            row["stretch"],
+            row["stretch_holds"],
+            *(number(other, other["value"]) for other in others),
+        ]
         lines.append("| " + " | ".join(cell.replace("  ", " ") for cell in cells) + " |")
     return "\n".join(lines)

@@ -3,6 +3,7 @@
 Everything is made of dictionaries, lists and numbers, so that it can be stored as JSON. The first name of a verdict is what
 it says about one concealed effect; a verdict without names says its own word.
 """
+
 import collections
 
 import binomial
@@ -10,8 +11,16 @@ import judge
 import measures
 import protocol
 
-TIERS = {"T0": "clean records", "T1": "one effect", "T2": "two effects", "T3": "three effects", "T4": "physics outside the catalogue",
-         "T5": "weak motion", "T6": "measurement decoys", "T7": "rigs out of the ordinary"}
+TIERS = {
+    "T0": "clean records",
+    "T1": "one effect",
+    "T2": "two effects",
+    "T3": "three effects",
+    "T4": "physics outside the catalogue",
+    "T5": "weak motion",
+    "T6": "measurement decoys",
+    "T7": "rigs out of the ordinary",
+}
 GUESSES = "guess"  # of power(): the family is among the first three guesses
 
 
@@ -21,8 +30,15 @@ def by_tier(judgements):
     for tier, words in TIERS.items():
         here = [j for j in judgements if protocol.kind(j) == tier]
         if here:
-            rows.append({"tier": tier, "words": words, "right": measures.share(here, lambda j: j.right),
-                         "false_name": measures.share(here, protocol.invented), "no_answer": measures.share(here, protocol.unanswered)})
+            rows.append(
+                {
+                    "tier": tier,
+                    "words": words,
+                    "right": measures.share(here, lambda j: j.right),
+                    "false_name": measures.share(here, protocol.invented),
+                    "no_answer": measures.share(here, protocol.unanswered),
+                }
+            )
     return rows
 
 
@@ -60,7 +76,11 @@ def confusion(judgements, row_of, column_of):
     rows = sorted({row for row, _ in counts})
     words = {column for _, column in counts}
     # what is right stands on the diagonal, other names after it, verdicts without a name last
-    verdicts = [word for word in ("class", "unexplained", "none", "insufficient", "data_fault", "missing", "invalid") if word in words]
+    verdicts = [
+        word
+        for word in ("class", "unexplained", "none", "insufficient", "data_fault", "missing", "invalid")
+        if word in words
+    ]
     columns = rows + sorted(words - set(rows) - set(verdicts)) + verdicts
     return {"rows": rows, "columns": columns, "counts": [[counts[row, column] for column in columns] for row in rows]}
 
@@ -77,9 +97,17 @@ def by_effect(judgements):
             tally[0] += protocol.first_answers(j, "family")
             tally[1] += 1
         instead = collections.Counter(said_first(j) for j in here if not protocol.first_answers(j, "class"))
-        rows.append({"effect": effect, "family": here[0].found[0].family, "cases": len(here), "sizes": sizes,
-                     "exact": sum(protocol.first_answers(j, "exact") for j in here),
-                     "class": sum(protocol.first_answers(j, "class") for j in here), "instead": dict(instead.most_common())})
+        rows.append(
+            {
+                "effect": effect,
+                "family": here[0].found[0].family,
+                "cases": len(here),
+                "sizes": sizes,
+                "exact": sum(protocol.first_answers(j, "exact") for j in here),
+                "class": sum(protocol.first_answers(j, "class") for j in here),
+                "instead": dict(instead.most_common()),
+            }
+        )
     return rows
 
 
@@ -89,8 +117,15 @@ def clean_controls(judgements):
     for part in ("joint", "controller", "noise", "train"):
         for value in sorted({str(j.rig[part]) for j in clean if part in j.rig}):
             here = [j for j in clean if str(j.rig.get(part)) == value]
-            rows.append({"part": part, "value": value, "records": len(here), "false_names": sum(map(protocol.invented, here)),
-                         "not_none": sum(not j.right for j in here)})
+            rows.append(
+                {
+                    "part": part,
+                    "value": value,
+                    "records": len(here),
+                    "false_names": sum(map(protocol.invented, here)),
+                    "not_none": sum(not j.right for j in here),
+                }
+            )
     return rows
 
 
@@ -108,10 +143,22 @@ def misses(judgements):
     """Cases that are not right, phantoms first, then the largest effects."""
     wrong = sorted((j for j in judgements if not j.right),
                    key=lambda j: (not protocol.invented(j), -protocol.size(j), j.drawn or j.case))
-    return [{"case": j.drawn or j.case, "folder": j.case, "tier": protocol.kind(j), "snr": protocol.size(j),
-             "concealed": list(j.concealed), "levels": [[f.name, f.level, f.rank] for f in j.found],
-             "forms": [f.form for f in j.found if f.form], "verdict": j.verdict, "names": [name for name, *_ in j.names],
-             "false_names": list(j.false_names), "reason": j.reason} for j in wrong]
+    return [
+        {
+            "case": j.drawn or j.case,
+            "folder": j.case,
+            "tier": protocol.kind(j),
+            "snr": protocol.size(j),
+            "concealed": list(j.concealed),
+            "levels": [[f.name, f.level, f.rank] for f in j.found],
+            "forms": [f.form for f in j.found if f.form],
+            "verdict": j.verdict,
+            "names": [name for name, *_ in j.names],
+            "false_names": list(j.false_names),
+            "reason": j.reason,
+        }
+        for j in wrong
+    ]
 
 
 def runtime(judgements):

@@ -16,6 +16,7 @@ records as a whole. Twins make p-values discrete (1/(M+1)): a distance below tha
 
 Exit code 0 whatever comes out; 66 when no record could be read.
 """
+
 import argparse
 import json
 import math
@@ -96,11 +97,21 @@ def calibration(records):
     distance, above = distances([p for table in tables for p in table.values()])
     return {
         "records": len(records),
-        "pooled": {"p_values": sum(map(len, tables)), "D": distance, "D_plus": above,
-                   "rates": [pooled_rate(tables, level) for level in LEVELS]},
+        "pooled": {
+            "p_values": sum(map(len, tables)),
+            "D": distance,
+            "D_plus": above,
+            "rates": [pooled_rate(tables, level) for level in LEVELS],
+        },
         "effects": by_effect([record["p"] for record in records]),
-        "groups": {name: {"records": len(group), "rate_5": pooled_rate([candidates(r) for r in group], 0.05)["rate"],
-                          "false_names": sum(1 for r in group if r["named"])} for name, group in sorted(groups.items())},
+        "groups": {
+            name: {
+                "records": len(group),
+                "rate_5": pooled_rate([candidates(r) for r in group], 0.05)["rate"],
+                "false_names": sum(1 for r in group if r["named"]),
+            }
+            for name, group in sorted(groups.items())
+        },
         "false_name": {"hits": false, "of": len(records), "upper_95": binomial.upper(false, len(records))},
         "not_none": {"hits": other, "of": len(records)},
         "names": sorted(name for record in records for name in record["named"]),
@@ -125,7 +136,9 @@ def read_records(out):
 
 def page(found):
     pooled, false = found["pooled"], found["false_name"]
-    lines = [f"{found['records']} clean records, {pooled['p_values']} p-values: D {pooled['D']:.3f}, D+ {pooled['D_plus']:.3f}"]
+    lines = [
+        f"{found['records']} clean records, {pooled['p_values']} p-values: D {pooled['D']:.3f}, D+ {pooled['D_plus']:.3f}"
+    ]
     for rate in pooled["rates"]:
         error = "" if rate["standard_error"] is None else f" +- {rate['standard_error']:.2%}"
         lines.append(f"  p <= {rate['level']:4.0%}   {rate['rate']:6.2%}{error}")

@@ -22,7 +22,8 @@ struct Row {
 std::vector<Row> const& rows() {
   using enum Recipe;
   static std::vector<Row> const table = {
-      // name      joint       controller       noise      bits train      validate   s     concealed, size             seed
+      // name      joint       controller       noise      bits train      validate   s     concealed, size
+      //           seed
       {"alder", "elbow", "cascade", "bench", 18, mixed, multisine, 60, {lorentzian_stribeck_of(0.12, 0.03)}, 101},
       {"birch", "stage", "pid", "bench", 17, mixed, staircase, 60, {}, 102},
       {"cedar", "elbow", "pd", "quiet", 19, mixed, multisine, 60, {cogging_of(0.02, 22.0)}, 103},

@@ -14,8 +14,8 @@ std::vector<double> difference(std::vector<double> a, std::vector<double> const&
   return a;
 }
 
-// The true laws along the recorded motion: where that differs from the true one, inertia and viscous friction of the rig are
-// asked for another torque
+// The true laws along the recorded motion: where that differs from the true one, inertia and viscous friction of the
+// rig are asked for another torque
 double oracle_of_recording(Rig const& rig, LoopRun const& noisy) {
   RecordedMotion const recorded = recorded_motion(noisy.recording);
   Truth const& truth = noisy.truth;

@@ -21,8 +21,8 @@ struct StepError {
   bool is_exact() const { return torque <= largest_step_error && position <= largest_step_error; }
 };
 
-// relative errors of the low-passed torque at the true motion: the baseline fitted without noise, and the true model; and the
-// true model at the motion as recorded (recorded_motion.hpp), away from reversals
+// relative errors of the low-passed torque at the true motion: the baseline fitted without noise, and the true model;
+// and the true model at the motion as recorded (recorded_motion.hpp), away from reversals
 struct Relerr {
   double baseline = 0.0, oracle = 0.0, oracle_of_recording = 0.0;
 };

@@ -29,8 +29,9 @@ def parse(text):
     units = {}
     for label, value in fields:
         if label in ("parameter", "shape"):
-            name, unit, slide = re.match(r"(\w+) in (.+?)(?: \(([^()]+) on a slide\)| \(revolute joints only\))?(?:[:,]|$)",
-                                         value).groups()
+            name, unit, slide = re.match(
+                r"(\w+) in (.+?)(?: \(([^()]+) on a slide\)| \(revolute joints only\))?(?:[:,]|$)", value
+            ).groups()
             units[name] = (unit, slide or (None if "(revolute joints only)" in value else unit))
     return Described(listed("family"), listed("signature"), units)
 
@@ -51,22 +52,31 @@ def mistakes(words, catalogue):
                 found.append(f"{name}: no parameter {parameter['name']} among {sorted(here.units)}")
             elif parameter["unit"] != units[effect["prismatic"]]:
                 found.append(f"{name}: {parameter['name']} in {parameter['unit']}, the catalogue has {units}")
-    found += [f"no effect is called {name}, which a truth may allow" for name in words["may_name"] if name not in catalogue]
+    found += [
+        f"no effect is called {name}, which a truth may allow" for name in words["may_name"] if name not in catalogue
+    ]
     axes = {axis for described in catalogue.values() for axis in described.axes}
     return found + [f"no effect shows on the axis {axis}" for axis in words["axes"] if axis not in axes]
 
 
 def teeth():
-    page = ("stribeck  Stribeck friction [reversal]\n (effect)\n  family     reversal, velocity_law\n  equation   tau = s Fs\n"
-            "  parameter  stribeck in N m (N on a slide): 0 to\n  2 x Coulomb level\n  shape      stribeck_exponent in 1: 0.5 to 2\n"
-            "  parameter  gravity_sin in N m (revolute joints only)\n"
-            "  signature  velocity, since_velocity_reversal; odd in the velocity\n  acts on    joint\n  source     me\n")
+    page = (
+        "stribeck  Stribeck friction [reversal]\n (effect)\n  family     reversal, velocity_law\n  equation   tau = s Fs\n"
+        "  parameter  stribeck in N m (N on a slide): 0 to\n  2 x Coulomb level\n  shape      stribeck_exponent in 1: 0.5 to 2\n"
+        "  parameter  gravity_sin in N m (revolute joints only)\n"
+        "  signature  velocity, since_velocity_reversal; odd in the velocity\n  acts on    joint\n  source     me\n"
+    )
     here = parse(page)
-    assert here == Described(["reversal", "velocity_law"], ["velocity", "since_velocity_reversal"],
-                             {"stribeck": ("N m", "N"), "stribeck_exponent": ("1", "1"), "gravity_sin": ("N m", None)}), here
+    assert here == Described(
+        ["reversal", "velocity_law"],
+        ["velocity", "since_velocity_reversal"],
+        {"stribeck": ("N m", "N"), "stribeck_exponent": ("1", "1"), "gravity_sin": ("N m", None)},
+    ), here
     effect = {"name": "stribeck", "families": ["reversal", "velocity_law"], "prismatic": True,
               "parameters": [{"name": "stribeck", "unit": "N"}]}
-    judged = lambda **changed: len(mistakes({"effects": [{**effect, **changed}], "may_name": [], "axes": ["velocity"]}, {"stribeck": here}))
+    judged = lambda **changed: len(
+        mistakes({"effects": [{**effect, **changed}], "may_name": [], "axes": ["velocity"]}, {"stribeck": here})
+    )
     assert judged() == 0
     assert judged(name="striebeck") == judged(families=["reversal"]) == judged(prismatic=False) == 1
     assert judged(parameters=[{"name": "rise", "unit": "N"}]) == 1
@@ -83,7 +93,10 @@ def main(torquescope, make_case):
     assert len(names) > 20 and len(words["effects"]) > 5, "too little found: have the pages changed?"
     catalogue = {name: parse(run(torquescope, "describe", name)) for name in names}
     found = mistakes(words, catalogue)
-    print("\n".join(found) or f"{len(words['effects'])} concealed effects speak the words of {len(catalogue)} effects of the engine")
+    print(
+        "\n".join(found)
+        or f"{len(words['effects'])} concealed effects speak the words of {len(catalogue)} effects of the engine"
+    )
     return 1 if found else 0
 
 

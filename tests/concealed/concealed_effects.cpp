@@ -51,7 +51,8 @@ EffectMaker backlash_of(double load_of_inertia, double half_gap_of_range, double
     double const half_gap = half_gap_of_range * joint.limits.range;
     double const omega = one_turn * contact_hz;
     double const stiffness = omega * omega * load * motor / (load + motor);
-    // a blow at a tenth of the peak speed loses about half of its speed (Hunt, Crossley: 1 - e = 2/3 damping/stiffness v)
+    // a blow at a tenth of the peak speed loses about half of its speed (Hunt, Crossley: 1 - e = 2/3 damping/stiffness
+    // v)
     double const damping = 0.75 * stiffness / (0.1 * joint.limits.speed);
     return {"backlash",
             {"reversal"},

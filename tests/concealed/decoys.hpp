@@ -1,8 +1,8 @@
 #pragma once
 // Faults of measurement that are no physics of the joint, and rigs out of the ordinary.
 //
-// Decoys     encoder (coarser than its digits), stamps (rows at nominal times, ticks that wander), late, filter and hold
-//            (the torque channel)
+// Decoys     encoder (coarser than its digits), stamps (rows at nominal times, ticks that wander), late, filter and
+//            hold (the torque channel)
 // Regimes    noise (twice that of the worst ordinary rig), gains (loop tuned for another joint, a tenth off), encoder
 //            (steps that divide no turn, last bit without meaning)
 // Errors     std::invalid_argument for an unknown kind

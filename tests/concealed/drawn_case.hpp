@@ -1,8 +1,8 @@
 #pragma once
 // A drawn case from its name: the rig, the motions, what is concealed and how large.
 //
-// Size       the rig is drawn anew, up to most_draws times, until every effect reaches its size at an amplitude that real
-//            joints have; after that the nearest is kept and the truth says its size
+// Size       the rig is drawn anew, up to most_draws times, until every effect reaches its size at an amplitude that
+//            real joints have; after that the nearest is kept and the truth says its size
 // Same name  same case, to the bit
 
 #include "concealed/case_list.hpp"

@@ -6,9 +6,9 @@
 //              T1:stribeck:0.5:3              one effect at SNR_eff 0.5
 //              T2:stribeck+cable:2:8          two effects, each at SNR_eff 2 when alone;  T3 likewise three
 //              T4:outside_sloshing:2:5        physics the catalogue does not hold
-//              T5:one_speed+stribeck:2:9      weak motion; a rich one of the same rig would show the effect at SNR_eff 2
-//              T6:filter:4                    a decoy of measurement, no physics concealed
-//              T7:noise:6, T7:gains+spring:2:7  a rig out of the ordinary, clean or with one effect
+//              T5:one_speed+stribeck:2:9      weak motion; a rich one of the same rig would show the effect at SNR_eff
+//              2 T6:filter:4                    a decoy of measurement, no physics concealed T7:noise:6,
+//              T7:gains+spring:2:7  a rig out of the ordinary, clean or with one effect
 // Folder     twelve hexadecimal digits that tell nothing; the truth file holds the name
 // Errors     std::invalid_argument with what to write instead
 
@@ -32,8 +32,9 @@ struct DrawnName {
 
 DrawnName parse_drawn_name(std::string const& text);
 
-// number `index` of its tier, from 1 to seeds_per_suite - 1; T1 goes through all effects and sizes before the seed changes.
-// Another suite has other seeds throughout: what was mended while looking at one is tested on one nobody has looked at
+// number `index` of its tier, from 1 to seeds_per_suite - 1; T1 goes through all effects and sizes before the seed
+// changes. Another suite has other seeds throughout: what was mended while looking at one is tested on one nobody has
+// looked at
 inline constexpr std::uint64_t seeds_per_suite = 100000;
 DrawnName listed_name(int tier, std::uint64_t index, std::uint64_t suite = 0);
 

@@ -14,8 +14,14 @@ def true_effect(name="stribeck", families=("reversal", "velocity_law"), catalogu
 
 def truth(expected="named", effects=None, snr=3.0):
     effects = [true_effect(snr=snr)] if effects is None else effects
-    return {"case": "x", "expected": expected, "size": size(snr), "effects": effects,
-            "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01, "oracle_of_recording": 0.01}}, "step_error": {"torque": 1e-6, "position": 1e-6}}
+    return {
+        "case": "x",
+        "expected": expected,
+        "size": size(snr),
+        "effects": effects,
+        "relerr": {"validate": {"baseline": 0.11, "oracle": 0.01, "oracle_of_recording": 0.01}},
+        "step_error": {"torque": 1e-6, "position": 1e-6},
+    }
 
 
 def clean():
@@ -23,12 +29,21 @@ def clean():
 
 
 def effect(name="stribeck", family="reversal", equivalent=(), low=-1.0, high=1.0):
-    return {"name": name, "family": family, "equivalent": list(equivalent), "region": {"axis": "velocity", "from": low, "to": high},
-            "parameters": [{"name": "stribeck", "value": 0.55, "ci95": [0.45, 0.65]}]}
+    return {
+        "name": name,
+        "family": family,
+        "equivalent": list(equivalent),
+        "region": {"axis": "velocity", "from": low, "to": high},
+        "parameters": [{"name": "stribeck", "value": 0.55, "ci95": [0.45, 0.65]}],
+    }
 
 
 def verdict(kind="named", effects=()):
-    joint = {"effects": list(effects), "baseline": {"validation_relerr": 0.11}, "augmented": {"validation_relerr": 0.02}}
+    joint = {
+        "effects": list(effects),
+        "baseline": {"validation_relerr": 0.11},
+        "augmented": {"validation_relerr": 0.02},
+    }
     return {"schema": 1, "verdict": kind, "joints": [joint]}
 
 

@@ -7,6 +7,7 @@ A case that lies in two folders must have the same seal and the same verdict, an
 made with; Contradiction says which does not. A truth that is not exact (judge.Inexact) is left out for every method,
 whatever they answered, and the board names it.
 """
+
 import dataclasses
 import hashlib
 import json
@@ -42,7 +43,9 @@ class Source:
     def verdict(self, method):
         if method != OURS:
             return verdict_record.read(self.folder / "rivals" / method / f"{self.name}.json")
-        return verdict_record.read(self.folder / "verdicts" / f"{self.name}.json", self.folder / "results" / f"{self.name}.h5")
+        return verdict_record.read(
+            self.folder / "verdicts" / f"{self.name}.json", self.folder / "results" / f"{self.name}.h5"
+        )
 
 
 @dataclasses.dataclass
@@ -86,7 +89,9 @@ def find(folders, names=None):
 
 def _same(first, second):
     if first.seal != second.seal:
-        raise Contradiction(f"{first.name}: sealed as {first.seal[:12]} in {first.folder} and as {second.seal[:12]} in {second.folder}")
+        raise Contradiction(
+            f"{first.name}: sealed as {first.seal[:12]} in {first.folder} and as {second.seal[:12]} in {second.folder}"
+        )
     one, other = (s.verdict(OURS) for s in (first, second))
     # a verdict that is not there yet contradicts nothing
     if one is not None and other is not None and one != other:
@@ -127,8 +132,14 @@ def describe(sources, judgements, left_out):
     seeds = {int(j.drawn.rsplit(":", 1)[1]) // SEEDS_PER_SUITE for j in judgements if j.drawn}
     engines = {s.notes.get("diagnosed", {}).get("engine") for s in sources} - {None}
     plants = {s.notes.get("plant") for s in sources} - {None}
-    return {"cases": len(judgements), "left_out": left_out, "truths_sha256": seal_of_all(sources), "suite_seeds": sorted(seeds),
-            "programs_sha256": sorted(engines), "plants_sha256": sorted(plants)}
+    return {
+        "cases": len(judgements),
+        "left_out": left_out,
+        "truths_sha256": seal_of_all(sources),
+        "suite_seeds": sorted(seeds),
+        "programs_sha256": sorted(engines),
+        "plants_sha256": sorted(plants),
+    }
 
 
 def gather(folders, names=None):

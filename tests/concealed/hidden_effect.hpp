@@ -1,8 +1,8 @@
 #pragma once
 // Physics that the plant has and the job's baseline model lacks.
 //
-// Equation   (inertia + added_inertia()) a = drive - offset - viscous v - gravity(q) - sum torque() - s max(0, coulomb + sum dry())
-//            so torque() and dry() are what the motor has to deliver in addition, dry() along the motion
+// Equation   (inertia + added_inertia()) a = drive - offset - viscous v - gravity(q) - sum torque() - s max(0, coulomb
+//            + sum dry()) so torque() and dry() are what the motor has to deliver in addition, dry() along the motion
 // State      z, n_states() numbers integrated with the joint (bristles, temperatures, a second mass)
 // Units      SI of the joint: N m, rad or N, m
 // Threads    const objects, any number of threads

@@ -2,6 +2,7 @@
 
 No include of engine/ or kernels/ in this folder, no engine library linked to it, and nobody but the scorer reads a truth.
 """
+
 import pathlib
 import re
 import sys
@@ -13,7 +14,9 @@ READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py"
 
 
 def foreign_includes(sources):
-    return [f"{path} includes the engine: {hit.strip()}" for path, text in sources.items() for hit in FOREIGN.findall(text)]
+    return [
+        f"{path} includes the engine: {hit.strip()}" for path, text in sources.items() for hit in FOREIGN.findall(text)
+    ]
 
 
 def teeth():

@@ -9,6 +9,7 @@ The main parameter is the first the truth lists; of a pair called ..._sin and ..
 Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no physics)
 accepts every verdict that claims nothing beyond the names the truth allows.
 """
+
 import dataclasses
 import math
 
@@ -60,7 +61,7 @@ class Judgement:
     tier: str = ""
     drawn: str = ""                    # the name a drawn case was made from
     wanted_snr: float = 0.0            # size each of its effects was made with
-    names: tuple = ()                  # (name, family, stated confidence or None, answers something concealed), as listed
+    names: tuple = ()  # (name, family, stated confidence or None, answers something concealed), as listed
     loop_ratio: float | None = None    # closed-loop position error, after over before
     reason: str = ""
     seconds: float | None = None
@@ -232,7 +233,9 @@ def judge(truth, verdict):
         gap, exact = (_gap_closed(record["unseen"], oracles[key]) if truth["effects"] else None
                       for key in ("oracle_of_recording", "oracle"))
         families = guesses(record)
-        names = tuple((r["name"], r["family"], verdict_record.confidence_of(r), r["name"] not in false_names) for r in reported)
+        names = tuple(
+            (r["name"], r["family"], verdict_record.confidence_of(r), r["name"] not in false_names) for r in reported
+        )
         loop = _loop_ratio(record["loop"])
     except (verdict_record.Invalid, KeyError, TypeError, IndexError):
         out.verdict = "invalid"
@@ -241,7 +244,13 @@ def judge(truth, verdict):
         f.rank = next((i for i, family in enumerate(families, 1) if family in t["families"]), None)
         f.blind = blind_chance(len(families), sum(family in t["families"] for family in families))
     out.verdict, out.n_named, out.names = record["verdict"], len(reported), names
-    out.found, out.false_names, out.gap_closed, out.gap_to_exact, out.loop_ratio = tuple(found), false_names, gap, exact, loop
+    out.found, out.false_names, out.gap_closed, out.gap_to_exact, out.loop_ratio = (
+        tuple(found),
+        false_names,
+        gap,
+        exact,
+        loop,
+    )
     out.reason, out.seconds = record["reason"], record["seconds"]
     out.right = _is_right(out, truth)
     return out

@@ -104,7 +104,8 @@ TEST(ConcealedExcitation, IsAnotherMotionWithAnotherSeed) {
 }
 
 TEST(ConcealedLoop, ForgetsABlow) {
-  // without friction, which would hide a slow or undamped loop: a torque pulse of one tick leaves no trace after a second
+  // without friction, which would hide a slow or undamped loop: a torque pulse of one tick leaves no trace after a
+  // second
   for (auto const* name : all_joints) {
     for (auto const* controller_name : all_controllers) {
       JointDesign const joint = joint_named(name);

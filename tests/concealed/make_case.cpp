@@ -3,7 +3,8 @@
 // make_case --list                names of the sealed cases, one per line
 // make_case --words               effects, families, parameters, units and axes the truths are written with, as JSON
 // make_case --drawn NAME OUT_DIR  writes a drawn case (drawn_name.hpp) to OUT_DIR/FOLDER
-// make_case --list-drawn TIER FROM..TO [SUITE]   names of drawn cases, for example T1 1..775, one per line; another SUITE
+// make_case --list-drawn TIER FROM..TO [SUITE]   names of drawn cases, for example T1 1..775, one per line; another
+// SUITE
 //                                (0 when not given) has other seeds throughout
 // make_case --folders NAME...     folder of each drawn case, one per line
 // Prints one line: seal, folder, realised effect size. Exit code 0; 64 usage; 1 with a message when it fails.

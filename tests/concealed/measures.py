@@ -7,6 +7,7 @@ low and high are one-sided 95 % bounds each, so together a 90 % interval; None w
                                                    all quantities between 0 and 1 with this mean yes-or-no varies most
     quantile   of whatever distribution            order statistics (Conover 1999, section 3.2)
 """
+
 import math
 import statistics
 
@@ -18,7 +19,13 @@ ALPHA = 0.05
 def rate(hits, n):
     if n == 0:
         return None
-    return {"value": hits / n, "low": binomial.lower(hits, n, ALPHA), "high": binomial.upper(hits, n, ALPHA), "n": n, "hits": hits}
+    return {
+        "value": hits / n,
+        "low": binomial.lower(hits, n, ALPHA),
+        "high": binomial.upper(hits, n, ALPHA),
+        "n": n,
+        "hits": hits,
+    }
 
 
 def share(items, test):
@@ -46,7 +53,12 @@ def quantile(values, probability=0.5):
     below = [binomial.at_most(k, n, probability) for k in range(n)]
     low = max((k for k in range(n) if below[k] <= ALPHA), default=None)
     high = min((k for k in range(n) if 1.0 - below[k] <= ALPHA), default=None)
-    return {"value": value, "low": None if low is None else values[low], "high": None if high is None else values[high], "n": n}
+    return {
+        "value": value,
+        "low": None if low is None else values[low],
+        "high": None if high is None else values[high],
+        "n": n,
+    }
 
 
 def plain(value, n):

@@ -1,4 +1,5 @@
-// The joint obeys mechanics: energy is kept or dissipated, dry friction holds and stops, the integrator is of its order.
+// The joint obeys mechanics: energy is kept or dissipated, dry friction holds and stops, the integrator is of its
+// order.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -14,6 +14,7 @@ verdict      none without names; data_fault when every name is a fault of a chan
              engine refuses the recording before anything is searched: no method has columns there
 Exit code: 0, also when a method is missing its library (words.json says which); 64 usage; 66 no cases; 70 when a rival or the program fails.
 """
+
 import argparse
 import concurrent.futures
 import functools

@@ -17,6 +17,7 @@ one Slurm says; each shard wants an OUT of its own, and score.py OUT... gathers 
 
 Exit code: the scorer's; 64 usage, 70 when make_case fails. A program that fails is a case without a verdict, no error here.
 """
+
 import argparse
 import concurrent.futures
 import dataclasses
@@ -85,7 +86,11 @@ class Suite:
         """True when the program was run, False when its verdict was there already."""
         known = self.made[name].get("diagnosed", {})
         verdict, result = self.out / "verdicts" / f"{name}.json", self.out / "results" / f"{name}.h5"
-        if (known.get("seal"), known.get("engine")) == (seal, self.engine) and known["exit_code"] == 0 and verdict.exists():
+        if (
+            (known.get("seal"), known.get("engine")) == (seal, self.engine)
+            and known["exit_code"] == 0
+            and verdict.exists()
+        ):
             return False
         for old in (verdict, result):
             old.unlink(missing_ok=True)

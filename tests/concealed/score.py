@@ -10,6 +10,7 @@ not exact is in no rate, and named.
 Exit code 0 whatever the score, with --all-right 1 unless every case is right and none left out; 66 when there is no truth; 65 when a truth is
 damaged, not the one that was sealed, or a case has two seals or two verdicts.
 """
+
 import argparse
 import dataclasses
 import json
@@ -45,7 +46,11 @@ def scored(judgements):
 
 
 def board_of(gathered):
-    return {"schema": 2, "suite": gathered.suite, "methods": {method: scored(cases) for method, cases in gathered.methods.items()}}
+    return {
+        "schema": 2,
+        "suite": gathered.suite,
+        "methods": {method: scored(cases) for method, cases in gathered.methods.items()},
+    }
 
 
 def score(folders, names=None, board_folder=None, form="text", with_cases=True, all_right=False):
@@ -65,7 +70,9 @@ def score(folders, names=None, board_folder=None, form="text", with_cases=True, 
     (folder / "board.json").write_text(json.dumps(board, indent=1))
     board_h5.write(folder / "board.h5", board)
     print(board_text.markdown(board) if form == "markdown" else board_text.text(board, ours if with_cases else []))
-    wrong = [j.drawn or j.case for j in ours if not j.right] + [f"{one['case']} (left out)" for one in gathered.suite["left_out"]]
+    wrong = [j.drawn or j.case for j in ours if not j.right] + [
+        f"{one['case']} (left out)" for one in gathered.suite["left_out"]
+    ]
     if all_right and wrong:
         print(f"\nnot right: {', '.join(wrong)}")
         return 1
@@ -80,7 +87,14 @@ def main(arguments):
     parser.add_argument("--cases", action="store_true", help="print a line for every case as well")
     parser.add_argument("--all-right", action="store_true")
     options = parser.parse_args(arguments)
-    return score(options.folders, None, options.board, "markdown" if options.markdown else "text", options.cases, options.all_right)
+    return score(
+        options.folders,
+        None,
+        options.board,
+        "markdown" if options.markdown else "text",
+        options.cases,
+        options.all_right,
+    )
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ rigs of the list come round in cycles, and every eighteenth pair had the same si
     of("3/40", {})                  (3, 40)   shards count from 0
     of(None, os.environ)            the task of a Slurm array, or the process of an srun step; None outside both
 """
+
 import hashlib
 import os
 import re

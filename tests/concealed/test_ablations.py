@@ -4,6 +4,7 @@
 
 The stand-in invents an effect where the job has another null than the twins, and says "none" otherwise.
 """
+
 import contextlib
 import io
 import json
@@ -86,7 +87,9 @@ class Runner(unittest.TestCase):
     def test_runs_each_on_the_same_recordings_and_scores_each(self):
         code, text, error = self.run_ablations("--drawn", "T0:3", "--only", "null_hac,noise_half")
         self.assertEqual(code, 0, text + error)
-        (whole, first), (hac, second), (half, third) = [(job["diagnose"], recording) for job, recording, _ in self.called()]
+        (whole, first), (hac, second), (half, third) = [
+            (job["diagnose"], recording) for job, recording, _ in self.called()
+        ]
         self.assertEqual({first}, {second, third})
         self.assertNotIn("null", whole)
         self.assertEqual((hac["null"], half["twin_noise"]), ("hac", 0.5))

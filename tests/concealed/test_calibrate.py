@@ -35,7 +35,9 @@ class Distances(unittest.TestCase):
     def test_critical_value_is_what_uniform_numbers_exceed_once_in_twenty(self):
         draw = random.Random(5)
         n, trials = 40, 4000
-        over = sum(calibrate.distances([draw.random() for _ in range(n)])[0] > calibrate.critical(n) for _ in range(trials))
+        over = sum(
+            calibrate.distances([draw.random() for _ in range(n)])[0] > calibrate.critical(n) for _ in range(trials)
+        )
         four_sigma = 4 * (0.05 * 0.95 / trials) ** 0.5
         self.assertAlmostEqual(over / trials, 0.05, delta=four_sigma)
 
@@ -54,7 +56,9 @@ class Calibration(unittest.TestCase):
         self.assertIn("not uniform", calibrate.page(found))
 
     def test_false_names_are_counted_by_record_and_rig(self):
-        records = [record({"spring": 0.5}) for _ in range(30)] + [record({"spring": 0.001}, ["spring", "delay"], noise="quiet")]
+        records = [record({"spring": 0.5}) for _ in range(30)] + [
+            record({"spring": 0.001}, ["spring", "delay"], noise="quiet")
+        ]
         found = calibrate.calibration(records)
         self.assertEqual((found["false_name"]["hits"], found["false_name"]["of"]), (1, 31))
         self.assertEqual(found["groups"]["noise quiet"], {"records": 1, "rate_5": 1.0, "false_names": 1})

@@ -182,7 +182,12 @@ class Shards(Folders):
             self.assertEqual(sizes, {"1", "2", "4"}, index)
 
     def test_slurm_says_which_share(self):
-        array = {"SLURM_ARRAY_TASK_COUNT": "5", "SLURM_ARRAY_TASK_ID": "10", "SLURM_ARRAY_TASK_MIN": "2", "SLURM_ARRAY_TASK_STEP": "4"}
+        array = {
+            "SLURM_ARRAY_TASK_COUNT": "5",
+            "SLURM_ARRAY_TASK_ID": "10",
+            "SLURM_ARRAY_TASK_MIN": "2",
+            "SLURM_ARRAY_TASK_STEP": "4",
+        }
         self.assertEqual(shard.of(None, array), (2, 5))
         self.assertEqual(shard.of("1/2", array), (1, 2))
         step = {"SLURM_PROCID": "3", "SLURM_NTASKS": "8", "SLURM_STEP_ID": "0"}
@@ -221,7 +226,9 @@ class Stored(Folders):
             cases, ours = file["cases"], file["methods/torquescope"]
             self.assertEqual(list(cases["drawn"].asstr()), ["T0:7", "T1:stribeck:2:4"])
             self.assertEqual((list(cases["seed"]), list(cases["snr_eff"])), ([7, 4], [0.0, 3.0]))
-            self.assertEqual(list(cases["seal"].asstr()), [case["seal"] for case in board["methods"]["torquescope"]["cases"]])
+            self.assertEqual(
+                list(cases["seal"].asstr()), [case["seal"] for case in board["methods"]["torquescope"]["cases"]]
+            )
             self.assertEqual(list(ours["cases/names"].asstr()), ["", "stribeck"])
             self.assertAlmostEqual(ours["cases/iou"][1], 1.0)
             self.assertEqual(list(ours["cases/seconds"]), [2.5, 2.5])
@@ -230,7 +237,9 @@ class Stored(Folders):
             self.assertEqual(ours["confusion/effects/counts"][()].tolist(), [[1]])
             self.assertAlmostEqual(ours["confidence"].attrs["brier"], 0.0004)
             described = []
-            file.visititems(lambda name, one: described.append((name, set(one.attrs))) if isinstance(one, h5py.Dataset) else None)
+            file.visititems(
+                lambda name, one: described.append((name, set(one.attrs))) if isinstance(one, h5py.Dataset) else None
+            )
             self.assertEqual([name for name, attributes in described if not {"unit", "long_name"} <= attributes], [])
 
 

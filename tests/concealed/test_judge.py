@@ -98,15 +98,23 @@ class Judge(unittest.TestCase):
         self.assertTrue(judge.judge(pair, verdict("named", [effect("spring", "static_position"), effect()])).right)
 
     def test_region_overlap_counts_samples(self):
-        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": 0.0, "to": 2.0}, true_effect()["regions"]), 1 / 3)
-        self.assertAlmostEqual(judge.region_iou({"axis": "velocity", "from": -0.5, "to": 0.5}, true_effect()["regions"]), 0.5)
+        self.assertAlmostEqual(
+            judge.region_iou({"axis": "velocity", "from": 0.0, "to": 2.0}, true_effect()["regions"]), 1 / 3
+        )
+        self.assertAlmostEqual(
+            judge.region_iou({"axis": "velocity", "from": -0.5, "to": 0.5}, true_effect()["regions"]), 0.5
+        )
         self.assertIsNone(judge.region_iou({"axis": "time", "from": 0, "to": 1}, true_effect()["regions"]))
 
     def test_missing_and_broken_verdicts_are_failures(self):
         self.assertEqual(judge.judge(clean(), None).verdict, "missing")
         self.assertFalse(judge.judge(clean(), None).right)
-        for broken in ({}, {"schema": 2, "verdict": "none", "joints": []}, {"schema": 1, "verdict": "maybe", "joints": []},
-                       {"schema": 1, "verdict": "none", "joints": [{}]}):
+        for broken in (
+            {},
+            {"schema": 2, "verdict": "none", "joints": []},
+            {"schema": 1, "verdict": "maybe", "joints": []},
+            {"schema": 1, "verdict": "none", "joints": [{}]},
+        ):
             self.assertEqual(judge.judge(clean(), broken).verdict, "invalid")
             self.assertFalse(judge.judge(clean(), broken).right)
 
@@ -114,9 +122,13 @@ class Judge(unittest.TestCase):
         vague = effect(low=None, high=None)
         vague["parameters"][0]["ci95"] = [None, None]
         answer = verdict("named", [vague])
-        answer["joints"][0]["baseline"]["validation_relerr"] = answer["joints"][0]["augmented"]["validation_relerr"] = None
+        answer["joints"][0]["baseline"]["validation_relerr"] = answer["joints"][0]["augmented"]["validation_relerr"] = (
+            None
+        )
         j = judge.judge(truth(), answer)
-        self.assertEqual((j.verdict, j.right, j.gap_closed, j.found[0].iou, j.found[0].intervals), ("named", True, None, None, ()))
+        self.assertEqual(
+            (j.verdict, j.right, j.gap_closed, j.found[0].iou, j.found[0].intervals), ("named", True, None, None, ())
+        )
         vague["parameters"][0]["value"] = None
         self.assertIsNone(judge.judge(truth(), verdict("named", [vague])).found[0].parameter_error)
 
@@ -169,7 +181,9 @@ class OtherAnswers(unittest.TestCase):
         true["parameters"] = [{"name": "gravity_sin", "value": 0.0}, {"name": "gravity_cos", "value": -5.0}]
         said = effect("gravity", "static_position")
         said["parameters"] = [{"name": "gravity_sin", "value": 0.3}, {"name": "gravity_cos", "value": -5.0}]
-        self.assertAlmostEqual(judge.judge(truth(effects=[true]), verdict("named", [said])).found[0].parameter_error, 0.06)
+        self.assertAlmostEqual(
+            judge.judge(truth(effects=[true]), verdict("named", [said])).found[0].parameter_error, 0.06
+        )
         del said["parameters"][1]
         self.assertIsNone(judge.judge(truth(effects=[true]), verdict("named", [said])).found[0].parameter_error)
 
@@ -183,9 +197,14 @@ class OtherAnswers(unittest.TestCase):
         self.assertEqual(found.intervals, (True, False))
 
     def test_guesses_are_names_and_then_the_ranking_without_repeats(self):
-        answer = {**verdict("named", [effect("cogging", "order_locked")]),
-                  "ranking": [{"name": "cogging", "family": "order_locked"}, {"name": "spring", "family": "static_position"},
-                              {"name": "presliding", "family": "reversal"}]}
+        answer = {
+            **verdict("named", [effect("cogging", "order_locked")]),
+            "ranking": [
+                {"name": "cogging", "family": "order_locked"},
+                {"name": "spring", "family": "static_position"},
+                {"name": "presliding", "family": "reversal"},
+            ],
+        }
         self.assertEqual(judge.judge(truth(), answer).found[0].rank, 3)
         self.assertIsNone(judge.judge(truth(), {**answer, "ranking": []}).found[0].rank)
         self.assertEqual(judge.judge(truth(), {**verdict("none"), "ranking": answer["ranking"]}).found[0].rank, 3)
@@ -208,8 +227,14 @@ class OtherAnswers(unittest.TestCase):
         j = judge.judge(truth(), rival)
         self.assertEqual((j.right, j.found[0].level, j.found[0].iou, j.gap_closed), (True, "exact", None, None))
         self.assertEqual(j.names, (("stribeck", "reversal", None, True),))
-        self.assertAlmostEqual(judge.judge(truth(), {**rival, "unseen": {"before": 0.11, "after": 0.02}}).gap_closed, 0.9)
-        for broken in ({"verdict": "named"}, {"verdict": "perhaps", "effects": []}, {"verdict": "named", "effects": [{"name": "stribeck"}]}):
+        self.assertAlmostEqual(
+            judge.judge(truth(), {**rival, "unseen": {"before": 0.11, "after": 0.02}}).gap_closed, 0.9
+        )
+        for broken in (
+            {"verdict": "named"},
+            {"verdict": "perhaps", "effects": []},
+            {"verdict": "named", "effects": [{"name": "stribeck"}]},
+        ):
             self.assertEqual(judge.judge(truth(), broken).verdict, "invalid")
 
     def test_a_name_states_one_minus_its_false_discovery_rate(self):

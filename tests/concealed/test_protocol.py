@@ -1,4 +1,5 @@
 """The scorer's numbers against small examples worked out by hand: bounds, levels, the table, curves, confusion, calibration."""
+
 import sys
 import unittest
 
@@ -47,7 +48,10 @@ class Bounds(unittest.TestCase):
 class Levels(unittest.TestCase):
     def clean_level(self, hits, n):
         row = next(row for row in protocol.ROWS if row.key == "clean_false_name")
-        return [protocol.holds(level, measures.rate(hits, n), row.enough, row.by_bound) for level in (row.passes, row.stretch)]
+        return [
+            protocol.holds(level, measures.rate(hits, n), row.enough, row.by_bound)
+            for level in (row.passes, row.stretch)
+        ]
 
     def test_clean_records_as_the_protocol_counts_them(self):
         self.assertEqual(self.clean_level(4, 500), ["yes", "yes"])
@@ -87,13 +91,23 @@ def suite():
     by_class = verdict("class", [{**effect("presliding", equivalent=["stribeck"]), "q": 0.01}])
     by_family = verdict("named", [effect("power_law_viscous", "velocity_law")])
     both = verdict("named", [effect("spring", "static_position"), effect(), effect("cogging", "order_locked")])
-    return [judged("T0:1", clean(), verdict("none")), judged("T0:2", clean(), verdict("named", [effect()])),
-            judged("T1:stribeck:0.5:1", truth(snr=0.5), verdict("none"), 0.5), judged("T1:stribeck:4:1", truth(snr=4.0), right, 4.0),
-            judged("T1:stribeck:4:2", truth(snr=4.0), by_class, 4.0), judged("T1:stribeck:4:3", truth(snr=4.0), by_family, 4.0),
-            judged("T1:stribeck:1:4", truth(snr=0.95), verdict("named", [{**effect("cogging", "order_locked"), "q": 0.05}]), 1.0),
-            judged("T2:stribeck+spring:2:1", pair, both, 2.0),
-            judged("T2:stribeck+spring:2:2", pair, verdict("named", [effect("spring", "static_position"), effect()]), 2.0),
-            judged("T4:outside_sloshing:1:1", truth("unexplained", [true_effect("", ())]), None, 1.0)]
+    return [
+        judged("T0:1", clean(), verdict("none")),
+        judged("T0:2", clean(), verdict("named", [effect()])),
+        judged("T1:stribeck:0.5:1", truth(snr=0.5), verdict("none"), 0.5),
+        judged("T1:stribeck:4:1", truth(snr=4.0), right, 4.0),
+        judged("T1:stribeck:4:2", truth(snr=4.0), by_class, 4.0),
+        judged("T1:stribeck:4:3", truth(snr=4.0), by_family, 4.0),
+        judged(
+            "T1:stribeck:1:4",
+            truth(snr=0.95),
+            verdict("named", [{**effect("cogging", "order_locked"), "q": 0.05}]),
+            1.0,
+        ),
+        judged("T2:stribeck+spring:2:1", pair, both, 2.0),
+        judged("T2:stribeck+spring:2:2", pair, verdict("named", [effect("spring", "static_position"), effect()]), 2.0),
+        judged("T4:outside_sloshing:1:1", truth("unexplained", [true_effect("", ())]), None, 1.0),
+    ]
 
 
 class Table(unittest.TestCase):
@@ -119,8 +133,13 @@ class Table(unittest.TestCase):
         self.assertEqual(rows["triple_set"]["pass_holds"], "not measured")
 
     def test_sealed_cases_count_in_the_tier_they_would_belong_to(self):
-        made = (clean(), truth(), truth(effects=[true_effect(), true_effect()]), truth("unexplained", [true_effect("", ())]),
-                truth("insufficient"))
+        made = (
+            clean(),
+            truth(),
+            truth(effects=[true_effect(), true_effect()]),
+            truth("unexplained", [true_effect("", ())]),
+            truth("insufficient"),
+        )
         kinds = [protocol.kind(judge.judge(one, None)) for one in made]
         self.assertEqual(kinds, ["T0", "T1", "T2", "T4", "T5"])
 
@@ -130,7 +149,9 @@ class Apart(unittest.TestCase):
         rows = {(row["tier"], row["size"]): row for row in breakdown.power(suite())}
         self.assertEqual(sorted(rows), [("T1", 0.5), ("T1", 1.0), ("T1", 4.0), ("T2", 2.0)])
         at_four = rows["T1", 4.0]
-        self.assertEqual([at_four[level]["hits"] for level in ("exact", "class", "family", "guess", "false_name")], [1, 2, 3, 3, 0])
+        self.assertEqual(
+            [at_four[level]["hits"] for level in ("exact", "class", "family", "guess", "false_name")], [1, 2, 3, 3, 0]
+        )
         self.assertEqual((at_four["family"]["n"], at_four["family"]["high"]), (3, 1.0))
         self.assertAlmostEqual(at_four["family"]["low"], 0.025 ** (1 / 3), 9)
         # found, but something was invented beside
@@ -138,10 +159,19 @@ class Apart(unittest.TestCase):
 
     def test_confusion_has_right_answers_on_its_diagonal(self):
         effects = breakdown.confusion(suite(), lambda j: j.found[0].name, breakdown.said_first)
-        self.assertEqual(effects, {"rows": ["stribeck"], "columns": ["stribeck", "cogging", "power_law_viscous", "presliding", "none"],
-                                   "counts": [[1, 1, 1, 1, 1]]})
+        self.assertEqual(
+            effects,
+            {
+                "rows": ["stribeck"],
+                "columns": ["stribeck", "cogging", "power_law_viscous", "presliding", "none"],
+                "counts": [[1, 1, 1, 1, 1]],
+            },
+        )
         families = breakdown.confusion(suite(), lambda j: j.found[0].family, breakdown.family_first)
-        self.assertEqual((families["columns"], families["counts"]), (["reversal", "order_locked", "velocity_law", "none"], [[2, 1, 1, 1]]))
+        self.assertEqual(
+            (families["columns"], families["counts"]),
+            (["reversal", "order_locked", "velocity_law", "none"], [[2, 1, 1, 1]]),
+        )
 
     def test_effects_and_what_was_said_instead(self):
         (row,) = breakdown.by_effect(suite())
@@ -155,17 +185,22 @@ class Apart(unittest.TestCase):
                          ["T2:stribeck+spring:2:1", "T4:outside_sloshing:1:1", "T1:stribeck:1:4", "T0:2",
                           "T1:stribeck:4:3", "T1:stribeck:0.5:1"])
         phantom = next(one for one in wrong if one["case"] == "T1:stribeck:1:4")
-        self.assertEqual((phantom["concealed"], phantom["false_names"], phantom["verdict"]), (["stribeck"], ["cogging"], "named"))
+        self.assertEqual(
+            (phantom["concealed"], phantom["false_names"], phantom["verdict"]), (["stribeck"], ["cogging"], "named")
+        )
 
     def test_clean_controls_by_their_rigs(self):
         rows = breakdown.clean_controls(suite())
-        self.assertEqual([(row["part"], row["value"], row["records"], row["false_names"]) for row in rows],
-                         [("joint", "elbow", 2, 1), ("controller", "pid", 2, 1), ("noise", "bench", 2, 1), ("train", "mixed", 2, 1)])
+        self.assertEqual(
+            [(row["part"], row["value"], row["records"], row["false_names"]) for row in rows],
+            [("joint", "elbow", 2, 1), ("controller", "pid", 2, 1), ("noise", "bench", 2, 1), ("train", "mixed", 2, 1)],
+        )
 
 
 class Confidence(unittest.TestCase):
     def test_brier_and_calibration_error_by_hand(self):
-        # (0.96, right), (0.99, right), (0.95, wrong): 0.0016, 0.0001, 0.9025; bins [0.95, 0.99): 0.955 stated, 1/2 right; [0.99, ...)
+        # (0.96, right), (0.99, right), (0.95, wrong): 0.0016, 0.0001, 0.9025; bins [0.95, 0.99): 0.955 stated, 1/2
+        # right; [0.99, ...)
         found = confidence.calibration(protocol.stated(suite()))
         self.assertEqual(found["n"], 3)
         self.assertAlmostEqual(found["brier"], (0.0016 + 0.0001 + 0.9025) / 3)

@@ -1,4 +1,5 @@
 """The rivals on small made-up columns whose answer is known by construction, and the runner with a stand-in for the engine."""
+
 import contextlib
 import io
 import json
@@ -33,17 +34,21 @@ def made(seed=1, n=1500, effects=(), noise=1.0, rho=0.0, names=("spring", *FRICT
 
     def record(random, n):
         regressor = np.column_stack([np.ones(n), random.normal(size=n)])
-        candidates = {name: np.column_stack([autoregression(random, n, colour) for _ in range(2 if name == "cogging" else 1)])
-                      for name in names}
+        candidates = {
+            name: np.column_stack([autoregression(random, n, colour) for _ in range(2 if name == "cogging" else 1)])
+            for name in names
+        }
         torque = regressor @ [0.3, 2.0] + noise * autoregression(random, n, rho)
         for name, size in effects.items():
             torque = torque + size * candidates[name].sum(axis=1)
         return Record(torque, regressor, candidates, 100.0, 50.0)
 
     random = np.random.default_rng(seed)
-    return Columns(record(random, n),
-                   [Candidate(name, "family of " + name, 2 if name == "cogging" else 1, int(name == "cogging")) for name in names],
-                   [record(random, n // 2)])
+    return Columns(
+        record(random, n),
+        [Candidate(name, "family of " + name, 2 if name == "cogging" else 1, int(name == "cogging")) for name in names],
+        [record(random, n // 2)],
+    )
 
 
 class EveryRival(unittest.TestCase):
@@ -103,7 +108,9 @@ class Tests(unittest.TestCase):
             rival_columns.model(record, names), record.torque, rcond=None)[0]) ** 2)
         from scipy import stats
         free = len(record) - 2 - candidate.df
-        wanted = stats.f.sf((left([]) - left(["cogging"])) / candidate.df / (left(["cogging"]) / free), candidate.df, free)
+        wanted = stats.f.sf(
+            (left([]) - left(["cogging"])) / candidate.df / (left(["cogging"]) / free), candidate.df, free
+        )
         residual = rival_columns.apart(record.torque, record.regressor)
         group = rival_columns.apart(record.candidates["cogging"], record.regressor)
         self.assertAlmostEqual(iid_f.p_value(residual, group, candidate, 2) / wanted, 1.0, places=6)
@@ -218,7 +225,9 @@ def write_columns(path, found):
         here.attrs["not_testable"] = text(["gravity"])
         for candidate in found.candidates:
             effect = here.create_group("effects/" + candidate.name)
-            effect.attrs.update({"family": candidate.family, "acts_on": candidate.acts_on, "is_event": int(candidate.is_event)})
+            effect.attrs.update(
+                {"family": candidate.family, "acts_on": candidate.acts_on, "is_event": int(candidate.is_event)}
+            )
             effect.attrs["linear"] = text(["a", "b"][: candidate.n_linear])
             if candidate.n_shape:
                 effect["shape"] = np.zeros(candidate.n_shape)

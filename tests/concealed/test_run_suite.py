@@ -121,7 +121,9 @@ class RunSuite(unittest.TestCase):
             self.assertIn(f"shard {index} of 2: {1 - index} of 1 cases", text)
         self.assertEqual([folder for folder, _ in self.called()], ["clean_1"])
         with contextlib.redirect_stdout(io.StringIO()) as printed:
-            code = score.main([str(self.folder / "shard_0"), str(self.folder / "shard_1"), "--board", str(self.folder / "whole")])
+            code = score.main(
+                [str(self.folder / "shard_0"), str(self.folder / "shard_1"), "--board", str(self.folder / "whole")]
+            )
         self.assertEqual(code, 0)
         self.assertIn("1 cases", printed.getvalue())
         self.assertTrue((self.folder / "whole" / "board.h5").exists())

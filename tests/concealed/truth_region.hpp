@@ -4,7 +4,8 @@
 // Bins       100 per axis; a bin is inside when, taken in the order of mean energy per sample, it belongs to the first
 //            bins that hold 80 % of the energy. Distances since a reversal are binned by their logarithm
 // Axes       time, position, velocity, acceleration, load, since_velocity_reversal, since_torque_reversal: the engine's
-//            words. Load along the motion, as there: above zero the motor drives. Torque that reverses: inertia, gravity and friction of the baseline, which backlash has to transmit
+//            words. Load along the motion, as there: above zero the motor drives. Torque that reverses: inertia,
+//            gravity and friction of the baseline, which backlash has to transmit
 // Units      those of the axis: s, rad or m, rad/s or m/s, rad/s^2 or m/s^2, N m or N
 
 #include <string>

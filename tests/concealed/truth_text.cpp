@@ -82,7 +82,8 @@ std::string words_text() {
 namespace {
 
 Json relerr_json(Relerr const& relerr) {
-  return {{"baseline", relerr.baseline}, {"oracle", relerr.oracle}, {"oracle_of_recording", relerr.oracle_of_recording}};
+  return {
+      {"baseline", relerr.baseline}, {"oracle", relerr.oracle}, {"oracle_of_recording", relerr.oracle_of_recording}};
 }
 
 }  // namespace
@@ -105,8 +106,7 @@ std::string truth_text(Case const& one_case, CaseReport const& report) {
       {"baseline", baseline_json(rig.joint.baseline)},
       {"absorbed_baseline", baseline_json(report.fit.parameters)},
       {"size", size_json(report.together)},
-      {"relerr",
-       {{"train", relerr_json(report.train_relerr)}, {"validate", relerr_json(report.validate_relerr)}}},
+      {"relerr", {{"train", relerr_json(report.train_relerr)}, {"validate", relerr_json(report.validate_relerr)}}},
       {"step_error", {{"torque", report.step_error.torque}, {"position", report.step_error.position}}},
       {"effects", Json::array()}};
   if (!one_case.drawn.empty()) {

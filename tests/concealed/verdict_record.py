@@ -12,6 +12,7 @@ A rival     OUT/rivals/METHOD/NAME.json, one file per case, NAME being the folde
 A rival is judged by the same functions against the same truths. What a method does not say is not scored; a file that is
 missing is a case without an answer.
 """
+
 import json
 
 VERDICTS = ("none", "named", "class", "unexplained", "insufficient", "data_fault")
@@ -41,7 +42,9 @@ def _of_diagnosis(verdict):
     record.update({key: verdict[key] for key in ("ranking", "loop", "seconds") if key in verdict})
     if verdict["joints"]:
         joint = verdict["joints"][0]
-        record["effects"] = [_placed(effect, verdict.get("places", {}).get(effect["name"])) for effect in joint["effects"]]
+        record["effects"] = [
+            _placed(effect, verdict.get("places", {}).get(effect["name"])) for effect in joint["effects"]
+        ]
         record["unseen"] = {"before": joint["baseline"]["validation_relerr"],
                             "after": (joint.get("augmented") or {}).get("validation_relerr")}
     return record

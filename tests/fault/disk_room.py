@@ -52,7 +52,9 @@ class DiskRoom(shimmed.ShimmedTest):
 
     def test_a_diagnosis_that_does_not_fit_is_not_begun(self):
         command = ("diagnose", "job.toml", "--out", "d.h5")
-        folder = self.folder(study.simulated_job.job(simulate={"duration_s": 12, "validate": True}, diagnose={"twins": 60}))
+        folder = self.folder(
+            study.simulated_job.job(simulate={"duration_s": 12, "validate": True}, diagnose={"twins": 60})
+        )
         ended = folder.run(*command, changes=shimmed.changes(folder, free=20480))
         self.assert_ended(ended, 74)
         needed = re.search(r"d\.h5 needs up to (\d+) bytes, and 20480 are free there", ended.said.replace("[74] ", ""))

@@ -60,7 +60,9 @@ class Failing(shimmed.ShimmedTest):
             self.assertFalse(call.is_vital, said)
             return
         self.assertEqual(ended.code, 74, said)
-        words = {"EIO": "input/output error", "ENOSPC": "no space left on device", "EDQUOT": "disk quota exceeded"}[error]
+        words = {"EIO": "input/output error", "ENOSPC": "no space left on device", "EDQUOT": "disk quota exceeded"}[
+            error
+        ]
         told = ended.said.replace("[74] ", "")
         self.assertIn(words, told.lower(), said)
         self.assertRegex(told, r"(cannot write|cannot read) \S*(r\.h5|job\.toml)", said)

@@ -60,7 +60,9 @@ class Kills(study.FaultTest):
             self.assertLess(ended.seconds, 5.0)
             if ended.code == 75:
                 saved += 1
-                self.assertRegex(ended.said, r"stopped by .*SIG.*: \d+ of 14 runs are safe .*run the same command again")
+                self.assertRegex(
+                    ended.said, r"stopped by .*SIG.*: \d+ of 14 runs are safe .*run the same command again"
+                )
             return ended
 
         complete = self.chain(KILLS, stop)
@@ -70,7 +72,9 @@ class Kills(study.FaultTest):
     def test_kills_during_a_merge(self):
         shards = self.folder()
         for index in range(3):
-            ended = shards.run("run", "job.toml", "--out", "r.h5", "--shard", f"{index}/3", "--threads", str(1 + index % 2))
+            ended = shards.run(
+                "run", "job.toml", "--out", "r.h5", "--shard", f"{index}/3", "--threads", str(1 + index % 2)
+            )
             self.assert_ended(ended, 0)
         kills = completed = 0
         while kills < max(1, KILLS // 2):
@@ -91,8 +95,17 @@ class Kills(study.FaultTest):
         for _ in range(max(1, KILLS // 10)):
             count = self.chance.choice((1, 2, 3, 7))
             shard = f"{self.chance.randrange(count)}/{count}"
-            ended = folder.stopped_after(self.chance.uniform(0.0, self.seconds), signal.SIGKILL, "run", "job.toml", "--out",
-                                         "r.h5", "--shard", shard, *self.options())
+            ended = folder.stopped_after(
+                self.chance.uniform(0.0, self.seconds),
+                signal.SIGKILL,
+                "run",
+                "job.toml",
+                "--out",
+                "r.h5",
+                "--shard",
+                shard,
+                *self.options(),
+            )
             self.assertIn(ended.code, (0, -signal.SIGKILL), ended.err)
             if os.path.exists(folder / "r.h5"):
                 break

@@ -38,8 +38,10 @@ class Mutants(unittest.TestCase):
                 self.assertNotIn("ERROR:", ended.stderr)
                 caught += 1
             reason = re.findall(r"^AssertionError: (.*)", ended.stderr, re.MULTILINE)
-            print(f"mutant {number}, {name}: {failures[0][1] if failures else '?'}.py: {reason[0][:100] if reason else ''}",
-                  file=sys.stderr)
+            print(
+                f"mutant {number}, {name}: {failures[0][1] if failures else '?'}.py: {reason[0][:100] if reason else ''}",
+                file=sys.stderr,
+            )
         print(f"{caught} of {len(MUTANTS)} mutants caught", file=sys.stderr)
         self.assertEqual(caught, len(MUTANTS))
 

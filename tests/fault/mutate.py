@@ -21,25 +21,35 @@ bool mutant(int number) {
 MUTATIONS = {
     "store/temp_file.cpp": [
         # 1: no fsync
-        ("  return unless_interrupted([&] { return ::fsync(descriptor); });\n",
-         "  if (mutant(1)) return 0;\n  return unless_interrupted([&] { return ::fsync(descriptor); });\n"),
+        (
+            "  return unless_interrupted([&] { return ::fsync(descriptor); });\n",
+            "  if (mutant(1)) return 0;\n  return unless_interrupted([&] { return ::fsync(descriptor); });\n",
+        ),
         # 4: rename before fsync
-        ("  if (!failed() && sync_file(descriptor_) != 0) error_number_ = errno;\n",
-         "  if (!mutant(4) && !failed() && sync_file(descriptor_) != 0) error_number_ = errno;\n"),
-        ("  error_number_ = close_file(std::exchange(descriptor_, -1));\n",
-         "  if (mutant(4) && sync_file(descriptor_) != 0) error_number_ = errno;\n"
-         "  error_number_ = close_file(std::exchange(descriptor_, -1));\n"),
+        (
+            "  if (!failed() && sync_file(descriptor_) != 0) error_number_ = errno;\n",
+            "  if (!mutant(4) && !failed() && sync_file(descriptor_) != 0) error_number_ = errno;\n",
+        ),
+        (
+            "  error_number_ = close_file(std::exchange(descriptor_, -1));\n",
+            "  if (mutant(4) && sync_file(descriptor_) != 0) error_number_ = errno;\n"
+            "  error_number_ = close_file(std::exchange(descriptor_, -1));\n",
+        ),
     ],
     # 2: no verification of segments
-    "run/saved_runs.cpp": [("if (accept(file, request)) file.verify();", "if (accept(file, request) && !mutant(2)) file.verify();")],
+    "run/saved_runs.cpp": [
+        ("if (accept(file, request)) file.verify();", "if (accept(file, request) && !mutant(2)) file.verify();")
+    ],
     # 3: acknowledged before fsync
     "run/run_keeper.cpp": [
-        ("    std::lock_guard const alone(hdf5_);\n",
-         "    if (mutant(3) && setting_.safe) setting_.safe(runs_safe_ + ended);\n    std::lock_guard const alone(hdf5_);\n"),
+        (
+            "    std::lock_guard const alone(hdf5_);\n",
+            "    if (mutant(3) && setting_.safe) setting_.safe(runs_safe_ + ended);\n    std::lock_guard const alone(hdf5_);\n",
+        )
     ],
     # 5: no checksum
     "store/result_reader.cpp": [
-        ("  if (found.sha256 != content_sha256()) throw", "  if (!mutant(5) && found.sha256 != content_sha256()) throw"),
+        ("  if (found.sha256 != content_sha256()) throw", "  if (!mutant(5) && found.sha256 != content_sha256()) throw")
     ],
 }
 

@@ -26,9 +26,14 @@ MOST_SECONDS = 150
 
 class OnSlurm(study.FaultTest):
     # a second and a half of work for each shard, and not much to store
-    JOB = (shimmed.JOB.replace("runs = 3", "runs = 40").replace('name = "tiny"', 'name = "forty"')
-           .replace("population = 10", 'population = 14\nfitness = "direct"').replace("generations = 20", "generations = 500")
-           .replace("duration_s = 1\n", "duration_s = 500\n") + "[output]\nsamples = false\n")
+    JOB = (
+        shimmed.JOB.replace("runs = 3", "runs = 40")
+        .replace('name = "tiny"', 'name = "forty"')
+        .replace("population = 10", 'population = 14\nfitness = "direct"')
+        .replace("generations = 20", "generations = 500")
+        .replace("duration_s = 1\n", "duration_s = 500\n")
+        + "[output]\nsamples = false\n"
+    )
 
     @classmethod
     def setUpClass(cls):
@@ -98,8 +103,8 @@ class OnSlurm(study.FaultTest):
         while not (folder.segments() and (frozen := self.frozen(self.engines(folder)))):
             self.assertLess(time.monotonic() - began, MOST_SECONDS, self.logs(folder))
             time.sleep(0.02)
-        # a task is asked two minutes before its limit, so at once here; Slurm looks at its clock every half minute or so, lets a
-        # frozen engine go on and tells it to end
+        # a task is asked two minutes before its limit, so at once here; Slurm looks at its clock every half minute or
+        # so, lets a frozen engine go on and tells it to end
         while frozen[0] in self.engines(folder):
             self.assertLess(time.monotonic() - began, MOST_SECONDS, self.logs(folder))
             time.sleep(0.2)
@@ -130,7 +135,9 @@ class OnSlurm(study.FaultTest):
             if folder.segments() and not in_the_way and (in_the_way := self.frozen(engines)):
                 self.slurm.said("sbatch", "--partition=urgent", f"--ntasks={SHARDS}", f"--chdir={folder.path}",
                                 "--job-name=urgent", "--output=/dev/null", "--wrap=sleep 0.2")
-            elif engines and not set(in_the_way) & set(engines) and "urgent" not in queue and sum(kills.values()) < KILLS:
+            elif (
+                engines and not set(in_the_way) & set(engines) and "urgent" not in queue and sum(kills.values()) < KILLS
+            ):
                 number = self.chance.choice(sorted(kills))
                 try:
                     os.kill(self.chance.choice(engines), number)
@@ -150,15 +157,18 @@ class OnSlurm(study.FaultTest):
         self.assertIn("40 of 40 runs were done", " ".join(merged.split()))
         restarts, told = self.restarts()
         restarts -= already
-        # the urgent job wanted all of the node, where engines were frozen: it ran because Slurm took the node from each of them,
-        # and each had to begin again
+        # the urgent job wanted all of the node, where engines were frozen: it ran because Slurm took the node from each
+        # of them, and each had to begin again
         urgent = re.search(r"JobName=urgent .*?JobState=(\S+) .*?NumCPUs=(\d+)", told)
         self.assertEqual(urgent and urgent.groups(), ("COMPLETED", str(SHARDS)), told)
         self.assertGreater(len(in_the_way), 0)
         self.assertGreaterEqual(restarts, len(in_the_way), told)
-        print(f"real Slurm: {SHARDS} shards, 40 runs, {kills[signal.SIGKILL]} kill -9, {kills[signal.SIGTERM]} SIGTERM, "
-              f"{len(in_the_way)} tasks preempted by an urgent job, {restarts} restarts, one merge, "
-              f"{seconds:.0f} s, byte-identical", file=sys.stderr)
+        print(
+            f"real Slurm: {SHARDS} shards, 40 runs, {kills[signal.SIGKILL]} kill -9, {kills[signal.SIGTERM]} SIGTERM, "
+            f"{len(in_the_way)} tasks preempted by an urgent job, {restarts} restarts, one merge, "
+            f"{seconds:.0f} s, byte-identical",
+            file=sys.stderr,
+        )
 
     def logs(self, folder):
         words = ""

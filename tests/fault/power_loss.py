@@ -124,8 +124,11 @@ class PowerLoss(shimmed.ShimmedTest):
                 runs, whole = self.check_image(story, count)
                 safe += runs
                 complete += whole
-        print(f"{IMAGES} power cuts ({len(moments)} moments of {len(stories)} stories): {safe} runs were called safe and are, "
-              f"{complete} results were whole, none differs", file=sys.stderr)
+        print(
+            f"{IMAGES} power cuts ({len(moments)} moments of {len(stories)} stories): {safe} runs were called safe and are, "
+            f"{complete} results were whole, none differs",
+            file=sys.stderr,
+        )
 
 
 if __name__ == "__main__":

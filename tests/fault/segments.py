@@ -34,7 +34,9 @@ class Segments(study.FaultTest):
     def shards(self, count, *options, job=study.JOB):
         folder = self.folder(job)
         for index in range(count):
-            self.assert_ended(folder.run("run", "job.toml", "--out", "r.h5", "--shard", f"{index}/{count}", *options), 0)
+            self.assert_ended(
+                folder.run("run", "job.toml", "--out", "r.h5", "--shard", f"{index}/{count}", *options), 0
+            )
         return folder
 
     def interrupted(self):
@@ -264,8 +266,11 @@ class Segments(study.FaultTest):
         self.assert_same(folder)
 
     def test_only_a_second_interrupt_ends_at_once(self):
-        for numbers, code in (((signal.SIGINT, signal.SIGINT), 130), ((signal.SIGTERM, signal.SIGTERM, signal.SIGINT), 75),
-                              ((signal.SIGCONT, signal.SIGUSR1, signal.SIGCONT, signal.SIGTERM), 75)):
+        for numbers, code in (
+            ((signal.SIGINT, signal.SIGINT), 130),
+            ((signal.SIGTERM, signal.SIGTERM, signal.SIGINT), 75),
+            ((signal.SIGCONT, signal.SIGUSR1, signal.SIGCONT, signal.SIGTERM), 75),
+        ):
             folder = self.folder(study.JOB.replace("generations = 250", "generations = 200000"))
             process = folder.start("run", "job.toml", "--out", "r.h5", "--progress", "none")
             while b"fitness" not in process.stderr.readline():
@@ -283,8 +288,11 @@ class Segments(study.FaultTest):
             self.assertIn(study.Ended(process).code, {code, 75})
 
     def test_a_generation_that_takes_long_is_not_waited_for(self):
-        folder = self.folder(study.JOB.replace("population = 14", "population = 100000")
-                             .replace("duration_s = 15", "duration_s = 8000").replace("validate = true", "validate = false"))
+        folder = self.folder(
+            study.JOB.replace("population = 14", "population = 100000")
+            .replace("duration_s = 15", "duration_s = 8000")
+            .replace("validate = true", "validate = false")
+        )
         process = folder.start("run", "job.toml", "--out", "r.h5", "--threads", "1")
         while b"stage=de" not in process.stderr.readline():
             pass

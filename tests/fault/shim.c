@@ -1,18 +1,18 @@
-// What a failing disk, a signal or a power cut would do to a program, for tests: loaded with LD_PRELOAD, it stands between
-// the program and its system calls on files below one folder. Everything else passes.
+// What a failing disk, a signal or a power cut would do to a program, for tests: loaded with LD_PRELOAD, it stands
+// between the program and its system calls on files below one folder. Everything else passes.
 //
 // SHIM_FOLDER   absolute path; calls on it and on what is below count (1, 2, 3, ... through all threads of the process)
 // SHIM_CALLS    file that gets a line per counted call: "number call flags path", and "!" before the one that failed
 // SHIM_NTH      this call fails, and with SHIM_ON=1 every later one that can fail that way
 // SHIM_ERROR    how: ENOSPC, EDQUOT, EIO, EINTR, or "short" (half of the bytes are written, or read)
-// SHIM_LOG      file that gets what was done, in its order and with all bytes: power_log.py reads it. Also what the program
-//               said on stdout and stderr, so that a claim stands behind the fsync it relies on, or before it
+// SHIM_LOG      file that gets what was done, in its order and with all bytes: power_log.py reads it. Also what the
+//               program said on stdout and stderr, so that a claim stands behind the fsync it relies on, or before it
 // SHIM_FREE     bytes that statvfs says are free
 // SHIM_FLOCK    errno name that every flock fails with (ENOLCK: a cluster without locks)
 // SHIM_DISK=1   fsync does reach the disk; else it is only noted, which is all that a simulated power cut looks at
 //
-// One lock is held over call and record, so that the order in the log is the order of what happened. glibc's own calls (fopen,
-// opendir, stdio's writes) do not pass through here; the program writes what must be safe by open and pwrite.
+// One lock is held over call and record, so that the order in the log is the order of what happened. glibc's own calls
+// (fopen, opendir, stdio's writes) do not pass through here; the program writes what must be safe by open and pwrite.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>

@@ -22,7 +22,12 @@ def changes(folder, **settings):
     """The environment that puts the shim under a process: shim(folder, nth=3, error="EIO")."""
     given = {"SHIM_" + key.upper(): str(value) for key, value in settings.items()}
     # a sanitizer wants to be the first library; of a file that it could not close, HDF5 itself leaks what it knew
-    return {"LD_PRELOAD": SHIM, "SHIM_FOLDER": folder.path, "ASAN_OPTIONS": "verify_asan_link_order=0:detect_leaks=0", **given}
+    return {
+        "LD_PRELOAD": SHIM,
+        "SHIM_FOLDER": folder.path,
+        "ASAN_OPTIONS": "verify_asan_link_order=0:detect_leaks=0",
+        **given,
+    }
 
 
 class ShimmedTest(study.FaultTest):

@@ -65,8 +65,14 @@ class Folder:
             file.write(text)
 
     def start(self, *arguments, changes=None):
-        return subprocess.Popen([PROGRAM, *arguments], cwd=self.path, env=environment(changes), stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return subprocess.Popen(
+            [PROGRAM, *arguments],
+            cwd=self.path,
+            env=environment(changes),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
 
     def run(self, *arguments, changes=None):
         return Ended(self.start(*arguments, changes=changes))

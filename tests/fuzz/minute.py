@@ -33,14 +33,27 @@ FOREIGN = {"hdf5", "mat5", "segment"}
 
 def sanitized():
     # no memory is an answer a library has to live with; what HDF5 loses of a broken file is lost with the child
-    return {**os.environ, "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
+    return {
+        **os.environ,
+        "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1",
+        "UBSAN_OPTIONS": "print_stacktrace=1",
+    }
 
 
 def fuzzer(reader, folder, *arguments):
-    # libFuzzer has no limit of time for its own report of a flood: it visits every piece of memory, which took hours once
-    process = subprocess.Popen([os.path.join(FUZZERS, "fuzz_" + reader), *LIMITS, *arguments], cwd=folder, env=sanitized(),
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               errors="replace", start_new_session=True)
+    # libFuzzer has no limit of time for its own report of a flood: it visits every piece of memory, which took hours
+    # once
+    process = subprocess.Popen(
+        [os.path.join(FUZZERS, "fuzz_" + reader), *LIMITS, *arguments],
+        cwd=folder,
+        env=sanitized(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+    )
     try:
         out, report = process.communicate(timeout=SECONDS + PATIENCE)
     except subprocess.TimeoutExpired:
@@ -89,9 +102,20 @@ def minute(reader, home):
     os.mkdir(corpus)
     words = os.path.join(HERE, reader + ".dict")
     # a child that crashes is replaced, and the search goes on
-    ran = fuzzer(reader, folder, corpus, os.path.join(home, reader), *(["-dict=" + words] if os.path.exists(words) else []),
-                 "-fork=1", "-ignore_crashes=1", "-ignore_ooms=1", "-ignore_timeouts=1", f"-max_total_time={SECONDS}",
-                 "-max_len=65536", "-artifact_prefix=found/")
+    ran = fuzzer(
+        reader,
+        folder,
+        corpus,
+        os.path.join(home, reader),
+        *(["-dict=" + words] if os.path.exists(words) else []),
+        "-fork=1",
+        "-ignore_crashes=1",
+        "-ignore_ooms=1",
+        "-ignore_timeouts=1",
+        f"-max_total_time={SECONDS}",
+        "-max_len=65536",
+        "-artifact_prefix=found/",
+    )
     tried = re.findall(r"^#(\d+): cov: (\d+)", ran.stderr, re.MULTILINE)
     bad = 0
     names = sorted(os.listdir(found))
@@ -103,8 +127,11 @@ def minute(reader, home):
             shutil.copy(os.path.join(found, name), kept)
             print(f"{reader}: kept as {kept}\n{report[:6000]}", file=sys.stderr)
     inputs, edges = tried[-1] if tried else (0, 0)
-    print(f"{reader}: {inputs} inputs, {edges} edges, {len(names)} crashes, hangs or floods, {len(names) - bad} of them in a library, "
-          f"refused by the program; {bad} ours", flush=True)
+    print(
+        f"{reader}: {inputs} inputs, {edges} edges, {len(names)} crashes, hangs or floods, {len(names) - bad} of them in a library, "
+        f"refused by the program; {bad} ours",
+        flush=True,
+    )
     return bad == 0 and int(inputs) > 0
 
 

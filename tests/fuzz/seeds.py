@@ -76,8 +76,17 @@ def hdf5s(folder):
 
 def mat5s(folder):
     values = dict(zip(NAMES, DATA.T))
-    more = {"f": DATA.astype("f4"), "i": np.arange(9, dtype="i2"), "c": np.array([1j]), "text": "abc", "e": np.zeros((0, 3)),
-            "s": {"a": np.array([1, "x"], dtype=object)}, "cube": np.zeros((2, 2, 2)), "b": np.array([[True]]), "u": np.uint64([7])}
+    more = {
+        "f": DATA.astype("f4"),
+        "i": np.arange(9, dtype="i2"),
+        "c": np.array([1j]),
+        "text": "abc",
+        "e": np.zeros((0, 3)),
+        "s": {"a": np.array([1, "x"], dtype=object)},
+        "cube": np.zeros((2, 2, 2)),
+        "b": np.array([[True]]),
+        "u": np.uint64([7]),
+    }
     scipy.io.savemat(os.path.join(folder, "plain.mat"), values)
     scipy.io.savemat(os.path.join(folder, "kinds.mat"), {**values, **more})
     scipy.io.savemat(os.path.join(folder, "packed.mat"), {**values, **more}, do_compression=True)

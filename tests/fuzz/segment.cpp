@@ -1,5 +1,5 @@
-// Segments: engine/run/segment_file.cpp. Their parts are read without the proof of their digest, which no change survives:
-// what a file says of itself may be wrong, but must not lead outside.
+// Segments: engine/run/segment_file.cpp. Their parts are read without the proof of their digest, which no change
+// survives: what a file says of itself may be wrong, but must not lead outside.
 #include <unistd.h>
 
 #include <filesystem>

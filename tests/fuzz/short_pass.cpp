@@ -1,10 +1,11 @@
 // Throws seeds, and seeds with a few bytes changed, at one reader: the same ones in every build, everywhere.
 //
 // Use        short_pass READER FOLDER_OF_SEEDS COUNT
-// Proves     each is read or refused with an Error, within seconds. What a foreign library parses is read in a child, as the
-//            program does, and the child may end in any way; of our own parsers a batch shares a child, which must not
-// Exit       0, or 1 with the input that broke the law, kept as finding.READER in the working folder. What broke a library off
-//            is kept as broke_off.READER.0, .1, ...: the program has to refuse it
+// Proves     each is read or refused with an Error, within seconds. What a foreign library parses is read in a child,
+//            as the program does, and the child may end in any way; of our own parsers a batch shares a child, which
+//            must not
+// Exit       0, or 1 with the input that broke the law, kept as finding.READER in the working folder. What broke a
+//            library off is kept as broke_off.READER.0, .1, ...: the program has to refuse it
 
 #include <fmt/format.h>
 

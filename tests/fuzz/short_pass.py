@@ -29,12 +29,19 @@ class ShortPass(unittest.TestCase):
         cls.home = tempfile.mkdtemp(prefix="torquescope_fuzz_")
         cls.addClassCleanup(shutil.rmtree, cls.home)
         seeds.make(cls.home)
-        cls.passes = {reader: cls.thrown(reader, os.path.join(cls.home, reader), count) for reader, count in COUNTS.items()}
+        cls.passes = {
+            reader: cls.thrown(reader, os.path.join(cls.home, reader), count) for reader, count in COUNTS.items()
+        }
 
     @classmethod
     def thrown(cls, reader, folder, count):
-        done = subprocess.run([os.environ["SHORT_PASS"], reader, folder, str(count)], cwd=cls.home, capture_output=True, text=True,
-                              check=False)
+        done = subprocess.run(
+            [os.environ["SHORT_PASS"], reader, folder, str(count)],
+            cwd=cls.home,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         print(done.stdout, end="", flush=True)
         return done
 

@@ -112,11 +112,16 @@ class Hdf5Recordings(Folder):
             file.create_virtual_dataset("tau_Nm", layout)
 
         for make, words in [
-            (lambda f: f.__setitem__("tau_Nm", h5py.ExternalLink("other.h5", "/tau_Nm")), "is a link into another file"),
+            (
+                lambda f: f.__setitem__("tau_Nm", h5py.ExternalLink("other.h5", "/tau_Nm")),
+                "is a link into another file",
+            ),
             (lambda f: f.__setitem__("tau_Nm", h5py.ExternalLink("pipe.h5", "/tau_Nm")), "is a link into another file"),
             (lambda f: f.__setitem__("tau_Nm", h5py.SoftLink("/q_rad")), "is a soft link"),
-            (lambda f: f.create_dataset("tau_Nm", shape=(8,), dtype="f8", external=[("/etc/passwd", 0, 64)]),
-             "keeps its numbers in another file"),
+            (
+                lambda f: f.create_dataset("tau_Nm", shape=(8,), dtype="f8", external=[("/etc/passwd", 0, 64)]),
+                "keeps its numbers in another file",
+            ),
             (virtual, "is a virtual dataset over other files"),
         ]:
             with self.subTest(words=words):
@@ -128,9 +133,14 @@ class Hdf5Recordings(Folder):
             (lambda f: f.__setitem__("tau_Nm", DATA[:, 2].reshape(-1, 10, 1)), "has rank 3"),
             (lambda f: f.create_dataset("tau_Nm", data=[b"abc"] * N), "is text"),
             (lambda f: f.create_dataset("tau_Nm", data=np.zeros(N, dtype="V8")), "not made of plain real numbers"),
-            (lambda f: f.create_dataset("tau_Nm", shape=(N,), dtype=h5py.vlen_dtype("f8")), "not made of plain real numbers"),
-            (lambda f: f.create_dataset("tau_Nm", data=DATA[:, 2], compression="lzf"),
-             "is packed by lzf (filter 32000), which is not part of HDF5"),
+            (
+                lambda f: f.create_dataset("tau_Nm", shape=(N,), dtype=h5py.vlen_dtype("f8")),
+                "not made of plain real numbers",
+            ),
+            (
+                lambda f: f.create_dataset("tau_Nm", data=DATA[:, 2], compression="lzf"),
+                "is packed by lzf (filter 32000), which is not part of HDF5",
+            ),
         ]:
             with self.subTest(words=words):
                 self.assert_refused(self.check(self.recording(make)), 65, words)
@@ -168,7 +178,9 @@ class DamagedRecordings(Folder):
             table.attrs["columns"] = ["t_s", "q_rad", "tau_Nm"]  # of variable length: in a heap
             file.create_group("g")["x"] = DATA[:, 0]
         cell = np.array([1, "x"], dtype=object)
-        scipy.io.savemat(self.path("rec.mat"), {"t_s": DATA[:, 0], "q_rad": DATA[:, 1], "tau_Nm": DATA[:, 2], "s": {"a": cell}})
+        scipy.io.savemat(
+            self.path("rec.mat"), {"t_s": DATA[:, 0], "q_rad": DATA[:, 1], "tau_Nm": DATA[:, 2], "s": {"a": cell}}
+        )
         draw = random.Random(SEED)
         marks = [b"GCOL", b"TREE", b"HEAP", b"SNOD", b"\x89HDF", b"q_rad", b"tau_Nm", b"MATLAB"]
         for name, count in [("rec.h5", 80), ("rec.mat", 60)]:
@@ -186,7 +198,9 @@ class DamagedRecordings(Folder):
                 self.assertIn(outcome.code, [0, 65, 78], outcome.err)
                 codes[outcome.code] = codes.get(outcome.code, 0) + 1
                 broke_off += "while reading it" in outcome.said
-            print(f"{name}: {count} damaged, exit codes {codes}; the library crashed or looped in {broke_off}, we did not")
+            print(
+                f"{name}: {count} damaged, exit codes {codes}; the library crashed or looped in {broke_off}, we did not"
+            )
 
 
 class TextRecordings(Folder):
@@ -222,8 +236,13 @@ class TextRecordings(Folder):
         os.mkfifo(self.path("pipe"))
         os.symlink("pipe", self.path("link"))
         os.symlink("loop", self.path("loop"))
-        for name, words in [("pipe", "is a pipe"), ("link", "is a pipe"), (".", "is a folder"), ("/dev/zero", "is a device"),
-                            ("loop", "cannot open")]:
+        for name, words in [
+            ("pipe", "is a pipe"),
+            ("link", "is a pipe"),
+            (".", "is a folder"),
+            ("/dev/zero", "is a device"),
+            ("loop", "cannot open"),
+        ]:
             with self.subTest(name=name):
                 self.assert_refused(self.check(name), 66, words)
 

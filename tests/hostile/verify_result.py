@@ -90,7 +90,9 @@ class Folder(unittest.TestCase):
     def assert_reported(self, outcome, what):
         self.assertEqual(outcome.code, 65, f"{what}: {outcome.err}")
         self.assertEqual(outcome.out, "", what)
-        self.assertRegex(outcome.err, r"^error: .*(damaged|not an HDF5 file|not a result|never finished|has format)", what)
+        self.assertRegex(
+            outcome.err, r"^error: .*(damaged|not an HDF5 file|not a result|never finished|has format)", what
+        )
         self.assertIn("help: ", outcome.err, what)
         self.assertNotIn("HDF5-DIAG", outcome.err, what)
 
@@ -160,7 +162,9 @@ class DamagedFile(Folder):
                     self.assertEqual(json.loads(outcome.out)["error"]["code"], 65, what)
                     self.assert_reported(program.Outcome(outcome.code, "", outcome.err), what)
                     reported += 1
-            print(f"{kind}: {flips} flipped bits: {reported} reported, {harmless} harmless (in bytes that nothing uses), 0 silent")
+            print(
+                f"{kind}: {flips} flipped bits: {reported} reported, {harmless} harmless (in bytes that nothing uses), 0 silent"
+            )
             self.assertGreater(reported, flips // 2)
 
     def test_provenance_changed_by_another_program_is_told(self):
@@ -245,9 +249,13 @@ class ChangedOnPurpose(Folder):
         def variable_text(file):
             file["runs/ols"].attrs["more"] = "text of any length"
 
-        for change, words in [(virtual, "in /runs/ols/more: its values lie in another file"),
-                              (linked, '"more" is a link to elsewhere'), (soft, '"more" is a link to elsewhere'),
-                              (itself, "it has two names"), (variable_text, 'in /runs/ols: attribute "more": it has a type')]:
+        for change, words in [
+            (virtual, "in /runs/ols/more: its values lie in another file"),
+            (linked, '"more" is a link to elsewhere'),
+            (soft, '"more" is a link to elsewhere'),
+            (itself, "it has two names"),
+            (variable_text, 'in /runs/ols: attribute "more": it has a type'),
+        ]:
             with self.subTest(change=change.__name__):
                 outcome = self.changed(change)
                 self.assert_reported(outcome, change.__name__)

@@ -16,7 +16,9 @@ def good_rows(seconds=10.0, rate_hz=200.0):
         t = k / rate_hz
         q = 0.8 * math.sin(2 * math.pi * 0.5 * t) + 0.3 * math.sin(2 * math.pi * 1.3 * t + 0.4)
         dq = 0.8 * math.pi * math.cos(2 * math.pi * 0.5 * t) + 0.78 * math.pi * math.cos(2 * math.pi * 1.3 * t + 0.4)
-        ddq = -0.8 * math.pi**2 * math.sin(2 * math.pi * 0.5 * t) - 2.028 * math.pi**2 * math.sin(2 * math.pi * 1.3 * t + 0.4)
+        ddq = -0.8 * math.pi**2 * math.sin(2 * math.pi * 0.5 * t) - 2.028 * math.pi**2 * math.sin(
+            2 * math.pi * 1.3 * t + 0.4
+        )
         tau = 0.05 * ddq + 0.1 * dq + (0.3 if dq > 0 else -0.2) + noise.gauss(0.0, 0.02)
         rows.append([f"{t:.4f}", f"{q:.9f}", f"{tau:.6f}"])
     return rows

@@ -120,7 +120,9 @@ class BadJobFiles(Folder):
 
     def test_missing_job_names_its_neighbour(self):
         self.write("lab_joint.toml", GOOD_JOB)
-        self.assert_refused(self.run_here("check", "lab_jiont.toml"), 66, ["no such file", "did you mean lab_joint.toml?"])
+        self.assert_refused(
+            self.run_here("check", "lab_jiont.toml"), 66, ["no such file", "did you mean lab_joint.toml?"]
+        )
 
     def test_fifo_does_not_hang(self):
         os.mkfifo(os.path.join(self.folder, "job.toml"))
@@ -201,7 +203,9 @@ class CommandLine(Folder):
         listed = self.run_here("list")
         self.assertEqual(listed.code, 0)
         self.assert_page(listed.out)
-        names = [line.split()[0] for line in listed.out.splitlines() if line.startswith("  ") and not line.startswith("   ")]
+        names = [
+            line.split()[0] for line in listed.out.splitlines() if line.startswith("  ") and not line.startswith("   ")
+        ]
         self.assertGreater(len(names), 20)
         for name in names:
             described = self.run_here("describe", name)
@@ -241,12 +245,27 @@ class GoodRun(Folder):
         self.assert_page(outcome.out)
         self.assert_page(outcome.err)
         self.assertTrue(outcome.out.startswith("good "))
-        for row in ["inertia", "viscous", "coulomb_positive", "coulomb_negative", "MSE", "error, train", "error, unseen", "gap to OLS, median of 3"]:
+        for row in [
+            "inertia",
+            "viscous",
+            "coulomb_positive",
+            "coulomb_negative",
+            "MSE",
+            "error, train",
+            "error, unseen",
+            "gap to OLS, median of 3",
+        ]:
             self.assertIn("\n  " + row, outcome.out)
         self.assertIn("OLS standard error", outcome.out)
         self.assertRegex(outcome.out, r"\n7 runs, [0-9 ]+ evaluations, [0-9.]+ s\n$")
-        for line in [r"^job +good", r"\ndata ", r"\nthreads +2 \(OMP_NUM_THREADS\), \w+, seed 11", r"\nprogress stage=de runs=3/3",
-                     r"\nwrote  good.h5  [0-9.]+ [kM]B\n", r"\nlook   torquescope report good.h5\n$"]:
+        for line in [
+            r"^job +good",
+            r"\ndata ",
+            r"\nthreads +2 \(OMP_NUM_THREADS\), \w+, seed 11",
+            r"\nprogress stage=de runs=3/3",
+            r"\nwrote  good.h5  [0-9.]+ [kM]B\n",
+            r"\nlook   torquescope report good.h5\n$",
+        ]:
             self.assertRegex(outcome.err, line)
 
     def test_show_begins_with_the_table_of_run(self):
@@ -268,8 +287,14 @@ class GoodRun(Folder):
     def test_another_job_does_not_overwrite(self):
         self.run_good()
         self.write("other.toml", GOOD_JOB + "# changed\n")
-        self.assert_refused(self.run_here("run", "other.toml", "--out", "good.h5"), 73,
-                            ["good.h5 exists and was made by another job, or from other recordings (sha256 differs)", "--out another name, or delete good.h5"])
+        self.assert_refused(
+            self.run_here("run", "other.toml", "--out", "good.h5"),
+            73,
+            [
+                "good.h5 exists and was made by another job, or from other recordings (sha256 differs)",
+                "--out another name, or delete good.h5",
+            ],
+        )
 
     def test_what_is_no_result_is_not_overwritten(self):
         self.assert_refused(self.run_here("run", "good.toml", "--out", "good.csv"), 73, ["good.csv exists"])
@@ -328,13 +353,17 @@ class GoodRun(Folder):
         self.run_good()
         self.assertIn("\x1b[", self.run_here("show", "good.h5", "--color", "always").out)
         self.assertIn("\x1b[", self.run_here("show", "good.h5", changes={"CLICOLOR_FORCE": "1"}).out)
-        self.assertNotIn("\x1b[", self.run_here("show", "good.h5", changes={"CLICOLOR_FORCE": "1", "NO_COLOR": "1"}).out)
+        self.assertNotIn(
+            "\x1b[", self.run_here("show", "good.h5", changes={"CLICOLOR_FORCE": "1", "NO_COLOR": "1"}).out
+        )
 
     def test_bars_only_on_terminals_outside_batch_jobs(self):
         _, bar = program.run_on_terminal("run", "good.toml", "--out", "a.h5", folder=self.folder)
         self.assertIn("\rde ", bar)
         self.assertNotIn("progress stage=", bar)
-        _, lines = program.run_on_terminal("run", "good.toml", "--out", "b.h5", folder=self.folder, changes={"SLURM_JOB_ID": "1"})
+        _, lines = program.run_on_terminal(
+            "run", "good.toml", "--out", "b.h5", folder=self.folder, changes={"SLURM_JOB_ID": "1"}
+        )
         self.assertIn("progress stage=", lines)
 
     def test_ascii_locale_gets_ascii(self):

@@ -140,8 +140,13 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         subprocess.run([WRITER, name, "large gzip"], check=True, capture_output=True)
         with h5py.File(name, locking=False) as file:
             found = []
-            file.visititems(lambda path, node: found.append(node) if isinstance(node, h5py.Dataset) and node.chunks else None)
-            self.assertEqual({(d.compression, d.compression_opts, d.shuffle, d.fletcher32) for d in found}, {("gzip", 1, False, True)})
+            file.visititems(
+                lambda path, node: found.append(node) if isinstance(node, h5py.Dataset) and node.chunks else None
+            )
+            self.assertEqual(
+                {(d.compression, d.compression_opts, d.shuffle, d.fletcher32) for d in found},
+                {("gzip", 1, False, True)},
+            )
             self.assertGreater(len(found), 5)
 
     def test_the_digest_notices_what_was_changed_on_purpose(self):
@@ -157,7 +162,9 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
             shutil.copy(self.name, name)
             with h5py.File(name, "r+") as file:
                 change(file)
-            with Result(name) as result, self.assertRaisesRegex(ResultError, "does not match its sha256", msg=str(number)):
+            with Result(name) as result, self.assertRaisesRegex(
+                ResultError, "does not match its sha256", msg=str(number)
+            ):
                 result.verify()
 
     def test_what_is_volatile_does_not_count(self):

@@ -1,4 +1,5 @@
-// write_example_diagnosis OUT.h5 [named|class|none|unexplained|insufficient|data_fault]: a result with an invented diagnosis.
+// write_example_diagnosis OUT.h5 [named|class|none|unexplained|insufficient|data_fault]: a result with an invented
+// diagnosis.
 
 #include <cstdio>
 #include <functional>

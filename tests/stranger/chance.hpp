@@ -1,5 +1,6 @@
 #pragma once
-// Random numbers of a case: the same on every machine, whatever its standard library (SplitMix64, Marsaglia's polar method).
+// Random numbers of a case: the same on every machine, whatever its standard library (SplitMix64, Marsaglia's polar
+// method).
 #include <cmath>
 #include <cstdint>
 #include <string_view>

@@ -1,7 +1,8 @@
 #pragma once
 // One piece of physics that a case conceals. An effect overrides what it touches; everything else does nothing.
 //
-// Sign      torque() is what the joint must be driven with beyond the rigid-body model: it brakes where it has the sign of v
+// Sign      torque() is what the joint must be driven with beyond the rigid-body model: it brakes where it has the sign
+//           of v
 // Units     those of the rig
 // Threads   has state; one object per recording
 #include <map>

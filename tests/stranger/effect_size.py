@@ -9,6 +9,7 @@ SNR     rms of what the effect leaves after mass and friction were fitted again,
         sqrt(r1^2 - r0^2) / r0, where r1, r0 are the residuals of the baseline with and without the effect
 oracle  relerr when the exact column of what is concealed joins the baseline (fitted on train, applied to unseen)
 """
+
 import json
 import subprocess
 import sys
@@ -58,7 +59,11 @@ def columns(record, truth):
     moving = (sums[2 * reach + 1:] - sums[:-2 * reach - 1] < 0.5)[edge:-edge:step]
     if any(law["name"] in AT_REVERSALS for law in truth["laws"]):
         moving[:] = True
-    return thin(record["torque"])[moving], np.stack([thin(c)[moving] for c in stack], 1), thin(record["unexplained"])[moving]
+    return (
+        thin(record["torque"])[moving],
+        np.stack([thin(c)[moving] for c in stack], 1),
+        thin(record["unexplained"])[moving],
+    )
 
 
 def fit(torque, phi):
@@ -102,13 +107,18 @@ def main(words):
         if option in cases:
             at = cases.index(option)
             extra, cases = extra + cases[at:at + 2], cases[:at] + cases[at + 2:]
-    print(f"{'case':30} {'snr':>6} {'clean':>7} {'train: before':>13} {'oracle':>7} {'unseen: before':>14} {'oracle':>7}  parameters")
+    print(
+        f"{'case':30} {'snr':>6} {'clean':>7} {'train: before':>13} {'oracle':>7} {'unseen: before':>14} {'oracle':>7}  parameters"
+    )
     for case in cases:
         with tempfile.TemporaryDirectory() as folder:
             m = measure(stranger, case, folder, extra)
-        print(f"{case:30} {m['snr']:6.2f} {100 * m['clean_train']:6.2f}% {100 * m['train_before']:12.2f}% {100 * m['train_oracle']:6.2f}% "
-              f"{100 * m['unseen_before']:13.2f}% {100 * m['unseen_oracle']:6.2f}%  {np.array2string(np.array(m['parameters']), precision=4)}"
-              f" rms {m['torque_rms']:.3g}", flush=True)
+        print(
+            f"{case:30} {m['snr']:6.2f} {100 * m['clean_train']:6.2f}% {100 * m['train_before']:12.2f}% {100 * m['train_oracle']:6.2f}% "
+            f"{100 * m['unseen_before']:13.2f}% {100 * m['unseen_oracle']:6.2f}%  {np.array2string(np.array(m['parameters']), precision=4)}"
+            f" rms {m['torque_rms']:.3g}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

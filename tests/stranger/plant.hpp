@@ -1,7 +1,8 @@
 #pragma once
 // The moving joint. Dry friction is a set-valued law, solved exactly in every step: nothing is smoothed around rest.
 //
-// Equation   (J + J_load s^2) a = u + w - Fv v - F - offset - weight - what is concealed;   s = 1 + slope of the gear's error
+// Equation   (J + J_load s^2) a = u + w - Fv v - F - offset - weight - what is concealed;   s = 1 + slope of the gear's
+//            error
 // Method     velocity first, dry friction by its proximal step, then position (trapezoid); first order in the step
 #include <memory>
 #include <vector>

@@ -10,32 +10,66 @@ right        what an expert would sign: clean is none; one effect is its name al
 acceptable   true, but less than could be said: no name although something is there, one of a pair, a near relative
 wrong        a false name, "nothing" where something is, "something" where nothing is, no answer
 """
+
 import json
 import sys
 from pathlib import Path
 
 FAMILY = {
-    "gravity": "static_position", "asymmetric_viscous": "velocity_law", "stribeck": "reversal", "speed_drag": "velocity_law",
-    "power_law_viscous": "velocity_law", "presliding": "reversal", "maxwell_slip": "reversal", "breakaway_dwell": "reversal",
-    "friction_lag": "velocity_law", "position_dependent_friction": "static_position", "load_dependent_friction": "load",
-    "directional_efficiency": "load", "thermal_friction": "time", "friction_drift": "time", "spring": "static_position",
-    "cable": "static_position", "end_stop": "static_position", "cogging": "order_locked", "torque_ripple": "order_locked",
-    "transmission_error": "order_locked", "joint_elasticity": "acceleration", "backlash": "reversal", "delay": "acceleration",
-    "actuator_lag": "acceleration", "torque_constant": "load", "clipping": "measurement", "sensor_drift": "time",
-    "encoder_eccentricity": "order_locked", "contact": "outside", "payload_change": "time", "periodic_disturbance": "outside"}
+    "gravity": "static_position",
+    "asymmetric_viscous": "velocity_law",
+    "stribeck": "reversal",
+    "speed_drag": "velocity_law",
+    "power_law_viscous": "velocity_law",
+    "presliding": "reversal",
+    "maxwell_slip": "reversal",
+    "breakaway_dwell": "reversal",
+    "friction_lag": "velocity_law",
+    "position_dependent_friction": "static_position",
+    "load_dependent_friction": "load",
+    "directional_efficiency": "load",
+    "thermal_friction": "time",
+    "friction_drift": "time",
+    "spring": "static_position",
+    "cable": "static_position",
+    "end_stop": "static_position",
+    "cogging": "order_locked",
+    "torque_ripple": "order_locked",
+    "transmission_error": "order_locked",
+    "joint_elasticity": "acceleration",
+    "backlash": "reversal",
+    "delay": "acceleration",
+    "actuator_lag": "acceleration",
+    "torque_constant": "load",
+    "clipping": "measurement",
+    "sensor_drift": "time",
+    "encoder_eccentricity": "order_locked",
+    "contact": "outside",
+    "payload_change": "time",
+    "periodic_disturbance": "outside",
+}
 
 # concealed forms that are the catalogue's own equation: these have to be named exactly
 TEXTBOOK = {"pressed_bearing", "oblique_axis", "soft_shaft", "late_torque", "bristles", "slip_elements", "damped_gap",
             "off_centre_disc", "loose_screw"}
 
 # which parameter of the program has an exact partner among the concealed values: name, index of the value, factor
-PARTNER = {"pressed_bearing": ("load_dependent_friction", 0), "soft_shaft": ("elasticity_frequency", 0),
-           "late_torque": ("delay", 0), "loose_screw": ("friction_step_time", 1), "hunt_crossley": ("end_stop_position", 1),
-           "wavy_motor": ("torque_ripple_order", 1), "wavy_gear": ("transmission_error_order", 1),
-           "gripped_load": ("payload_time", 1), "leaning": ("contact_start", 1), "bristles": ("presliding_distance", 0),
-           "press_next_door": ("disturbance_frequency", 1), "damped_gap": ("backlash_half_gap", 0),
-           "off_centre_disc": (("encoder_eccentricity_sin", "encoder_eccentricity_cos"), 0),
-           "oblique_axis": (("gravity_sin", "gravity_cos"), 0)}
+PARTNER = {
+    "pressed_bearing": ("load_dependent_friction", 0),
+    "soft_shaft": ("elasticity_frequency", 0),
+    "late_torque": ("delay", 0),
+    "loose_screw": ("friction_step_time", 1),
+    "hunt_crossley": ("end_stop_position", 1),
+    "wavy_motor": ("torque_ripple_order", 1),
+    "wavy_gear": ("transmission_error_order", 1),
+    "gripped_load": ("payload_time", 1),
+    "leaning": ("contact_start", 1),
+    "bristles": ("presliding_distance", 0),
+    "press_next_door": ("disturbance_frequency", 1),
+    "damped_gap": ("backlash_half_gap", 0),
+    "off_centre_disc": (("encoder_eccentricity_sin", "encoder_eccentricity_cos"), 0),
+    "oblique_axis": (("gravity_sin", "gravity_cos"), 0),
+}
 
 
 def concealed_value(law):
@@ -131,7 +165,9 @@ def forgiven(truth, verdict, name):
 def row(folder, forgive=None):
     truth = json.loads((folder / "truth/truth.json").read_text())
     seconds = (folder / "seconds").read_text().strip() if (folder / "seconds").exists() else ""
-    told = " + ".join(f"{law['name']} ({law['form']})" if law["name"] != "outside" else law["form"] for law in truth["laws"])
+    told = " + ".join(
+        f"{law['name']} ({law['form']})" if law["name"] != "outside" else law["form"] for law in truth["laws"]
+    )
     try:
         verdict = forgiven(truth, json.loads((folder / "verdict.json").read_text()), forgive)
     except (OSError, ValueError):
@@ -160,7 +196,9 @@ def main(words):
     folder = Path(words[0])
     cases = words[1:] or sorted(p.parent.name for p in folder.glob("*/seconds"))
     counts = {}
-    print("| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | floor % | s |")
+    print(
+        "| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | floor % | s |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for case in cases:
         truth, mark, line = row(folder / case, forgive)

@@ -22,8 +22,13 @@ def diagnose(program, folder):
     start = time.monotonic()
     with open(folder / "out.txt", "w") as out:
         try:
-            subprocess.run([program, "diagnose", "job.toml", "--json", "verdict.json", "--color", "never", "--progress", "none"],
-                           cwd=folder, stdout=out, stderr=subprocess.STDOUT, timeout=400)
+            subprocess.run(
+                [program, "diagnose", "job.toml", "--json", "verdict.json", "--color", "never", "--progress", "none"],
+                cwd=folder,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                timeout=400,
+            )
         except subprocess.TimeoutExpired:
             out.write("no answer within 400 s\n")
     (folder / "seconds").write_text(f"{time.monotonic() - start:.2f}\n")

@@ -89,7 +89,8 @@ class WavyMotor : public Effect {
   double size_, order_;
 };
 
-// the load's angle waves about the motor's: q + size/order * (sin(order q) + 0.2 sin(2 order q)); everything behind feels its slope
+// the load's angle waves about the motor's: q + size/order * (sin(order q) + 0.2 sin(2 order q)); everything behind
+// feels its slope
 class WavyGear : public Effect {
  public:
   WavyGear(double size, double order) : size_{size}, order_{order} {}

@@ -1,4 +1,5 @@
 """What a reader would trip over: OpenMP outside its one file, sources no target lists, machine paths, unfinished promises."""
+
 import pathlib
 import re
 import sys

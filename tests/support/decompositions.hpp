@@ -1,6 +1,6 @@
 #pragma once
-// Eigen's decompositions as tests use them to check the engine, compiled once: each file that names one itself takes four
-// seconds longer.
+// Eigen's decompositions as tests use them to check the engine, compiled once: each file that names one itself takes
+// four seconds longer.
 
 #include <Eigen/Core>
 

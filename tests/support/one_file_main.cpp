@@ -1,5 +1,5 @@
-// The main of tests that are compiled together (scripts/cmake/layer.cmake, tests_together): the first argument names the file
-// whose tests run, without its ending; without one, all of them run.
+// The main of tests that are compiled together (scripts/cmake/layer.cmake, tests_together): the first argument names
+// the file whose tests run, without its ending; without one, all of them run.
 //
 //   test_unit_store damage [--gtest_...]
 

@@ -1,6 +1,6 @@
 #pragma once
-// Where the recordings of real machines are, if they are at hand: $TORQUESCOPE_RECORDINGS, or ../shared/recordings beside
-// the sources. A test without its recording skips and says so.
+// Where the recordings of real machines are, if they are at hand: $TORQUESCOPE_RECORDINGS, or ../shared/recordings
+// beside the sources. A test without its recording skips and says so.
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,8 +1,9 @@
 #pragma once
 // Which share of the runs is this process's: what the user says, else what the batch system says of its place.
 //
-// Order      --shard I/N; a Slurm array (SLURM_ARRAY_TASK_ID, _MIN, _COUNT, _STEP), each of its tasks again divided when srun
-//            started several (SLURM_PROCID, SLURM_STEP_NUM_TASKS); srun alone; Open MPI (OMPI_COMM_WORLD_RANK, _SIZE)
+// Order      --shard I/N; a Slurm array (SLURM_ARRAY_TASK_ID, _MIN, _COUNT, _STEP), each of its tasks again divided
+//            when srun started several (SLURM_PROCID, SLURM_STEP_NUM_TASKS); srun alone; Open MPI
+//            (OMPI_COMM_WORLD_RANK, _SIZE)
 // Errors     64: not I/N with 0 <= I < N; an array with gaps, whose tasks cannot be numbered
 // Threads    reads the environment through `variable`, no state
 

@@ -1,5 +1,6 @@
 #pragma once
-// The batch scripts of `submit`: jobs/slurm/*.sbatch, which people can also edit themselves, with their lines filled in.
+// The batch scripts of `submit`: jobs/slurm/*.sbatch, which people can also edit themselves, with their lines filled
+// in.
 
 #include <cstdint>
 #include <string>

@@ -2,9 +2,10 @@
 // The candidates of a diagnosis in a terminal: what was weighed, how strong it is, what became of it and why.
 //
 // Shown      the three strongest that were tested and all that were taken; with `all` every one
-// Why        a number behind the decision points to a line below the table: many share a reason, and none fits into a column
-// CV gain    a share of the mismatch; above 1 "> 100 %" (the model alone may predict other blocks worse than nothing does), below 0
-//            "none"
+// Why        a number behind the decision points to a line below the table: many share a reason, and none fits into a
+//            column
+// CV gain    a share of the mismatch; above 1 "> 100 %" (the model alone may predict other blocks worse than nothing
+//            does), below 0 "none"
 // Errors     none; names are made printable, no line is wider than the page
 // Threads    pure functions
 

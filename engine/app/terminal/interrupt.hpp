@@ -4,8 +4,8 @@
 // Signals    SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGHUP; SIGPIPE and SIGXFSZ are ignored, so that writing reports them.
 //            SIGCONT is none: Slurm sends it along with SIGTERM. A batch system sends several signals in a row, so only
 //            Ctrl-C twice means "at once"
-// Exit       75 by way of stop_requested(); 75 at the latest after four seconds, whatever is being computed (segments on the
-//            disk are safe then, the rest is not), unless saving_begins() has said that the rest is on its way;
+// Exit       75 by way of stop_requested(); 75 at the latest after four seconds, whatever is being computed (segments
+//            on the disk are safe then, the rest is not), unless saving_begins() has said that the rest is on its way;
 //            130 on the second Ctrl-C
 // Budget     stop_after() makes a time budget one more reason to stop
 // Threads    stop_requested() from any thread

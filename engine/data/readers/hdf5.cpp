@@ -6,7 +6,8 @@
 // Refused    numbers that live in another file: external links, external storage, virtual datasets; soft links are not
 //            followed (their target is reached under its own path)
 //            numbers packed by a filter that is not HDF5's own: none is loaded from this machine's folders
-// Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated; the bytes parsed are those of the sha256
+// Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated; the bytes parsed are
+//            those of the sha256
 // Confined   in a process of its own: of a hundred damaged files two crash HDF5 1.10 or keep it busy for ever
 // Errors     Error 65 when the file is damaged or cut short
 // Threads    one at a time

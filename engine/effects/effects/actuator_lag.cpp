@@ -2,7 +2,8 @@
 //
 // Equation   command = true + tau_e d true/dt
 //            columns: the derivative of the baseline's torque (central differences), exact in tau_e
-// Simulation runner(): the part of the command that has not arrived, command - true, with command = state.motor_torque and
+// Simulation runner(): the part of the command that has not arrived, command - true, with command = state.motor_torque
+// and
 //            d true/dt = (command - true) / tau_e, exact for a command that runs straight over a step
 // Parameters actuator_lag tau_e >= 0 [s]
 // Signature  acceleration: follows the jerk; the gain falls at high frequency

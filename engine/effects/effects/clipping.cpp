@@ -1,7 +1,8 @@
 // A torque channel that cannot show more than its limit, while the joint gets what it needs.
 //
 // Equation   recorded = true + c (clamp(true, -M, L) - true)
-// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L and clipping_limit_negative M [N m; N]: a
+// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L and clipping_limit_negative M [N m;
+// N]: a
 //            channel with a zero of its own reaches them at torques that differ
 // Signature  load: flat tops
 // Confused   torque_constant

@@ -1,6 +1,7 @@
 // Losses of a transmission that differ between driving the load and being driven by it.
 //
-// Equation   tau = s K |tau_motor - rho (tau_load - (1 - k) J ddq)|; s = sign(dq) weighted by the Coulomb levels of the baseline
+// Equation   tau = s K |tau_motor - rho (tau_load - (1 - k) J ddq)|; s = sign(dq) weighted by the Coulomb levels of the
+//            baseline
 // Parameters directional_efficiency K >= 0 [1], up to 0.5; backdrive_ratio rho [1]: 0, losses follow the motor's side;
 //            efficiency_inertia_share k [1]: of the inertia J, behind the gear; 1 where inertia is all the load
 // Signature  load: jumps where the sign of tau_load dq flips

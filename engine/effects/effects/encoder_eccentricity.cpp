@@ -1,11 +1,12 @@
-// An encoder disc off its centre: the angle is read with one wave per turn, and a second one where the disc wobbles, is oval
-// or is a magnet.
+// An encoder disc off its centre: the angle is read with one wave per turn, and a second one where the disc wobbles, is
+// oval or is a magnet.
 //
 // Equation   q_read = q + e(q), e = e_s sin(q) + e_c cos(q) + e_s2 sin(2 q) + e_c2 cos(2 q)
 //            columns: its image in the torque of a model evaluated at q_read, to first order in e:
 //            tau = -(g'(q) e + Fv e' dq + J (e' ddq + e'' dq^2)), g the gravity of the baseline
 // Simulation runner(): what is added to the position [rad]
-// Parameters encoder_eccentricity_sin e_s, _cos e_c, _sin_2 e_s2, _cos_2 e_c2 [rad], either sign; an angle's encoder only
+// Parameters encoder_eccentricity_sin e_s, _cos e_c, _sin_2 e_s2, _cos_2 e_c2 [rad], either sign; an angle's encoder
+// only
 // Why two    without the second wave what is left of it is named as a fault of the gear
 // Signature  orders 1 and 2, growing with the square of the speed
 // Confused   transmission_error and gravity; cogging does not grow with the speed

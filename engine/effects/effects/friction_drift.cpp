@@ -1,12 +1,13 @@
 // Friction that wanders or steps: wear, a loosening preload, grease that moves.
 //
-// Equation   tau = (t - start) (s d_c + d_v dq) + s d_s [t >= t_c] + s sum_k w_k P_k(x), k = 2 to 6; s = sign(dq) weighted by
-//            the Coulomb levels, x from -1 to 1 over the recording, P_k Legendre's polynomials
+// Equation   tau = (t - start) (s d_c + d_v dq) + s d_s [t >= t_c] + s sum_k w_k P_k(x), k = 2 to 6; s = sign(dq)
+//            weighted by the Coulomb levels, x from -1 to 1 over the recording, P_k Legendre's polynomials
 // Parameters friction_drift_coulomb d_c [N m/s; N/s], friction_drift_viscous d_v [N m/rad; N/m],
 //            friction_step d_s [N m; N], friction_wander_k w_k [N m; N], either sign; friction_step_time t_c [s]
 // Signature  time, odd in the velocity: a ramp, a step, or a wander
-// Why        a level that walks is no ramp and no step, and leaves as much as either explains. Polynomials that are orthogonal to the
-//            level and to the ramp leave their values alone; up to the sixth they hold nine tenths of a walk
+// Why        a level that walks is no ramp and no step, and leaves as much as either explains. Polynomials that are
+//            orthogonal to the level and to the ramp leave their values alone; up to the sixth they hold nine tenths of
+//            a walk
 // Confused   thermal_friction
 // Source     Bittencourt, Axelsson 2014 (wear)
 

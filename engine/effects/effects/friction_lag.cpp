@@ -5,8 +5,8 @@
 // Memory     w, and the speeds of the last d tau_L
 // Parameters friction_lag Fl >= 0 [N m; N]: height of the Stribeck part that lags; friction_lag_time tau_L [s];
 //            friction_lag_speed vs [rad/s; m/s]; friction_lag_dead_share d [1]: of the lag that is dead time
-// Why        measured lags are told as a dead time (Hess, Soom) or as a state that relaxes (Dieterich, Ruina); after a fast
-//            stretch the two differ by as much as either explains
+// Why        measured lags are told as a dead time (Hess, Soom) or as a state that relaxes (Dieterich, Ruina); after a
+//            fast stretch the two differ by as much as either explains
 // Signature  velocity: the friction curve splits into a branch of speeding up and one of slowing down
 // Confused   delay, presliding
 // Source     Hess, Soom 1990; Ruina 1983; Armstrong-Helouvry, Dupont, Canudas de Wit 1994 (seven-parameter model)

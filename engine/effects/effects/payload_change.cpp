@@ -1,7 +1,8 @@
 // A payload picked up or dropped while recording.
 //
 // Equation   tau = (dJ ddq + dg_s sin(q) + dg_c cos(q)) [t >= t_c]; on a slide (dm ddq + dw) [t >= t_c]
-// Parameters payload_inertia dJ [kg m2; kg], not below minus the baseline's; payload_gravity_sin [N m; none on a slide],
+// Parameters payload_inertia dJ [kg m2; kg], not below minus the baseline's; payload_gravity_sin [N m; none on a
+// slide],
 //            payload_gravity_cos [N m; N: the weight along the slide], either sign; payload_time t_c [s]
 // Signature  time: a step in acceleration and position laws
 // Confused   sensor_drift, friction_drift

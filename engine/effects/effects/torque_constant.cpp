@@ -2,8 +2,8 @@
 // larger than the true one. A constant error of the scale cannot be seen: it scales every parameter alike.
 //
 // Equation   tau = beta tau_motor^3; tau_motor: what the motor really gives, the recorded torque less tau
-// Why        of what it gives, not of what is recorded: whatever beta, more current is more torque. A cubic of the recorded torque
-//            turns round at 1 / sqrt(3 beta), and a joint that is simulated with it runs away there
+// Why        of what it gives, not of what is recorded: whatever beta, more current is more torque. A cubic of the
+//            recorded torque turns round at 1 / sqrt(3 beta), and a joint that is simulated with it runs away there
 // Simulation told the recorded torque u: solves tau_motor + beta tau_motor^3 = u
 // Parameters torque_constant beta >= 0 [1/(N m)2; 1/N2]
 // Signature  load: at the peaks of torque, whatever the motion

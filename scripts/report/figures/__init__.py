@@ -27,7 +27,9 @@ class Case:
     title: str
     sentence: str  # what am I looking at
     wide: bool = False  # drawn at 1080 px as well
-    traces: dict = field(default_factory=dict)  # time, series, guide, guided_by for zooming (traces.packed); empty: still
+    traces: dict = field(
+        default_factory=dict
+    )  # time, series, guide, guided_by for zooming (traces.packed); empty: still
 
     def figure(self, width):
         return self.draw(**self.arguments, width=width)
@@ -35,7 +37,9 @@ class Case:
 
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
-    modules = (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
+    modules = (
+        (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
+    )
     return _cases(modules, study)
 
 

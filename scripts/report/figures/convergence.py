@@ -39,14 +39,17 @@ def draw(histories, unit, width=style.SMALL):
 
 
 def _label(axes, medians, low, high, last):
-    # names where the curves have parted, each beside its own curve; the steepest is named below its curve, the others above
+    # names where the curves have parted, each beside its own curve; the steepest is named below its curve, the others
+    # above
     at = int(0.62 * last)
     heights = [np.log10(median[min(at, len(median) - 1)]) for _, median, _ in medians]
     decades = np.log10(high / low)
     step = 16 * decades / 166  # 16 px
     order = np.argsort(heights)
     wanted = [h + (1.1 * step if i != order[0] or len(medians) == 1 else -1.1 * step) for i, h in enumerate(heights)]
-    for (label, _, colour), y in zip(medians, style.spread(wanted, step, np.log10(low) + 0.6 * step, np.log10(high) - step)):
+    for (label, _, colour), y in zip(
+        medians, style.spread(wanted, step, np.log10(low) + 0.6 * step, np.log10(high) - step)
+    ):
         right = y > heights[[m[0] for m in medians].index(label)]
         axes.text(at, 10.0**y, style.fit(label, 110), color=colour, fontweight="bold", va="center",
                   ha="left" if right else "right")
@@ -59,4 +62,8 @@ def cases(study):
     runs = max(len(gaps) for _, gaps, _, _ in histories)
     some = f" ({MOST_RUNS} of {quantities.whole(runs)} runs are drawn)" if runs > MOST_RUNS else ""
     sentence = f"Each thin line is one run{some}, the thick line the median of all. A straight fall is a rate."
-    return {"convergence": Case(draw, {"histories": histories, "unit": quantities.square(study.effort_unit)}, TITLE, sentence)}
+    return {
+        "convergence": Case(
+            draw, {"histories": histories, "unit": quantities.square(study.effort_unit)}, TITLE, sentence
+        )
+    }

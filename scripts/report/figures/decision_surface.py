@@ -40,7 +40,10 @@ def draw(surface, first, second, path, output, first_name, second_name, width=st
 
 
 def _coarser(first, second, surface):
-    take = [np.unique(np.linspace(0, len(axis) - 1, min(len(axis), MOST_CELLS)).round().astype(int)) for axis in (first, second)]
+    take = [
+        np.unique(np.linspace(0, len(axis) - 1, min(len(axis), MOST_CELLS)).round().astype(int))
+        for axis in (first, second)
+    ]
     return first[take[0]], second[take[1]], surface[np.ix_(*take)]
 
 
@@ -87,8 +90,9 @@ def cases(study):
                          "path": getattr(e.controller, f"{output}_path")[int(e.median_run)],
                          "output": output, "first_name": _meaning(names[0]), "second_name": _meaning(names[1])}
             sentence = "Line: the way of the median run, from the open dot to the full one."
-            found[f"decision_surface_{e.name}_{output}"] = Case(draw, arguments, f"{output} of {e.label} over its inputs",
-                                                                sentence)
+            found[f"decision_surface_{e.name}_{output}"] = Case(
+                draw, arguments, f"{output} of {e.label} over its inputs", sentence
+            )
     return found
 
 

@@ -19,7 +19,10 @@ def draw(time, torque, before, after, floor, window, regions, effort, symbol, un
     measured = traces.Line("measured", torque, style.LIGHT["ink"], thickness=1.2)
     rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured], 130, *traces.scale(torque))]
     limit = 1.05 * float(np.nanmax(np.abs(before)))
-    for words, part, values, colour in (("residual before", "before", before, "baseline"), ("residual after", "after", after, "augmented")):
+    for words, part, values, colour in (
+        ("residual before", "before", before, "baseline"),
+        ("residual after", "after", after, "augmented"),
+    ):
         if values is not None:
             line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1)
             rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
@@ -67,9 +70,18 @@ def _case(study, joint, trace, regions):
     after = trace.after if diagnosed.has_after(joint) and np.isfinite(trace.after).any() else None
     floor = _floor(joint, trace)
     window = window_of_most_gain(trace.time, trace.before, after)
-    arguments = {"time": trace.time, "torque": trace.torque, "before": trace.before, "after": after, "floor": 2 * floor,
-                 "window": window, "regions": times_inside(trace, regions), "effort": study.effort, "symbol": study.symbol,
-                 "unit": quantities.unit(joint.unit_torque)}
+    arguments = {
+        "time": trace.time,
+        "torque": trace.torque,
+        "before": trace.before,
+        "after": after,
+        "floor": 2 * floor,
+        "window": window,
+        "regions": times_inside(trace, regions),
+        "effort": study.effort,
+        "symbol": study.symbol,
+        "unit": quantities.unit(joint.unit_torque),
+    }
     whole = window[1] - window[0] >= trace.time[-1] - trace.time[0]
     opened = "" if whole else (" Opened on the six seconds that gain most." if after is not None
                                else " Opened on the six seconds with most residual.")

@@ -28,6 +28,12 @@ def cases(board):
     seconds = board.ours["runtime"]["seconds"]
     if not seconds:
         return {}
-    return {"diagnosis_seconds": Case(draw, {"seconds": seconds}, "How long does it take?",
-                                      f"{quantities.count(len(seconds), 'diagnosis', 'diagnoses')}, {quantities.seconds(sum(seconds))} together; "
-                                      "line: median. Wall time, beside whatever else the machine was doing.")}
+    return {
+        "diagnosis_seconds": Case(
+            draw,
+            {"seconds": seconds},
+            "How long does it take?",
+            f"{quantities.count(len(seconds), 'diagnosis', 'diagnoses')}, {quantities.seconds(sum(seconds))} together; "
+            "line: median. Wall time, beside whatever else the machine was doing.",
+        )
+    }

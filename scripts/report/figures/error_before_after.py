@@ -44,7 +44,11 @@ def rows_of(joint):
     rows = [("train", joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr),
             ("blocked CV", joint.cv_relerr, joint.augmented_cv_relerr, np.nan),
             ("unseen", joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr)]
-    return [(label, before, after if changed else np.nan, floor) for label, before, after, floor in rows if np.isfinite(before)]
+    return [
+        (label, before, after if changed else np.nan, floor)
+        for label, before, after, floor in rows
+        if np.isfinite(before)
+    ]
 
 
 def cases(study):
@@ -57,4 +61,10 @@ def _case(rows):
     sentence = "Norm of the residual over norm of the measured signal"
     if any(np.isfinite(floor) for *_, floor in rows):
         sentence += "; grey bar: the floor, which a complete model would reach"
-    return Case(draw, {"rows": rows}, "Error in training and unseen" if unseen else "Error in training", f"{sentence}.", wide=True)
+    return Case(
+        draw,
+        {"rows": rows},
+        "Error in training and unseen" if unseen else "Error in training",
+        f"{sentence}.",
+        wide=True,
+    )

@@ -40,7 +40,14 @@ def draw(rows, columns, counts, width=style.WIDE):
                     color=style.LIGHT["ink" if column in rows else "muted"])
     # the diagonal is what is right
     for i in range(len(rows)):
-        axes.plot([i, i + 1, i + 1, i, i], [i, i, i + 1, i + 1, i], color=style.LIGHT["ink"], linewidth=1.2, clip_on=False, zorder=4)
+        axes.plot(
+            [i, i + 1, i + 1, i, i],
+            [i, i, i + 1, i + 1, i],
+            color=style.LIGHT["ink"],
+            linewidth=1.2,
+            clip_on=False,
+            zorder=4,
+        )
     axes.set(xlim=(0, len(columns)), ylim=(len(rows), 0), xticks=[], yticks=[])
     return canvas.figure
 
@@ -50,6 +57,13 @@ def cases(board):
     if not matrix["rows"]:
         return {}
     total = int(np.sum(matrix["counts"]))
-    return {"family_confusion": Case(draw, {"rows": matrix["rows"], "columns": matrix["columns"], "counts": matrix["counts"]}, TITLE,
-                                     f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the family of "
-                                     "the first name, or what was said without a name (columns). Framed: right.", wide=True)}
+    return {
+        "family_confusion": Case(
+            draw,
+            {"rows": matrix["rows"], "columns": matrix["columns"], "counts": matrix["counts"]},
+            TITLE,
+            f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the family of "
+            "the first name, or what was said without a name (columns). Framed: right.",
+            wide=True,
+        )
+    }

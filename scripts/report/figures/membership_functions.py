@@ -3,7 +3,14 @@
 import style
 from figures import Case
 
-MEANING = {"d11": "d11, from PC", "d12": "d12, from FC", "d21": "d21, from PC", "d22": "d22, from FC", "F": "F", "CR": "CR"}
+MEANING = {
+    "d11": "d11, from PC",
+    "d12": "d12, from FC",
+    "d21": "d21, from PC",
+    "d22": "d22, from FC",
+    "F": "F",
+    "CR": "CR",
+}
 SHADES = (("small", "ramp3", "solid"), ("middle", "ramp5", (0, (5, 2))), ("big", "ramp8", "solid"))
 
 
@@ -44,6 +51,7 @@ def cases(study):
                   for name in MEANING if e.controller.has(f"{name}_membership")]
         if curves:
             sentence = "Degree of membership, 0 to 1. Four inputs made from the population's movement, two outputs."
-            found[f"membership_functions_{e.name}"] = Case(draw, {"curves": curves}, f"Membership functions of {e.label}",
-                                                           sentence, wide=True)
+            found[f"membership_functions_{e.name}"] = Case(
+                draw, {"curves": curves}, f"Membership functions of {e.label}", sentence, wide=True
+            )
     return found

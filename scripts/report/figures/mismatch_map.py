@@ -44,7 +44,9 @@ class _Line:
         self.bounds = np.arange(len(self.level) + 1)
         if narrow:
             # each cell of the phone shows the strongest of those it stands for, at their place
-            self.bounds = np.unique(np.linspace(0, len(self.level), min(NARROW_CELLS, len(self.level)) + 1).round().astype(int))
+            self.bounds = np.unique(
+                np.linspace(0, len(self.level), min(NARROW_CELLS, len(self.level)) + 1).round().astype(int)
+            )
             self.level = np.array([_strongest(self.level[a:b]) for a, b in zip(self.bounds[:-1], self.bounds[1:])])
 
 
@@ -90,9 +92,18 @@ def _frame(canvas, left, right, bottom, kind):
     # a light line under the dark one: seen on every step
     for colour, width, dashes in (("background", thickness + 2, "solid"),
                                   ("ink", thickness, (0, (4, 2)) if kind == "unexplained" else "solid")):
-        canvas.figure.add_artist(Rectangle((left / canvas.width, 1 - (bottom + 2) / canvas.height), (right - left) / canvas.width,
-                                           (ROW + 4) / canvas.height, fill=False, edgecolor=style.LIGHT[colour], linewidth=width,
-                                           linestyle=dashes, transform=canvas.figure.transFigure))
+        canvas.figure.add_artist(
+            Rectangle(
+                (left / canvas.width, 1 - (bottom + 2) / canvas.height),
+                (right - left) / canvas.width,
+                (ROW + 4) / canvas.height,
+                fill=False,
+                edgecolor=style.LIGHT[colour],
+                linewidth=width,
+                linestyle=dashes,
+                transform=canvas.figure.transFigure,
+            )
+        )
 
 
 def _labels(canvas, frames, left, right, baseline):
@@ -105,7 +116,14 @@ def _labels(canvas, frames, left, right, baseline):
             group = _label((first + max(last, group[1])) / 2, list(dict.fromkeys([*words, label])), left, right)
         groups.append(group)
     for start, stop, words in groups:
-        canvas.text((start + stop) / 2, baseline, _written(words, right - left), ha="center", fontweight="bold", color=style.LIGHT["ink"])
+        canvas.text(
+            (start + stop) / 2,
+            baseline,
+            _written(words, right - left),
+            ha="center",
+            fontweight="bold",
+            color=style.LIGHT["ink"],
+        )
 
 
 def _label(centre, words, left, right):
@@ -127,7 +145,9 @@ def _draw_share(canvas, line, longest, bottom, narrow):
     if not np.isfinite(line.share):
         return
     baseline = bottom - ROW - (LABEL if line.labels else 0) - 6 if narrow else bottom - 6
-    canvas.text(canvas.width, baseline, quantities.percent(line.share), ha="right", color=style.LIGHT["ink"], fontweight="bold")
+    canvas.text(
+        canvas.width, baseline, quantities.percent(line.share), ha="right", color=style.LIGHT["ink"], fontweight="bold"
+    )
     if not narrow:
         bar = canvas.axes(940, bottom - ROW + 5, 1020, bottom - 5)
         bar.set_axis_off()
@@ -167,8 +187,10 @@ def cases(study):
         rows = [_arguments(joint, row) for row in diagnosed.rows_drawn(joint)]
         if rows:
             name = diagnosed.figure_name(study, joint, "mismatch_map")
-            sentence = (f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} clean twins; "
-                        "grey: no more than chance; blank: nothing measured; framed: located.")
+            sentence = (
+                f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} clean twins; "
+                "grey: no more than chance; blank: nothing measured; framed: located."
+            )
             found[name] = Case(draw, {"rows": rows}, "The mismatch map", sentence, wide=True)
     return found
 
@@ -176,10 +198,23 @@ def cases(study):
 def _arguments(joint, row):
     frames = [(place.start, place.stop, diagnosed.plain(e.name), "effect") for e in joint.effects for place in e.places
               if place.axis == row.axis]
-    frames += [(where.start, where.stop, "unexplained", "unexplained") for where, _ in joint.unexplained if where.axis == row.axis]
+    frames += [
+        (where.start, where.stop, "unexplained", "unexplained")
+        for where, _ in joint.unexplained
+        if where.axis == row.axis
+    ]
     known = {(start, stop) for start, stop, *_ in frames}
-    frames += [(r.where.start, r.where.stop, "", "region") for r in row.regions if (r.where.start, r.where.stop) not in known]
+    frames += [
+        (r.where.start, r.where.stop, "", "region") for r in row.regions if (r.where.start, r.where.stop) not in known
+    ]
     z = np.where(np.asarray(row.samples) > 0, row.z, np.nan)
     edges = np.append(row.start, row.stop[-1])
-    return (diagnosed.axis_title(row.axis), diagnosed.range_words(edges[0], edges[-1], diagnosed.axis_unit(row)), row.is_spectrum,
-            edges, z, row.energy_share, frames)
+    return (
+        diagnosed.axis_title(row.axis),
+        diagnosed.range_words(edges[0], edges[-1], diagnosed.axis_unit(row)),
+        row.is_spectrum,
+        edges,
+        z,
+        row.energy_share,
+        frames,
+    )

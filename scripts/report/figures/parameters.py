@@ -48,7 +48,9 @@ def _draw_rows(axes, groups, published, row, name_room, count):
             x = difference[index]
             reach = max(reach, abs(x))
             if outer is not None:
-                axes.plot([x - outer[index], x + outer[index]], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt")
+                axes.plot(
+                    [x - outer[index], x + outer[index]], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt"
+                )
                 reach = max(reach, abs(x) + outer[index])
             if inner is not None:
                 # the interval that white residuals would give: two small posts on the bar
@@ -105,7 +107,9 @@ def cases(study):
                  "axis_words": axis_words, "values": words}
     sentence = "Dots: estimates."
     if ols is not None:
-        sentence += " Bars: 95 % intervals that allow for a residual with memory (HAC); posts: the same if it were white."
+        sentence += (
+            " Bars: 95 % intervals that allow for a residual with memory (HAC); posts: the same if it were white."
+        )
     if study.searches:
         sentence += " Thin lines: the span of all runs of a search."
     if published:

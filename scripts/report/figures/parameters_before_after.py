@@ -63,7 +63,9 @@ def value_words(one):
     """'0.354 ± 0.012 N m'."""
     half = one.half_interval
     decimals = quantities.decimals_for(half, one.value)
-    text = quantities.fixed(one.value, decimals) + (f" ± {quantities.fixed(half, decimals)}" if math.isfinite(half) else "")
+    text = quantities.fixed(one.value, decimals) + (
+        f" ± {quantities.fixed(half, decimals)}" if math.isfinite(half) else ""
+    )
     return quantities.with_unit(text, one.unit)
 
 
@@ -89,8 +91,12 @@ def cases(study):
         names, before, after = differences(joint, truth)
         if not names:
             continue
-        words = [value_words((joint.augmented if diagnosed.has_after(joint) and name in joint.augmented else joint.baseline)[name])
-                 for name in names]
+        words = [
+            value_words(
+                (joint.augmented if diagnosed.has_after(joint) and name in joint.augmented else joint.baseline)[name]
+            )
+            for name in names
+        ]
         arguments = {"names": [diagnosed.plain(name) for name in names], "before": before, "after": after,
                      "origin": "the truth" if truth else "the baseline", "values": words}
         sentence = "Bars: 95 % intervals"
@@ -99,6 +105,10 @@ def cases(study):
         ends = [abs(at) + half for at, half in [*before, *after] if np.isfinite(at + half)]
         sentence += f"; an arrow: beyond {MOST:.0f} %." if ends and max(ends) > MOST else "."
         found[diagnosed.figure_name(study, joint, "parameters_before_after")] = Case(
-            draw, arguments, "Parameters before and after" if diagnosed.has_after(joint) else "Parameters of the baseline",
-            sentence, wide=True)
+            draw,
+            arguments,
+            "Parameters before and after" if diagnosed.has_after(joint) else "Parameters of the baseline",
+            sentence,
+            wide=True,
+        )
     return found

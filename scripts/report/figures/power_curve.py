@@ -24,14 +24,25 @@ def draw(sizes, curves, width=style.SMALL):
     for name, points in curves.items():
         colour, dashes, thick = LOOKS[name]
         shares = [100 * share for share, _, _ in points]
-        axes.plot(at, shares, color=style.LIGHT[colour], linestyle=dashes, linewidth=thick, marker="o", markersize=5, clip_on=False)
+        axes.plot(
+            at,
+            shares,
+            color=style.LIGHT[colour],
+            linestyle=dashes,
+            linewidth=thick,
+            marker="o",
+            markersize=5,
+            clip_on=False,
+        )
         ends.append((LABELS[name], shares[-1], colour))
     axes.set(xlim=(-0.25, len(sizes) - 0.75), ylim=(0, 100), xlabel="effect over noise (SNR)")
     axes.set_xticks(list(at), [f"{size:g}" for size in sizes])
     axes.set_yticks([0, 25, 50, 75, 100])
     axes.xaxis.labelpad = 3
     for (label, _, colour), y in zip(ends, style.spread([end for _, end, _ in ends], 10, 2, 98)):
-        canvas.text(width - LABEL_PX + 8, 208 - (208 - 30) * y / 100 + 4, label, color=style.LIGHT[colour], fontweight="bold")
+        canvas.text(
+            width - LABEL_PX + 8, 208 - (208 - 30) * y / 100 + 4, label, color=style.LIGHT[colour], fontweight="bold"
+        )
     canvas.text(0, 16, "found (% of cases)")
     return canvas.figure
 
@@ -49,9 +60,12 @@ def cases(board):
         counts = sorted({row["family"]["n"] for row in rows})
         each = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
         every = "every effect at this size when alone; " if tier != "T1" else ""
-        found[f"power_{tier}"] = Case(draw, {"sizes": [row["size"] for row in rows],
-                                             "curves": {level: _points(rows, level) for level in LOOKS}}, title,
-                                      f"{each} cases per size; {every}grey: exact 95 % band of the family. Family and exact name: "
-                                      "everything named, nothing invented. 3 guesses: the family is among the three "
-                                      "strongest candidates, named or not.")
+        found[f"power_{tier}"] = Case(
+            draw,
+            {"sizes": [row["size"] for row in rows], "curves": {level: _points(rows, level) for level in LOOKS}},
+            title,
+            f"{each} cases per size; {every}grey: exact 95 % band of the family. Family and exact name: "
+            "everything named, nothing invented. 3 guesses: the family is among the three "
+            "strongest candidates, named or not.",
+        )
     return found

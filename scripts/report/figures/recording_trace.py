@@ -10,9 +10,17 @@ from figures import Case
 
 def draw(time, rows, seams, width=style.WIDE):
     """rows: [(name, symbol, unit, part, values [n])]; seams: times where another recording begins."""
-    drawn = [traces.Row(f"{name} ({unit})", symbol, unit, [traces.Line(part, values, style.LIGHT["ink"], thickness=1.1)], 92,
-                        *traces.scale(values))
-             for name, symbol, unit, part, values in rows]
+    drawn = [
+        traces.Row(
+            f"{name} ({unit})",
+            symbol,
+            unit,
+            [traces.Line(part, values, style.LIGHT["ink"], thickness=1.1)],
+            92,
+            *traces.scale(values),
+        )
+        for name, symbol, unit, part, values in rows
+    ]
     figure = traces.draw(time, drawn, (time[0], time[-1]), None, width)
     for axes in figure.axes:
         for seam in seams:
@@ -30,7 +38,18 @@ def cases(study):
     sentence = "The samples the fit has used, after filtering."
     if len(seams):
         sentence += " Recordings are laid end to end, dotted lines between them."
-    return {"recording_trace": Case(draw, {"time": time, "rows": rows, "seams": seams}, "Position, velocity, " + study.effort,
-                                    sentence, wide=True,
-                                    traces={"time": time, "series": {key: values for *_, key, values in rows},
-                                            "guide": data.torque, "guided_by": study.effort})}
+    return {
+        "recording_trace": Case(
+            draw,
+            {"time": time, "rows": rows, "seams": seams},
+            "Position, velocity, " + study.effort,
+            sentence,
+            wide=True,
+            traces={
+                "time": time,
+                "series": {key: values for *_, key, values in rows},
+                "guide": data.torque,
+                "guided_by": study.effort,
+            },
+        )
+    }

@@ -13,8 +13,13 @@ def draw(residual, recording, step_s, colour=style.LIGHT["ink"], width=style.SMA
     axes = canvas.axes(50, 30, width - 14, 196)
     centred = residual - residual.mean()
     power = float(centred @ centred)
-    values = np.array([1.0] + [float((centred[lag:] * centred[:-lag])[recording[lag:] == recording[:-lag]].sum()) / power
-                               for lag in range(1, lags + 1)])
+    values = np.array(
+        [1.0]
+        + [
+            float((centred[lag:] * centred[:-lag])[recording[lag:] == recording[:-lag]].sum()) / power
+            for lag in range(1, lags + 1)
+        ]
+    )
     white = 1.96 / np.sqrt(len(residual))
     axes.axhspan(-white, white, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
     at = np.arange(lags + 1) * step_s
@@ -32,6 +37,12 @@ def cases(study):
     data = study.train
     arguments = {"residual": data.torque - data.prediction(e.chosen), "recording": np.asarray(data.recording),
                  "step_s": 1 / data.kept_rate_hz, "colour": style.LIGHT["ink"]}
-    return {"residual_autocorrelation": Case(draw, arguments, "Is the residual white?",
-                                             f"Autocorrelation of what {e.short} leaves in training. Grey: what white noise "
-                                             "would stay in, 95 %. Above it, naive intervals are too narrow.")}
+    return {
+        "residual_autocorrelation": Case(
+            draw,
+            arguments,
+            "Is the residual white?",
+            f"Autocorrelation of what {e.short} leaves in training. Grey: what white noise "
+            "would stay in, 95 %. Above it, naive intervals are too narrow.",
+        )
+    }

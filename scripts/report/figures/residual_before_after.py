@@ -18,11 +18,15 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
     time = canvas.axes(54, 162, width - 14, 188)
     span = (centre[0], centre[-1])
     for region in diagnosed.partial_regions(regions, span[0], span[1]):
-        axes.axvspan(max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2)
+        axes.axvspan(
+            max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2
+        )
     axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
     axes.plot(centre, before, color=style.LIGHT["baseline"], linewidth=1.2)
-    axes.plot(centre[outside], before[outside], linestyle="none", marker="o", markersize=5.5, color=style.LIGHT["baseline"])
+    axes.plot(
+        centre[outside], before[outside], linestyle="none", marker="o", markersize=5.5, color=style.LIGHT["baseline"]
+    )
     if after is not None:
         axes.plot(centre, after, color=style.LIGHT["augmented"], linewidth=1.6, zorder=3)
     drawn = np.concatenate([before, after if after is not None else before, [np.nanmedian(low), np.nanmedian(high)]])
@@ -48,9 +52,19 @@ def arguments(study, joint, row, regions=()):
     before = known(row.mean_residual)
     after = known(row.after_residual) if diagnosed.has_after(joint) and np.isfinite(row.after_residual).any() else None
     outside = measured & ((row.mean_residual < low) | (row.mean_residual > high))
-    return {"axis_words": diagnosed.axis_title(row.axis), "unit": diagnosed.axis_unit(row), "centre": row.centre, "before": before,
-            "after": after, "low": known(np.maximum(low, 0) if row.is_spectrum else low), "high": known(high),
-            "samples": row.samples, "outside": outside, "regions": list(regions), "is_spectrum": row.is_spectrum}
+    return {
+        "axis_words": diagnosed.axis_title(row.axis),
+        "unit": diagnosed.axis_unit(row),
+        "centre": row.centre,
+        "before": before,
+        "after": after,
+        "low": known(np.maximum(low, 0) if row.is_spectrum else low),
+        "high": known(high),
+        "samples": row.samples,
+        "outside": outside,
+        "regions": list(regions),
+        "is_spectrum": row.is_spectrum,
+    }
 
 
 def cases(study):
@@ -70,9 +84,17 @@ def cases(study):
                 shown.add(quiet.axis)
                 found[name(f"effect_{number}_not_here")] = _not_here(study, joint, quiet, rival, unit)
         if not joint.effects:
-            found.update({name(f"residual_{row.axis}"): Case(draw, arguments(study, joint, row, [region] if region else []),
-                                                             f"Residual over {diagnosed.axis_title(row.axis)}", _sentence(unit))
-                          for row, region in diagnosed.rows_without_effects(joint)})
+            found.update(
+                {
+                    name(f"residual_{row.axis}"): Case(
+                        draw,
+                        arguments(study, joint, row, [region] if region else []),
+                        f"Residual over {diagnosed.axis_title(row.axis)}",
+                        _sentence(unit),
+                    )
+                    for row, region in diagnosed.rows_without_effects(joint)
+                }
+            )
     return found
 
 

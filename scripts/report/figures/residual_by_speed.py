@@ -36,6 +36,12 @@ def cases(study):
     data = study.train
     arguments = {"velocity": np.asarray(data.velocity), "residual": data.torque - data.prediction(e.chosen),
                  "velocity_unit": quantities.unit(data.unit_of("velocity")), "unit": quantities.unit(study.effort_unit)}
-    return {"residual_by_speed": Case(draw, arguments, "Does the residual depend on speed?",
-                                      f"Mean of what {e.short} leaves, in bins of equally many samples; grey: ±1 standard "
-                                      "deviation. A shape here is friction the model lacks.")}
+    return {
+        "residual_by_speed": Case(
+            draw,
+            arguments,
+            "Does the residual depend on speed?",
+            f"Mean of what {e.short} leaves, in bins of equally many samples; grey: ±1 standard "
+            "deviation. A shape here is friction the model lacks.",
+        )
+    }

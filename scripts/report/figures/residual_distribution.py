@@ -30,7 +30,12 @@ def draw(residual, unit, width=style.SMALL):
 def cases(study):
     e = study.ols or study.estimators[0]
     residual = study.train.torque - study.train.prediction(e.chosen)
-    return {"residual_distribution": Case(draw, {"residual": residual, "unit": quantities.unit(study.effort_unit)},
-                                          "How large are the errors?",
-                                          f"Histogram of what {e.short} leaves; the line is the normal curve of the same "
-                                          "standard deviation. Heavy tails ask for a robust loss.")}
+    return {
+        "residual_distribution": Case(
+            draw,
+            {"residual": residual, "unit": quantities.unit(study.effort_unit)},
+            "How large are the errors?",
+            f"Histogram of what {e.short} leaves; the line is the normal curve of the same "
+            "standard deviation. Heavy tails ask for a robust loss.",
+        )
+    }

@@ -29,11 +29,21 @@ def cases(board):
     if ours["iou"]:
         said = (f"{quantities.count(len(ours['iou']), 'effect')} found: rows both regions hold over rows either holds. "
                 "Line: median; dashed: pass level, 60 %.")
-        found["region_iou"] = Case(draw, {"values": ours["iou"], "pass_level": 0.60, "label": "overlap of the regions (%)", "low": 0.0},
-                                   "Was the place right?", said)
+        found["region_iou"] = Case(
+            draw,
+            {"values": ours["iou"], "pass_level": 0.60, "label": "overlap of the regions (%)", "low": 0.0},
+            "Was the place right?",
+            said,
+        )
     if ours["gap_closed"]:
-        said = (f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good as the true "
-                "model. What is not found closes nothing; what is worse than −20 % stands there. Line: median; dashed: pass level, 80 %.")
-        found["gap_closed"] = Case(draw, {"values": ours["gap_closed"], "pass_level": 0.80, "label": "gap to the oracle closed (%)",
-                                          "low": -0.2}, "Is the model better where it counts?", said)
+        said = (
+            f"Unseen recording, {quantities.count(len(ours['gap_closed']), 'case')} of SNR 1 or more, 100 %: as good as the true "
+            "model. What is not found closes nothing; what is worse than −20 % stands there. Line: median; dashed: pass level, 80 %."
+        )
+        found["gap_closed"] = Case(
+            draw,
+            {"values": ours["gap_closed"], "pass_level": 0.80, "label": "gap to the oracle closed (%)", "low": -0.2},
+            "Is the model better where it counts?",
+            said,
+        )
     return found

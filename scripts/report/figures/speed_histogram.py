@@ -25,5 +25,11 @@ def draw(velocity, unit, width=style.SMALL):
 
 def cases(study):
     data = study.train
-    return {"speed_histogram": Case(draw, {"velocity": np.asarray(data.velocity), "unit": quantities.unit(data.unit_of("velocity"))},
-                                    "Which speeds were recorded?", "Empty places are speeds of which the fit knows nothing.")}
+    return {
+        "speed_histogram": Case(
+            draw,
+            {"velocity": np.asarray(data.velocity), "unit": quantities.unit(data.unit_of("velocity"))},
+            "Which speeds were recorded?",
+            "Empty places are speeds of which the fit knows nothing.",
+        )
+    }

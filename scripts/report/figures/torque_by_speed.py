@@ -24,8 +24,16 @@ def draw(velocity, torque, velocity_unit, effort, unit, width=style.SMALL):
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1)
     for x, side in ((0.03, velocity < 0), (0.97, velocity > 0)):
         for y, half in ((0.03, torque < 0), (0.97, torque > 0)):
-            axes.text(x, y, f"{100 * np.mean(side & half):.0f} %", transform=axes.transAxes, fontweight="bold", color=style.LIGHT["ink"],
-                      ha="left" if x < 0.5 else "right", va="bottom" if y < 0.5 else "top")
+            axes.text(
+                x,
+                y,
+                f"{100 * np.mean(side & half):.0f} %",
+                transform=axes.transAxes,
+                fontweight="bold",
+                color=style.LIGHT["ink"],
+                ha="left" if x < 0.5 else "right",
+                va="bottom" if y < 0.5 else "top",
+            )
     axes.set(xlim=(-x_limit, x_limit), ylim=(-y_limit, y_limit), xlabel=f"velocity ({velocity_unit})")
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 5)
@@ -39,5 +47,11 @@ def cases(study):
     arguments = {"velocity": np.asarray(data.velocity), "torque": np.asarray(data.torque),
                  "velocity_unit": quantities.unit(data.unit_of("velocity")), "effort": study.effort,
                  "unit": quantities.unit(study.effort_unit)}
-    return {"torque_by_speed": Case(draw, arguments, f"{study.effort.capitalize()} over speed",
-                                    "How often each place was visited, in nine steps; the corners say the share of each quadrant.")}
+    return {
+        "torque_by_speed": Case(
+            draw,
+            arguments,
+            f"{study.effort.capitalize()} over speed",
+            "How often each place was visited, in nine steps; the corners say the share of each quadrant.",
+        )
+    }

@@ -12,16 +12,35 @@ def draw(time, measured, predictions, band, window, effort, symbol, unit, width=
     """predictions: [(label, part, values [n], colour, dashes, residual std)]; band: half height of the grey band."""
     line = traces.Line("measured", measured, style.LIGHT["measured"], thickness=4)
     # lines that coincide are still seen: each is thinner than the one below it, and dashed ones lie on top
-    over = [traces.Line(part, values, colour, dashes, 1.5 if dashes != "solid" else 1.4 + 0.5 * min(len(predictions) - 1 - at, 3),
-                        dashes != "solid") for at, (_, part, values, colour, dashes, _) in enumerate(predictions)]
+    over = [
+        traces.Line(
+            part,
+            values,
+            colour,
+            dashes,
+            1.5 if dashes != "solid" else 1.4 + 0.5 * min(len(predictions) - 1 - at, 3),
+            dashes != "solid",
+        )
+        for at, (_, part, values, colour, dashes, _) in enumerate(predictions)
+    ]
     rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [line] + over, 170, *traces.scale(measured))]
     largest = max(np.nanmax(np.abs(measured - values)) for _, _, values, *_ in predictions)
     for label, part, values, colour, _, deviation in predictions:
         words = f"{label}: measured minus predicted ({unit})" if width >= style.WIDE else f"{label}: residual ({unit})"
         if np.isfinite(deviation):
             words += f", std {quantities.number(deviation)}"
-        rows.append(traces.Row(words, symbol, unit, [traces.Line(f"measured-{part}", measured - values, colour, thickness=1.1)], 64,
-                               -1.05 * largest, 1.05 * largest, band))
+        rows.append(
+            traces.Row(
+                words,
+                symbol,
+                unit,
+                [traces.Line(f"measured-{part}", measured - values, colour, thickness=1.1)],
+                64,
+                -1.05 * largest,
+                1.05 * largest,
+                band,
+            )
+        )
     return traces.draw(time, rows, window, traces.Line("measured", measured, style.LIGHT["measured"]), width)
 
 
@@ -39,15 +58,27 @@ def cases(study):
             predictions.append((e.short, f"e{index}", values, e.ink, e.dashes, deviation))
             series[f"e{index}"] = values
         reference = study.ols or study.estimators[0]
-        arguments = {"time": time, "measured": data.torque, "predictions": predictions,
-                     "band": 2 * float(reference.residual_std_median), "window": traces.window_with_most(reversals, time),
-                     "effort": study.effort, "symbol": study.symbol, "unit": quantities.unit(study.effort_unit)}
+        arguments = {
+            "time": time,
+            "measured": data.torque,
+            "predictions": predictions,
+            "band": 2 * float(reference.residual_std_median),
+            "window": traces.window_with_most(reversals, time),
+            "effort": study.effort,
+            "symbol": study.symbol,
+            "unit": quantities.unit(study.effort_unit),
+        }
         which = "the unseen recording" if part == "validate" else "the training recording"
         start, stop = arguments["window"]
         opened = "" if stop - start >= time[-1] - time[0] else " Opened on the six seconds with most reversals."
         sentence = (f"Grey: measured. Below, what each estimate leaves; band: ±2 standard deviations of the "
                     f"{reference.short} residual in training.{opened}")
-        found[f"torque_trace_{part}"] = Case(draw, arguments, f"{study.effort.capitalize()} of {which}", sentence, wide=True,
-                                             traces={"time": time, "series": series, "guide": data.torque - series["e0"],
-                                                     "guided_by": "residual"})
+        found[f"torque_trace_{part}"] = Case(
+            draw,
+            arguments,
+            f"{study.effort.capitalize()} of {which}",
+            sentence,
+            wide=True,
+            traces={"time": time, "series": series, "guide": data.torque - series["e0"], "guided_by": "residual"},
+        )
     return found

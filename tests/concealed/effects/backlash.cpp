@@ -1,8 +1,9 @@
 // A load that the motor only moves once it has crossed a gap.
 //
 // State      position and velocity of the load
-// Equation   wind = motor - load position beyond the flank; contact = (stiffness + damping d(wind)/dt) wind, never pulling
-//            (Hunt, Crossley 1975: no jump of the force at contact), and film d(wind)/dt of the grease in the gap
+// Equation   wind = motor - load position beyond the flank; contact = (stiffness + damping d(wind)/dt) wind, never
+//            pulling (Hunt, Crossley 1975: no jump of the force at contact), and film d(wind)/dt of the grease in the
+//            gap
 #include <algorithm>
 #include <cmath>
 

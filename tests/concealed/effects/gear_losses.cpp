@@ -1,4 +1,5 @@
-// Losses of a gear that take one share of the load while the motor drives it and another while the load drives the motor.
+// Losses of a gear that take one share of the load while the motor drives it and another while the load drives the
+// motor.
 //
 // Equation   share = mean of both + (driving - driven)/2 tanh(s load / round); tau = s share |load| smoothed at no load
 #include <cmath>

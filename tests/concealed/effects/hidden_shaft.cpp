@@ -1,8 +1,9 @@
-// An unbalanced shaft of another drive that this joint drags along through a slipping belt: periodic neither in the time
-// nor in the angle.
+// An unbalanced shaft of another drive that this joint drags along through a slipping belt: periodic neither in the
+// time nor in the angle.
 //
 // State      angle of the shaft
-// Equation   d(angle)/dt = 2 pi hz (1 + 0.3 sin(2 pi t / 11 s)) + drag v; torque = amplitude (sin angle + 0.3 sin 2 angle)
+// Equation   d(angle)/dt = 2 pi hz (1 + 0.3 sin(2 pi t / 11 s)) + drag v; torque = amplitude (sin angle + 0.3 sin 2
+//            angle)
 #include <cmath>
 
 #include "concealed/effects/laws.hpp"

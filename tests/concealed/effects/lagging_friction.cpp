@@ -1,4 +1,5 @@
-// A lubricant film that needs time to build up and another time to be squeezed out, so that friction follows the speed late.
+// A lubricant film that needs time to build up and another time to be squeezed out, so that friction follows the speed
+// late.
 //
 // State      w, the speed that the film is made for
 // Equation   dw/dt = (|v| - w) / tau, tau = thicken while w < |v|, thin otherwise; tau = s rise (g(w) - g(|v|)),

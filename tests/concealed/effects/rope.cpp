@@ -1,8 +1,8 @@
 // A hose or bundle of cables led past a guide: slack near its rest, then taut, rubbing on itself as it bends.
 //
 // State      z in (-1, 1), how far the strands are shifted against each other
-// Equation   length = sqrt(guide^2 + x^2), tension = stiffness (length - slack_length)+, torque = tension x / length + rub z
-//            dz/dx = (1 - z |z| sign(dx)) / distance; x = q - rest
+// Equation   length = sqrt(guide^2 + x^2), tension = stiffness (length - slack_length)+, torque = tension x / length +
+//            rub z dz/dx = (1 - z |z| sign(dx)) / distance; x = q - rest
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Makers of the instruments' faults, one file each. Forms marked (*) are deliberately not those of the engine's catalogue.
+// Makers of the instruments' faults, one file each. Forms marked (*) are deliberately not those of the engine's
+// catalogue.
 //
 // Units      SI of the joint: N m, rad or N, m
 

@@ -12,6 +12,7 @@ tick acts half a sample later (measured on drawn cases: -0.5 samples wherever no
 from the loop. For the rivals a delay of at most one sample of the recording, either way, is a nuisance of the model and no
 finding (`aligned`); a longer one stays a candidate. Without this all of them name a delay on every clean recording.
 """
+
 import dataclasses
 
 import h5py

@@ -6,6 +6,7 @@ Test      W / df against F(df, n - R - df); df counts the linear parameters and 
 Tuning    none: q and the largest number of names are the job's, the bandwidth is Andrews'
 Source    Newey, West 1987; Andrews 1991 eq. 6.2, 6.4; Benjamini, Hochberg 1995
 """
+
 import numpy as np
 from scipy import stats
 

@@ -7,6 +7,7 @@ Penalty   the largest whose error is within one standard error of the least: the
 Names     effects with a coefficient that is not zero, by the energy of their torque; at most as many as the job allows
 Source    Tibshirani 1996; Hastie, Tibshirani, Friedman: Elements (2009) section 7.10 (one standard error); scikit-learn LassoCV
 """
+
 import warnings
 
 import numpy as np
@@ -68,5 +69,9 @@ def answer(columns):
     # at the largest penalty all are zero, but for rounding
     coefficients = chosen.coef_ if alpha < search.alphas_[0] else np.zeros(len(owners))
     names = by_energy(columns, matrix, owners, coefficients)
-    return Answer(names[: columns.max_effects], {}, names,
-                  f"penalty {alpha / search.alphas_[0]:.3g} of the smallest that names nothing; {len(names)} effects not zero")
+    return Answer(
+        names[: columns.max_effects],
+        {},
+        names,
+        f"penalty {alpha / search.alphas_[0]:.3g} of the smallest that names nothing; {len(names)} effects not zero",
+    )

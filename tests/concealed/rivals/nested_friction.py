@@ -10,6 +10,7 @@ Choice    mean absolute error on the unseen recording, as BAM; the simplest mode
 Can say   friction, nothing else: what is not friction it calls none, or friction
 Source    Duclusaud, Passault, Padois, Ly 2024: extended friction models for the physics simulation of servo actuators (BAM)
 """
+
 import numpy as np
 
 from .columns import Answer, Record, model, solve

@@ -5,6 +5,7 @@ of the residual goes into the model. Then what is left is tested again. Naming e
 name all relatives of one effect; steps are the kinder reading. The first step is the plain procedure: on a clean recording
 both name something or neither does.
 """
+
 import numpy as np
 
 from .columns import Answer, apart, model

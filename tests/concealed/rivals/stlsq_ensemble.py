@@ -9,6 +9,7 @@ Ensemble  20 fits (PySINDy's default) on rows drawn with replacement; an effect 
 Random    numbers of one fixed seed: the same answer every time
 Source    Brunton, Proctor, Kutz 2016; Fasel, Kutz, Brunton, Brunton 2022 (E-SINDy); PySINDy 1.7 STLSQ, EnsembleOptimizer
 """
+
 import numpy as np
 
 from .columns import Answer, apart, blocks
@@ -66,5 +67,9 @@ def answer(columns):
     median = np.where(inclusion > INCLUSION, np.median(fits, axis=0), 0.0)
     names = by_energy(columns, matrix, owners, median)
     share = {c.name: float(inclusion[owners == i].max(initial=0.0)) for i, c in enumerate(columns.candidates)}
-    return Answer(names[: columns.max_effects], {name: {"inclusion": share[name]} for name in names[: columns.max_effects]},
-                  names, f"threshold {threshold:.3g} of the residual's rms")
+    return Answer(
+        names[: columns.max_effects],
+        {name: {"inclusion": share[name]} for name in names[: columns.max_effects]},
+        names,
+        f"threshold {threshold:.3g} of the residual's rms",
+    )

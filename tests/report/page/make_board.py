@@ -12,9 +12,19 @@ import score  # noqa: E402
 from example_cases import clean, drawn, effect, true_effect, truth, verdict  # noqa: E402
 
 SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
-FAMILIES = {"stribeck": "reversal", "presliding": "reversal", "speed_drag": "velocity_law", "spring": "static_position",
-            "gravity": "static_position", "position_dependent_friction": "static_position", "cogging": "order_locked",
-            "delay": "acceleration", "friction_drift": "time", "load_dependent_friction": "load", "periodic_disturbance": "outside"}
+FAMILIES = {
+    "stribeck": "reversal",
+    "presliding": "reversal",
+    "speed_drag": "velocity_law",
+    "spring": "static_position",
+    "gravity": "static_position",
+    "position_dependent_friction": "static_position",
+    "cogging": "order_locked",
+    "delay": "acceleration",
+    "friction_drift": "time",
+    "load_dependent_friction": "load",
+    "periodic_disturbance": "outside",
+}
 REASON = "Joint 1 loses 0.13 N m extra below 0.047 rad/s in both directions: Stribeck friction (p < 0.005)."
 
 
@@ -24,7 +34,10 @@ def named(*names):
 
 
 def concealing(*names, snr):
-    return truth(effects=[{**true_effect(name, [FAMILIES[name]], snr=snr), "form": "law of two harmonics"} for name in names], snr=snr)
+    return truth(
+        effects=[{**true_effect(name, [FAMILIES[name]], snr=snr), "form": "law of two harmonics"} for name in names],
+        snr=snr,
+    )
 
 
 def single_cases():
@@ -42,7 +55,10 @@ def all_cases():
         yield drawn(clean(), f"T0:{seed}"), verdict("none") if seed != 9 else named("cogging")
     yield from single_cases()
     for seed, size in enumerate((1.0, 2.0, 4.0) * 2, 1):
-        for effects, said in ((("stribeck", "spring"), ("spring", "stribeck")), (("stribeck", "spring", "cogging"), ("cogging", "spring"))):
+        for effects, said in (
+            (("stribeck", "spring"), ("spring", "stribeck")),
+            (("stribeck", "spring", "cogging"), ("cogging", "spring")),
+        ):
             name = f"T{len(effects)}:{'+'.join(effects)}:{size:g}:{seed}"
             yield drawn(concealing(*effects, snr=size), name, size), named(*said)
     for name in ("outside_sloshing", "outside_hidden_shaft"):
@@ -59,8 +75,14 @@ def board(cases, rivals=(), left_out=()):
     for i, j in enumerate(methods[gather.OURS]):
         j.seconds = 5.0 + 40.0 * (i % 13 == 0) + 0.1 * i
     methods.update({rival: judged(lambda said: named("stribeck")) for rival in rivals})
-    suite = {"cases": len(cases), "truths_sha256": "0123456789abcdef" * 4, "suite_seeds": [0], "programs_sha256": ["a" * 64],
-             "plants_sha256": ["b" * 64], "left_out": left_out}
+    suite = {
+        "cases": len(cases),
+        "truths_sha256": "0123456789abcdef" * 4,
+        "suite_seeds": [0],
+        "programs_sha256": ["a" * 64],
+        "plants_sha256": ["b" * 64],
+        "left_out": left_out,
+    }
     return score.board_of(gather.Gathered(methods, suite))
 
 

@@ -213,9 +213,16 @@ def write_estimator(runs, name, kind, title, result, sets, floor, options):
         "validation_relerr_median": np.median(validation), "residual_std_median": np.median(residual.std(1)),
         "mse_std": mse.std(), "median_run": int(np.argsort(mse, kind="stable")[(len(mse) - 1) // 2]),
         "evaluations_total": evaluations, "parameters_mean": parameters.mean(0)})
-    for key, value in (("parameters", parameters), ("mse", mse), ("gap", gap), ("relerr", relerr), ("sse", mse * len(torque)),
-                       ("validation_relerr", validation), ("residual_std", residual.std(1)),
-                       ("residual_mean", residual.mean(1))):
+    for key, value in (
+        ("parameters", parameters),
+        ("mse", mse),
+        ("gap", gap),
+        ("relerr", relerr),
+        ("sse", mse * len(torque)),
+        ("validation_relerr", validation),
+        ("residual_std", residual.std(1)),
+        ("residual_mean", residual.mean(1)),
+    ):
         put(group, key, value)
     put(group, "stop_reason", result["stop_reason"])
     for key in ("standard_error", "standard_error_naive"):
@@ -224,7 +231,9 @@ def write_estimator(runs, name, kind, title, result, sets, floor, options):
     if "standard_error" in result:
         wide = 1.959964 * np.atleast_2d(result["standard_error"])
         put(group, "ci95", np.stack([parameters - wide, parameters + wide], axis=-1))
-        form = np.array([parameters[0, 1], (parameters[0, 2] - parameters[0, 3]) / 2, (parameters[0, 2] + parameters[0, 3]) / 2])
+        form = np.array(
+            [parameters[0, 1], (parameters[0, 2] - parameters[0, 3]) / 2, (parameters[0, 2] + parameters[0, 3]) / 2]
+        )
         put(group, "joint_form", form[None])
         put(group, "joint_form_standard_error", np.atleast_2d(result["standard_error"])[:, 1:])
     if "population" in result:
@@ -258,7 +267,9 @@ def write(path, *, name, job_text, units, joint, truth, train, validate, rate_hz
         file.attrs.update({"format": 2, "complete": 1, "creator": "torquescope 0.1.0",
                            "content_sha256": hashlib.sha256(name.encode()).hexdigest()})
         job = file.create_group("job")
-        job.attrs.update({"name": name, "seed": 42, "runs": RUNS, "sha256": hashlib.sha256(job_text.encode()).hexdigest()})
+        job.attrs.update(
+            {"name": name, "seed": 42, "runs": RUNS, "sha256": hashlib.sha256(job_text.encode()).hexdigest()}
+        )
         if study:
             job.attrs["study"] = study
         put(job, "text", job_text)
@@ -268,8 +279,13 @@ def write(path, *, name, job_text, units, joint, truth, train, validate, rate_hz
             "compiler": "GCC 12.2.0", "build_type": "Release", "hdf5_version": "1.10.8", "eigen_version": "3.4.0"})
         model = file.create_group("model")
         effort = "F" if joint == "prismatic" else "tau"
-        model.attrs.update({"joint": joint, "equation": f"{effort} = inertia ddq + viscous dq + coulomb_positive [dq > 0] "
-                                                        "+ coulomb_negative [dq < 0]"})
+        model.attrs.update(
+            {
+                "joint": joint,
+                "equation": f"{effort} = inertia ddq + viscous dq + coulomb_positive [dq > 0] "
+                "+ coulomb_negative [dq < 0]",
+            }
+        )
         put(model, "names", NAMES)
         put(model, "units", units["parameters"])
         put(model, "truth", truth)
@@ -303,7 +319,12 @@ def write(path, *, name, job_text, units, joint, truth, train, validate, rate_hz
             else:
                 result = search(phi.T @ phi / len(torque), ols, floor, lower, upper, kind == "fade", 100 + seed)
                 result["stop_reason"] = ["generations"] * RUNS
-                options = {"population": MEMBERS, "generations": GENERATIONS, "mutation": "rand/1", "crossover": "binomial"}
+                options = {
+                    "population": MEMBERS,
+                    "generations": GENERATIONS,
+                    "mutation": "rand/1",
+                    "crossover": "binomial",
+                }
             write_estimator(runs, label, kind, title, result, sets, floor, options)
 
 
@@ -337,10 +358,21 @@ def crs(path, validate=True, estimators=(("ols", "ols", "OLS"), ("de", "de", "DE
         noise *= np.sqrt(0.09259 / (noise**2).mean())
         return name, time, position, velocity, acceleration, phi @ SEED_OLS + noise
 
-    write(path, name="crs_a465_joint", job_text=CRS_JOB, units=REVOLUTE, joint="revolute", truth=SEED_OLS,
-          train=[part("simulated", 10, 3, True)], validate=[part("simulated, unseen", 10, 11, False)] if validate else None,
-          rate_hz=200.0, warnings=["separable: coulomb_positive and the offset in it cannot be told apart by this model"],
-          health_words="", estimators=estimators, study="crs_a465")
+    write(
+        path,
+        name="crs_a465_joint",
+        job_text=CRS_JOB,
+        units=REVOLUTE,
+        joint="revolute",
+        truth=SEED_OLS,
+        train=[part("simulated", 10, 3, True)],
+        validate=[part("simulated, unseen", 10, 11, False)] if validate else None,
+        rate_hz=200.0,
+        warnings=["separable: coulomb_positive and the offset in it cannot be told apart by this model"],
+        health_words="",
+        estimators=estimators,
+        study="crs_a465",
+    )
 
 
 def prismatic(path):
@@ -368,11 +400,27 @@ def many(path):
         torque = columns(velocity, acceleration) @ truth + coloured_noise(len(time), 0.08, 0.9, seed)
         return name, time, position, velocity, acceleration, torque
 
-    write(path, name="lab_joint_3", job_text="[experiment]\nname = \"lab_joint_3\"\n", units=REVOLUTE, joint="revolute",
-          truth=truth, train=[part("lab_1.csv", 60, 21)], validate=[part("lab_2.csv", 30, 22)], rate_hz=1000.0, warnings=[],
-          health_words="", estimators=[("ols", "ols", "OLS"), ("wls", "wls", "WLS"), ("irls", "irls", "IRLS, Huber"),
-                                       ("de", "de", "DE"), ("fade", "fade", "FADE"),
-                                       ("fade_literal", "fade", "FADE, pairing as printed")])
+    write(
+        path,
+        name="lab_joint_3",
+        job_text="[experiment]\nname = \"lab_joint_3\"\n",
+        units=REVOLUTE,
+        joint="revolute",
+        truth=truth,
+        train=[part("lab_1.csv", 60, 21)],
+        validate=[part("lab_2.csv", 30, 22)],
+        rate_hz=1000.0,
+        warnings=[],
+        health_words="",
+        estimators=[
+            ("ols", "ols", "OLS"),
+            ("wls", "wls", "WLS"),
+            ("irls", "irls", "IRLS, Huber"),
+            ("de", "de", "DE"),
+            ("fade", "fade", "FADE"),
+            ("fade_literal", "fade", "FADE, pairing as printed"),
+        ],
+    )
 
 
 def de_only(path):

@@ -35,7 +35,9 @@ PAGES = os.environ.get("TORQUESCOPE_PAGES")
 VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
 VARIED = tuple(vary_diagnosis.KINDS) if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
-needs_diagnoses = unittest.skipUnless(EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis")
+needs_diagnoses = unittest.skipUnless(
+    EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis"
+)
 
 
 @lru_cache(maxsize=None)
@@ -71,7 +73,9 @@ def page(kind):
     import build
     import build_board
     path = FOLDER / f"{kind}.html"
-    path.write_text(build_board.page(board.Board(result(kind))) if kind in BOARDS else build.page(study(kind)), encoding="utf-8")
+    path.write_text(
+        build_board.page(board.Board(result(kind))) if kind in BOARDS else build.page(study(kind)), encoding="utf-8"
+    )
     return path
 
 

@@ -59,7 +59,9 @@ class BoardPage(unittest.TestCase):
     def test_a_level_is_never_said_to_hold_from_too_few_cases(self):
         few = json.loads(support.result("board_few").read_text())["methods"]["torquescope"]["table"]
         self.assertEqual({row["pass_holds"] for row in few if row["pass"]}, {"too few cases to say", "not measured"})
-        self.assertIn("0 of 15 pass levels hold, 0 do not", text_of(support.page("board_few").read_text(encoding="utf-8")))
+        self.assertIn(
+            "0 of 15 pass levels hold, 0 do not", text_of(support.page("board_few").read_text(encoding="utf-8"))
+        )
 
     def test_a_figure_can_be_taken_for_a_paper(self):
         out = support.FOLDER / "power.pdf"

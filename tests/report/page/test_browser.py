@@ -32,7 +32,8 @@ MOST_BYTES = 3e6
 MOST_POINTS_PER_PIXEL = 4  # first, lowest, highest, last
 OVERLAP_PX = 1.5  # boxes of text are taller than its letters
 
-# of every line in every width: its part, whether it is shown, how often it was drawn, its points, its pieces, the pixels it has
+# of every line in every width: its part, whether it is shown, how often it was drawn, its points, its pieces, the
+# pixels it has
 DRAWN_BY_A_ZOOM = """
 const [id, from, to, done] = arguments;
 const figure = document.getElementById(id), records = [], lines = [];
@@ -148,7 +149,9 @@ class Page(unittest.TestCase):
     def test_the_first_picture_waits_for_nothing(self):
         """It stands in the page: no script draws it, and nothing else is fetched."""
         for kind in ("many", "minute") if support.DIAGNOSES else ("many",):
-            self.assertRegex(support.page(kind).read_text(encoding="utf-8"), r'data-layout=(?s:.){0,20000}?<path d="M[^"]{100}')
+            self.assertRegex(
+                support.page(kind).read_text(encoding="utf-8"), r'data-layout=(?s:.){0,20000}?<path d="M[^"]{100}'
+            )
             self.open(kind)
             self.assertEqual(self.script("return performance.getEntriesByType('resource').length"), 0, kind)
 
@@ -165,7 +168,9 @@ class Page(unittest.TestCase):
     def assert_little_is_drawn(self, figure):
         """However many samples a window has: every line of the width that is shown is drawn once, with a few points per pixel."""
         for window in ((0, 60), (5, 50), (20, 20.5)):
-            for part, is_shown, times, points, pieces, pixels in self.browser.execute_async_script(DRAWN_BY_A_ZOOM, figure, *window):
+            for part, is_shown, times, points, pieces, pixels in self.browser.execute_async_script(
+                DRAWN_BY_A_ZOOM, figure, *window
+            ):
                 said = f"{part} {window}"
                 self.assertEqual(times, 1 if is_shown else 0, said)
                 if is_shown:
@@ -177,8 +182,12 @@ class Page(unittest.TestCase):
         self.assert_little_is_drawn("torque_trace_train")
 
     def drawn(self, part, figure="torque_trace_train"):
-        return self.script("return [...document.querySelectorAll(`#${arguments[1]} svg[data-layout]`)].find((s) => s.getBoundingClientRect()"
-                           ".width)?.querySelector(`[data-part=\"${arguments[0]}\"] path`).getAttribute('d')", part, figure)
+        return self.script(
+            "return [...document.querySelectorAll(`#${arguments[1]} svg[data-layout]`)].find((s) => s.getBoundingClientRect()"
+            ".width)?.querySelector(`[data-part=\"${arguments[0]}\"] path`).getAttribute('d')",
+            part,
+            figure,
+        )
 
     def test_the_script_draws_what_the_first_picture_showed(self):
         """Same window through both thinnings: the curves lie on each other to a pixel."""
@@ -202,7 +211,9 @@ class Page(unittest.TestCase):
         study = support.study("many")
         residual = study.train.torque - study.train.prediction(study.estimators[0].chosen)
         self.zoom("torque_trace_train", 0, 60)
-        row = self.script("return JSON.parse(document.querySelector('#torque_trace_train svg.wide').dataset.layout).rows[1]")
+        row = self.script(
+            "return JSON.parse(document.querySelector('#torque_trace_train svg.wide').dataset.layout).rows[1]"
+        )
         drawn = [float(y) for y in re.findall(r" (-?[\d.]+)", self.drawn("measured-e0"))]
         for value, pixel in ((residual.max(), min(drawn)), (residual.min(), max(drawn))):
             expected = row["bottom"] - (value - row["low"]) / (row["high"] - row["low"]) * (row["bottom"] - row["top"])
@@ -217,7 +228,8 @@ class Page(unittest.TestCase):
             "const done = arguments[0], svg = document.querySelector('#torque_trace_train svg.narrow'), began = performance.now();"
             "const read = () => [...svg.querySelectorAll('text')].map((t) => t.textContent);"
             "const look = () => read().includes('1.50') || read().includes('1.5') || performance.now() - began > 3000"
-            " ? done(read()) : requestAnimationFrame(look); look();")
+            " ? done(read()) : requestAnimationFrame(look); look();"
+        )
         self.assertTrue({"1.5", "1.50"} & set(ticks), ticks)
 
     def test_laws_hold_after_zooming_too(self):
@@ -266,13 +278,16 @@ class Page(unittest.TestCase):
         self.open("named")
         kept = self.script("return document.getElementById('verdict-json').textContent")
         self.assertEqual(json.loads(kept), json.loads(support.study("named").diagnosis.verdict_json))
-        self.browser.execute_cdp_cmd("Browser.grantPermissions", {"permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]})
+        self.browser.execute_cdp_cmd(
+            "Browser.grantPermissions", {"permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]}
+        )
         self.browser.find_element(By.ID, "copy-verdict").click()
         told = self.browser.execute_async_script(
             "const done = arguments[0], began = performance.now();"
             "const look = () => { const told = document.querySelector('#copy-verdict + output').textContent;"
             "const open = document.querySelector('#copy-verdict').parentElement.nextElementSibling.open;"
-            "told || open || performance.now() - began > 3000 ? done([told, open]) : requestAnimationFrame(look); }; look();")
+            "told || open || performance.now() - began > 3000 ? done([told, open]) : requestAnimationFrame(look); }; look();"
+        )
         self.assertIn(told, (["copied", False], ["", True]))
 
     def wait_for_zoom(self, before):
@@ -280,7 +295,8 @@ class Page(unittest.TestCase):
             "const [before, done] = arguments; const began = performance.now();"
             "const look = () => { const d = document.querySelector('#torque_trace_train svg.wide [data-part=measured] path')"
             ".getAttribute('d'); d !== before || performance.now() - began > 3000 ? done() : requestAnimationFrame(look); }; look();",
-            before)
+            before,
+        )
         return self.drawn("measured")
 
     def test_a_trace_obeys_the_keyboard(self):
@@ -300,7 +316,9 @@ class Page(unittest.TestCase):
         area = self.browser.find_element(By.CSS_SELECTOR, "#torque_trace_train .trace")
         area.send_keys("0")
         home = self.wait_for_zoom(self.drawn("measured"))
-        ActionChains(self.browser).move_to_element_with_offset(area, -200, -80).click_and_hold().move_by_offset(150, 0).release().perform()
+        ActionChains(self.browser).move_to_element_with_offset(area, -200, -80).click_and_hold().move_by_offset(
+            150, 0
+        ).release().perform()
         closer = self.wait_for_zoom(home)
         self.assertNotEqual(closer, home)
         ActionChains(self.browser).move_to_element_with_offset(area, -200, -80).double_click().perform()
@@ -350,8 +368,10 @@ class Page(unittest.TestCase):
     def test_every_picture_has_a_title_and_a_description(self):
         for kind in KINDS:
             self.open(kind)
-            bare = self.script("return [...document.querySelectorAll('figure svg[role=img]')].filter((s) => "
-                               "!s.querySelector('title')?.textContent || !s.querySelector('desc')?.textContent).length")
+            bare = self.script(
+                "return [...document.querySelectorAll('figure svg[role=img]')].filter((s) => "
+                "!s.querySelector('title')?.textContent || !s.querySelector('desc')?.textContent).length"
+            )
             self.assertEqual(bare, 0)
 
 

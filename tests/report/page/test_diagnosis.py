@@ -54,8 +54,20 @@ class Reader(unittest.TestCase):
 
     def test_the_map_keeps_its_order_though_one_row_is_called_order(self):
         rows = joint("named").map
-        self.assertEqual(list(rows), ["velocity", "since_velocity_reversal", "since_torque_reversal", "load", "position", "acceleration",
-                                      "time", "order", "frequency"])
+        self.assertEqual(
+            list(rows),
+            [
+                "velocity",
+                "since_velocity_reversal",
+                "since_torque_reversal",
+                "load",
+                "position",
+                "acceleration",
+                "time",
+                "order",
+                "frequency",
+            ],
+        )
         self.assertEqual([axis for axis, row in rows.items() if row.is_spectrum], ["order", "frequency"])
         self.assertEqual(rows["velocity"].unit, "rad/s")
         self.assertEqual(rows["velocity"].z.shape, (54,))
@@ -66,13 +78,18 @@ class Reader(unittest.TestCase):
     def test_effects_are_in_the_order_of_acceptance(self):
         stribeck, cogging = joint("named").effects
         self.assertEqual((stribeck.name, stribeck.equivalent, stribeck.p_is_bound), ("stribeck", ["presliding"], True))
-        self.assertEqual((cogging.name, cogging.region.axis, cogging.curve.range.axis), ("cogging", "order", "position"))
+        self.assertEqual(
+            (cogging.name, cogging.region.axis, cogging.curve.range.axis), ("cogging", "order", "position")
+        )
         self.assertEqual(stribeck.parameters["stribeck"].value, 0.354)
         self.assertEqual(stribeck.curve.at.shape, (40,))
 
     def test_lists_without_entries_are_empty(self):
         poor = joint("insufficient")
-        self.assertEqual((poor.map, poor.candidates, poor.effects, poor.traces, poor.forward, poor.augmented), ({}, [], [], [], [], {}))
+        self.assertEqual(
+            (poor.map, poor.candidates, poor.effects, poor.traces, poor.forward, poor.augmented),
+            ({}, [], [], [], [], {}),
+        )
         self.assertTrue(math.isnan(poor.validation_relerr))
         self.assertEqual(poor.advice[0].would_separate, ["viscous", "coulomb"])
 
@@ -104,11 +121,19 @@ class Verdict(unittest.TestCase):
 
     def test_what_comes_first_and_how_sure_below(self):
         verdict = words_of_diagnosis.verdict(support.study("named"))
-        self.assertEqual(verdict["sentence"], "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction. "
-                                              "Joint 1 deviates by up to 0.060 N m from the model around 12 waves per turn: "
-                                              "cogging torque of the motor.")
+        self.assertEqual(
+            verdict["sentence"],
+            "Joint 1 loses 0.35 N m extra below 0.12 rad/s in both directions: Stribeck friction. "
+            "Joint 1 deviates by up to 0.060 N m from the model around 12 waves per turn: "
+            "cogging torque of the motor.",
+        )
         evidence = verdict["evidence"].replace("\u00a0", " ")
-        for words in ("Stribeck: p < 0.005; presliding cannot be excluded.", "Cogging: p < 0.005.", "floor 6.0 %.", "200 clean twins"):
+        for words in (
+            "Stribeck: p < 0.005; presliding cannot be excluded.",
+            "Cogging: p < 0.005.",
+            "floor 6.0 %.",
+            "200 clean twins",
+        ):
             self.assertIn(words, evidence)
 
     def test_nothing_of_the_reason_is_lost(self):
@@ -129,11 +154,18 @@ class Verdict(unittest.TestCase):
     def test_below_the_floor_there_is_no_gap(self):
         at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.0485, floor_relerr=0.049)
         self.assertIn(("about 4.9 %", "", "floor: it is reached"), words_of_diagnosis.big_numbers(at_floor))
-        self.assertIn("4.9 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor))
+        self.assertIn(
+            "4.9 % after, at the floor (about 4.9 %).", words_of_diagnosis.fit_answer(support.study("named"), at_floor)
+        )
         below = dataclasses.replace(at_floor, augmented_validation_relerr=0.041)
-        self.assertIn(("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"), words_of_diagnosis.big_numbers(below))
-        self.assertIn("4.1 % after, at the floor (about 4.9 %: what clean twins leave on average)", words_of_diagnosis.fit_answer(
-            support.study("named"), below))
+        self.assertIn(
+            ("about 4.9 %", "", "floor, as clean twins have it on average: the error is below"),
+            words_of_diagnosis.big_numbers(below),
+        )
+        self.assertIn(
+            "4.1 % after, at the floor (about 4.9 %: what clean twins leave on average)",
+            words_of_diagnosis.fit_answer(support.study("named"), below),
+        )
         self.assertEqual(diagnosed.share_closed(at_floor), 1.0)
         self.assertTrue(math.isnan(diagnosed.share_closed(dataclasses.replace(at_floor, validation_relerr=0.048))))
 
@@ -144,7 +176,9 @@ class Verdict(unittest.TestCase):
             named.joints[0], effects=named.joints[0].effects[:1] + joint("data_fault").effects)])
         verdict = words_of_diagnosis.verdict(types.SimpleNamespace(diagnosis=both))
         self.assertEqual(verdict["word"], "Missing physics named, and a fault of the recording")
-        self.assertIn("A fault of the recording", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[1]))
+        self.assertIn(
+            "A fault of the recording", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[1])
+        )
         self.assertNotIn("fault", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[0]))
 
     def test_every_candidate_that_is_not_named_has_a_reason(self):
@@ -153,14 +187,23 @@ class Verdict(unittest.TestCase):
                 self.assertTrue(row["decision"] == "named" or row["reason"] != row["decision"], row)
 
     def test_what_was_not_tested_is_none_of_the_strongest(self):
-        tested, term = joint("none").candidates, dataclasses.replace(joint("none").candidates[0], name="coulomb_positive", decision="not tested")
+        tested, term = joint("none").candidates, dataclasses.replace(
+            joint("none").candidates[0], name="coulomb_positive", decision="not tested"
+        )
         rows = tables_of_diagnosis.candidates(dataclasses.replace(joint("none"), candidates=[term] + tested))
         self.assertEqual([row["name"] for row in rows[:3]], [one.name for one in tested[:3]])
         self.assertEqual(rows[-1]["name"], "coulomb_positive")
 
     def test_shares_beyond_the_whole_are_readable(self):
-        said = [row["cv_gain"] for gain in (0.284, 106.7, -5.8, math.nan) for row in tables_of_diagnosis.candidates(dataclasses.replace(
-            joint("named"), candidates=[dataclasses.replace(joint("named").candidates[0], cv_gain=gain)]))]
+        said = [
+            row["cv_gain"]
+            for gain in (0.284, 106.7, -5.8, math.nan)
+            for row in tables_of_diagnosis.candidates(
+                dataclasses.replace(
+                    joint("named"), candidates=[dataclasses.replace(joint("named").candidates[0], cv_gain=gain)]
+                )
+            )
+        ]
         self.assertEqual(said, ["28.4 %", "> 100 %", "none", "–"])
 
     def test_the_ends_of_a_range_are_told_apart(self):
@@ -172,7 +215,9 @@ class Verdict(unittest.TestCase):
         self.assertEqual(diagnosed.twins_as_far(joint("none")), round(0.4129 * 201) - 1)
 
     def test_what_was_not_measured_is_left_out(self):
-        self.assertEqual(words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error of the baseline in training")])
+        self.assertEqual(
+            words_of_diagnosis.big_numbers(joint("insufficient")), [("12 %", "", "error of the baseline in training")]
+        )
         for kind in support.DIAGNOSES:
             found = re.findall(r"\b[nN][aA][nN]\b|\bNone\b|\binf\b", read_by_a_person(kind))
             self.assertEqual(found, [], kind)
@@ -199,7 +244,9 @@ class Verdict(unittest.TestCase):
 @support.needs_diagnoses
 class Map(unittest.TestCase):
     def rows(self, kind="named"):
-        return {name: row for row in all_cases(support.study(kind))["mismatch_map"].arguments["rows"] for name in [row[0]]}
+        return {
+            name: row for row in all_cases(support.study(kind))["mismatch_map"].arguments["rows"] for name in [row[0]]
+        }
 
     def test_quiet_rows_stay(self):
         for kind in ("named", "none", "unexplained"):
@@ -231,8 +278,10 @@ class Map(unittest.TestCase):
 
     def test_names_that_do_not_fit_are_counted(self):
         self.assertEqual(mismatch_map._written(["stribeck", "presliding"], 348), "stribeck, presliding")
-        self.assertEqual(mismatch_map._written(["stribeck", "position dependent friction", "load dependent friction"], 348),
-                         "stribeck and 2 more")
+        self.assertEqual(
+            mismatch_map._written(["stribeck", "position dependent friction", "load dependent friction"], 348),
+            "stribeck and 2 more",
+        )
 
     def test_the_region_of_an_effect_is_framed_with_its_name(self):
         frames = self.rows()["velocity"][6]

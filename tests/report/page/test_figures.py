@@ -44,7 +44,9 @@ class Figures(unittest.TestCase):
 
     def test_the_command_lists_and_writes_a_figure(self):
         result = support.result("de_only")
-        listed = subprocess.run([sys.executable, "-B", SCRIPT, "--list", result], capture_output=True, text=True, check=True)
+        listed = subprocess.run(
+            [sys.executable, "-B", SCRIPT, "--list", result], capture_output=True, text=True, check=True
+        )
         self.assertIn("convergence", listed.stdout)
         out = support.FOLDER / "convergence.pdf"
         subprocess.run([sys.executable, "-B", SCRIPT, "convergence", result, out], check=True)
@@ -60,7 +62,9 @@ class Figures(unittest.TestCase):
         path = support.FOLDER / "text.h5"
         path.write_text("not HDF5")
         for script, arguments in (("build.py", [path]), ("figure.py", ["--list", path])):
-            told = subprocess.run([sys.executable, "-B", SCRIPT.with_name(script), *arguments], capture_output=True, text=True)
+            told = subprocess.run(
+                [sys.executable, "-B", SCRIPT.with_name(script), *arguments], capture_output=True, text=True
+            )
             self.assertEqual(told.returncode, 65)
             self.assertRegex(told.stderr, r"^error: .*text\.h5.*\n$")
 

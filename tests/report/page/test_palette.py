@@ -12,9 +12,15 @@ import style
 
 SEEN_BY = {
     "everybody": np.eye(3),
-    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]),
-    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]),
-    "tritan": np.array([[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]),
+    "protan": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deutan": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritan": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
 }
 LEAST_DISTANCE = 25  # Lab units (UX.md section 2)
 LEAST_TEXT_CONTRAST = 4.5  # WCAG AA
@@ -91,7 +97,10 @@ class Palette(unittest.TestCase):
     def test_the_map_gets_stronger_with_every_step_in_both_themes(self):
         for theme, colour in self.each_theme():
             for words in ("little", "much", "weak"):
-                steps = [contrast(colour[name], colour["background"]) for name in ("quiet", *(f"{words}{k}" for k in range(1, 5)))]
+                steps = [
+                    contrast(colour[name], colour["background"])
+                    for name in ("quiet", *(f"{words}{k}" for k in range(1, 5)))
+                ]
                 with self.subTest(theme=theme, words=words):
                     self.assertEqual(steps, sorted(steps))
                     self.assertGreaterEqual(min(b / a for a, b in zip(steps, steps[1:])), 1.05)

@@ -107,7 +107,9 @@ class BesideThePaper(unittest.TestCase):
     def test_no_published_deviation_fits_its_mean_square(self):
         for label, (mse, deviation) in seed.TABLE_4.items():
             self.assertGreater(deviation**2, mse)
-        self.assertEqual([q.fixed(seed.largest_deviation(label), 3) for label in seed.TABLE_4], ["0.304", "0.298", "0.229"])
+        self.assertEqual(
+            [q.fixed(seed.largest_deviation(label), 3) for label in seed.TABLE_4], ["0.304", "0.298", "0.229"]
+        )
 
 
 if __name__ == "__main__":

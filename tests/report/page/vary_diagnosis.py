@@ -25,8 +25,14 @@ def a_minute_at_1_khz(file):
     before[np.abs(velocity) < 0.03] = after[np.abs(velocity) < 0.03] = np.nan
     torque = np.sign(velocity) + 0.3 * velocity + 0.02 * random.normal(size=len(time))
     trace = file["diagnosis/joint_1/traces/trace_1"]
-    for name, values in (("time", time), ("torque", torque), ("before", before), ("after", after), ("velocity", velocity),
-                         ("position", position)):
+    for name, values in (
+        ("time", time),
+        ("torque", torque),
+        ("before", before),
+        ("after", after),
+        ("velocity", velocity),
+        ("position", position),
+    ):
         replace(trace, name, values)
     for data in (file["data/train"], file["data/validate"]):
         for name, values in (("time", time), ("torque", torque), ("velocity", velocity), ("position", position)):
@@ -86,5 +92,9 @@ def crowded(file):
 
 
 # name: (the kind it is made of, how)
-KINDS = {"minute": ("named", a_minute_at_1_khz), "two_joints": ("named", two_joints), "hardly_measured": ("named", hardly_measured),
-         "crowded": ("named", crowded)}
+KINDS = {
+    "minute": ("named", a_minute_at_1_khz),
+    "two_joints": ("named", two_joints),
+    "hardly_measured": ("named", hardly_measured),
+    "crowded": ("named", crowded),
+}

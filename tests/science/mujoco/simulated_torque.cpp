@@ -3,7 +3,8 @@
 // simulated_torque MODEL.xml IN.csv OUT.csv
 //
 // In, out    columns t_s (even steps), ..., position third; OUT.csv is IN.csv with a last column tau_sim_Nm
-// Motion     cubic least squares over 17 neighbours (Savitzky, Golay 1964): position, velocity, acceleration in the middle
+// Motion     cubic least squares over 17 neighbours (Savitzky, Golay 1964): position, velocity, acceleration in the
+//            middle
 // Torque     mj_inverse of a model with one hinge
 // Exit code  0; 64 usage; 1 with a message
 // Knows      nothing of Torquescope: its only tie to it is the column

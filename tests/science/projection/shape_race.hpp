@@ -1,10 +1,10 @@
 #pragma once
-// Who finds the law of a planted mismatch with fewer evaluations: a search in the shapes alone, the linear parameters solved
-// inside, or the same optimiser in all parameters at once.
+// Who finds the law of a planted mismatch with fewer evaluations: a search in the shapes alone, the linear parameters
+// solved inside, or the same optimiser in all parameters at once.
 //
 // Evaluation one = the columns of the effect at one shape, through the filter, and an energy; points of a grid count
-// Energy     of mismatch - baseline columns * shifts - columns(shape) * linear, on the common rows; both objectives are its
-//            mean square, and the projected one is its minimum over shifts and linear (signs kept)
+// Energy     of mismatch - baseline columns * shifts - columns(shape) * linear, on the common rows; both objectives are
+//            its mean square, and the projected one is its minimum over shifts and linear (signs kept)
 // Target     (1 + target_excess) times the best energy known
 // Units      candidates in the unit scale of their ranges, so that no method is hurt by the size of a unit
 // Threads    const objects; one race, one thread
@@ -66,8 +66,8 @@ struct RaceEnd {
 RaceEnd race(std::string const& optimiser, std::int64_t members, Objective const& objective, double target,
              std::int64_t most_evaluations, RandomKey key);
 
-// what a diagnosis does: the grid, the optimiser round its best point, Levenberg-Marquardt from there; the optimiser is left
-// out with generations = -1
+// what a diagnosis does: the grid, the optimiser round its best point, Levenberg-Marquardt from there; the optimiser is
+// left out with generations = -1
 RaceEnd race_as_diagnosed(PlantedMismatch const& planted, ShapeSearch const& search, double target);
 
 struct BestKnown {

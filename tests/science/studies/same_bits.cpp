@@ -40,7 +40,8 @@ TEST(SameBits, ForMoreThreadsThanRuns) {
   EXPECT_EQ(digest_of("smoke.toml", 1), digest_of("smoke.toml", 9));
 }
 
-// 4.8 MB and more: runs go side by side, in groups of 2 and 3, 1 and 2, or alone, depending on the threads. Some stop early
+// 4.8 MB and more: runs go side by side, in groups of 2 and 3, 1 and 2, or alone, depending on the threads. Some stop
+// early
 TEST(SameBits, ForRunsThatShareASweep) {
   std::string const job = R"(
 [experiment]

@@ -1,5 +1,5 @@
-// `diagnose` as people and scripts meet it, with an invented diagnosis in place of the science: what goes to which stream,
-// what is kept in the file, and that a finished job is not diagnosed twice.
+// `diagnose` as people and scripts meet it, with an invented diagnosis in place of the science: what goes to which
+// stream, what is kept in the file, and that a finished job is not diagnosed twice.
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

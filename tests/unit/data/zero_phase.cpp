@@ -182,8 +182,8 @@ TEST(ZeroPhaseColumns, AreNotTouchedByANeighbourThatIsNoNumber) {
   EXPECT_TRUE(has_same_bits(zero_phase_columns(sections, signals).col(0), alone));
 }
 
-// a pulse and then nothing for long: the recursion falls below the smallest normal number. Kept as it is, each such number
-// would cost a hundred ordinary ones
+// a pulse and then nothing for long: the recursion falls below the smallest normal number. Kept as it is, each such
+// number would cost a hundred ordinary ones
 TEST(ZeroPhaseColumns, FallToZeroWithoutDenormals) {
   constexpr Eigen::Index n = 60000;
   auto const sections = butterworth_lowpass(4, 30, 200);

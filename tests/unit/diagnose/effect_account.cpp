@@ -1,5 +1,5 @@
-// The size that is told of an effect is what the model's own terms would not imitate, at the place that is told with it; and
-// friction has no place in a rest.
+// The size that is told of an effect is what the model's own terms would not imitate, at the place that is told with
+// it; and friction has no place in a rest.
 
 #include "engine/diagnose/effect_account.hpp"
 
@@ -25,7 +25,8 @@ EffectAccount account_with(SimulationPlan plan, Regressor const& regressor, Shap
   return account_of(make_stage(setting, std::move(model)).value(), 0);
 }
 
-// within 0.3 rad a spring is gravity to a hundredth: whatever stiffness was fitted, the joint deviates by next to nothing
+// within 0.3 rad a spring is gravity to a hundredth: whatever stiffness was fitted, the joint deviates by next to
+// nothing
 TEST(EffectAccount, CountsNothingThatGravityTakesUp) {
   Regressor const regressor({"inertia", "viscous", "coulomb", "offset", "gravity"}, JointKind::revolute);
   auto joint = clean_joint();

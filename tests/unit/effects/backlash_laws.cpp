@@ -70,9 +70,9 @@ TEST(Backlash, IsAnElasticJointWhileGravityHoldsTheFlank) {
   }
 }
 
-// q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own coordinate, less
-// d (Fv dq_l + Fc sign(dq_l)) / J for the load's own bearings, which the rigid joint has as well; returns the share of the
-// samples at which the load rests
+// q_l'' = w^2 dz(q - q_l) + 2 zeta w (dq - dq_l) in contact, never pulling, else c (dq - dq_l), in the load's own
+// coordinate, less d (Fv dq_l + Fc sign(dq_l)) / J for the load's own bearings, which the rigid joint has as well;
+// returns the share of the samples at which the load rests
 double rest_of_a_textbook_load(JointScales const& braked) {
   double const half_gap = 2e-3, frequency_hz = 45.0, damping = 0.3, film_per_s = 30.0, drag = 1.0;
   double const drag_per_s = drag * braked.viscous / braked.inertia;

@@ -97,7 +97,8 @@ TEST(Bounds, AreIntervalsAndPositiveWhereTheSearchTakesLogarithms) {
   }
 }
 
-// a friction coefficient and the share of the inertia it feels: nothing but weight, or a spring, tells one from the other
+// a friction coefficient and the share of the inertia it feels: nothing but weight, or a spring, tells one from the
+// other
 TEST(Bounds, LeaveNoInertiaShareWhereInertiaIsAllTheLoad) {
   auto scales = slide_in({});
   for (auto const& [name, place] : {std::pair{"load_dependent_friction", 0}, std::pair{"directional_efficiency", 1}}) {

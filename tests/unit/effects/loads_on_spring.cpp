@@ -1,5 +1,5 @@
-// Loads on springs side by side have on every instruction set the bits of the plain recursion of one, straight or stiffening, and
-// columns of several shapes those of one shape after the other.
+// Loads on springs side by side have on every instruction set the bits of the plain recursion of one, straight or
+// stiffening, and columns of several shapes those of one shape after the other.
 
 #include "engine/effects/loads_on_spring.hpp"
 

@@ -27,7 +27,8 @@ TEST(Gravity, IsTheSlopeOfAPotential) {
   }
 }
 
-// what a spring between two weights of different stiffness would be: the same about its rest to both sides, stiffer away from it
+// what a spring between two weights of different stiffness would be: the same about its rest to both sides, stiffer
+// away from it
 TEST(Spring, HardensAwayFromItsRest) {
   double const k = 2.0, hardening = 0.3, rest = -0.4, step = 1e-5;
   auto const at = [&](double q) { return torque("spring", {.q = q}, {k, hardening, rest}); };

@@ -1,5 +1,6 @@
 #pragma once
-// The order in which every kernel promises to add, written once more, plainly: what the kernels' bits are compared with.
+// The order in which every kernel promises to add, written once more, plainly: what the kernels' bits are compared
+// with.
 
 #include <array>
 #include <cstddef>

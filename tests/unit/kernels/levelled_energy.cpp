@@ -20,7 +20,8 @@ class LevelledEnergyTargets : public EveryInstructionSet {};
 INSTANTIATE_TEST_SUITE_P(Target, LevelledEnergyTargets, testing::ValuesIn(supported_instruction_sets()),
                          instruction_set_of);
 
-// runs of samples in which the last n_constant columns keep one value; the samples behind the last whole tile are `rest`
+// runs of samples in which the last n_constant columns keep one value; the samples behind the last whole tile are
+// `rest`
 struct LevelledProblem {
   std::size_t n_varying, n_constant, n_members;
   std::vector<std::size_t> run_tiles, run_end, constant_column, varying_column;

@@ -1,4 +1,5 @@
-// Blocks along an effect's axis: where a law of another form is, an interval over blocks of time is too narrow, over levels it is not.
+// Blocks along an effect's axis: where a law of another form is, an interval over blocks of time is too narrow, over
+// levels it is not.
 
 #include "engine/locate/axis_blocks.hpp"
 

@@ -68,7 +68,8 @@ TEST(CovarianceAdaptation, IsUnbiasedUnderRandomSelection) {
     ln_sigma += std::log(distribution.sigma() / 1e-3) / walks;
     trace += distribution.covariance().trace() / 5.0 / walks;
   }
-  // the walks spread by about 1 in ln sigma and 0.4 in the trace; sigma starts with a path of length 0, so it falls a little
+  // the walks spread by about 1 in ln sigma and 0.4 in the trace; sigma starts with a path of length 0, so it falls a
+  // little
   EXPECT_NEAR(ln_sigma, 0.0, 0.5);
   EXPECT_NEAR(trace, 1.0, 0.15);
 }

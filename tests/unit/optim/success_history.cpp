@@ -57,8 +57,8 @@ TEST(SuccessHistory, DrawsRoundItsEntriesWithinTheirRanges) {
   }
   std::sort(F.begin(), F.end());
   std::sort(CR.begin(), CR.end());
-  // Cauchy: quartiles one width from the centre, both moved up a little by the draws at or below 0, which are drawn again:
-  // P(F <= 0) = 1/2 - atan(6)/pi = 0.0526; five standard errors of a quantile at this density are 0.02
+  // Cauchy: quartiles one width from the centre, both moved up a little by the draws at or below 0, which are drawn
+  // again: P(F <= 0) = 1/2 - atan(6)/pi = 0.0526; five standard errors of a quantile at this density are 0.02
   EXPECT_NEAR(F[5000], 0.514, 0.02);
   EXPECT_NEAR(F[10000], 0.608, 0.02);
   // Normal(0.95, 0.1), and 31 % of it at 1

@@ -41,8 +41,8 @@ TEST(HeldTorque, OneWayUndoesTheOtherUpToCubics) {
   EXPECT_LT(inner(torque_to_hold(acting_torque(torque)) - torque).cwiseAbs().maxCoeff(), rounding);
 }
 
-// a free mass of 1 kg that is moved exactly, a row at a time; what its samples say about the acceleration at a row is that of the wave
-// through them
+// a free mass of 1 kg that is moved exactly, a row at a time; what its samples say about the acceleration at a row is
+// that of the wave through them
 TEST(HeldTorque, IsWhatAMassNeedsAtTheInstantOfASample) {
   RandomStream stream({7, 1, RandomDomain::test}, 0, 0);
   for (int record = 0; record < 20; ++record) {

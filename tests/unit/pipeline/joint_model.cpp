@@ -1,5 +1,5 @@
-// The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a twin of the model
-// gives its parameters back, and is fitted like a joint that a simulator of another kind made.
+// The model of a diagnosis is its baseline and its effects side by side, and simulates what it fits: a twin of the
+// model gives its parameters back, and is fitted like a joint that a simulator of another kind made.
 
 #include "engine/pipeline/joint_model.hpp"
 

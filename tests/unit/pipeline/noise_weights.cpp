@@ -1,4 +1,5 @@
-// Friction that wanders by itself counts for little, what it cannot imitate in full; against the inverse root of the covariance.
+// Friction that wanders by itself counts for little, what it cannot imitate in full; against the inverse root of the
+// covariance.
 
 #include "engine/pipeline/noise_weights.hpp"
 
@@ -47,7 +48,8 @@ TEST(NoiseWeights, AreTheInverseRootOfTheCovariance) {
   NoiseWeights const weights = white_rows().with_wander(friction(), duration_s, 1e-2);
   Eigen::MatrixXd root = Eigen::MatrixXd::Identity(n, n);
   apply(weights, root);
-  // covariance of a random walk less its mean, sampled at the middle of every row: s^2 (T/3 - max + (a^2 + b^2) / (2 T))
+  // covariance of a random walk less its mean, sampled at the middle of every row: s^2 (T/3 - max + (a^2 + b^2) / (2
+  // T))
   Eigen::MatrixXd covariance(n, n);
   Eigen::VectorXd const level = friction();
   for (Eigen::Index i = 0; i < n; ++i)

@@ -1,5 +1,5 @@
-// What moves a part with an inertia of its own is not cut where the joint's motion is: a load behind a gap, integrated here in small
-// steps by nothing of the engine's, is told from a position that shakes beyond the cut-off.
+// What moves a part with an inertia of its own is not cut where the joint's motion is: a load behind a gap, integrated
+// here in small steps by nothing of the engine's, is told from a position that shakes beyond the cut-off.
 
 #include "engine/pipeline/record_pipeline.hpp"
 

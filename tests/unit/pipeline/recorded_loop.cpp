@@ -1,4 +1,5 @@
-// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp); whose limit a limit of the torque is.
+// The loop of a real recording, where it is at hand (tests/support/recordings_folder.hpp); whose limit a limit of the
+// torque is.
 
 #include "engine/pipeline/recorded_loop.hpp"
 
@@ -93,8 +94,8 @@ TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   EXPECT_NEAR(found.loop.law.proportional_gain() / (kp * kv * newton_per_volt), 1.0, 1e-3);
   EXPECT_NEAR(found.loop.law.velocity_gain(recording.rate_hz) / (kv * newton_per_volt), 1.0, 0.01);
   EXPECT_EQ(found.loop.law.integral, 0.0);
-  // the velocity loop has an encoder of its own: its rounding is not in the recorded position, so the remainder is small
-  // but not white, and says so
+  // the velocity loop has an encoder of its own: its rounding is not in the recorded position, so the remainder is
+  // small but not white, and says so
   EXPECT_EQ(found.source, LoopSource::approximated);
   EXPECT_LT(found.loop.torque_noise.std, 0.005 * newton_per_volt);
 }

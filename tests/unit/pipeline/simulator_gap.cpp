@@ -64,7 +64,8 @@ TEST(SimulatorGap, LeavesTheResidualOfTheDifferenceAndTheParametersOfTheJoint) {
   auto const of_difference = pipeline.prepare(difference);
   Eigen::VectorXd const errors = of_difference.columns.householderQr().solve(of_difference.torque);
   Eigen::VectorXd const left = of_difference.torque - of_difference.columns * errors;
-  // what the filter carries over from bridged reversals: below a thousandth of the Coulomb friction that turns round there
+  // what the filter carries over from bridged reversals: below a thousandth of the Coulomb friction that turns round
+  // there
   double const leak = (of_gap.residual - left).norm() / std::sqrt(of_gap.residual.size());
   EXPECT_LT(leak, 1e-3 * truth[2]);
   auto const of_joint = pipeline.process(recording);

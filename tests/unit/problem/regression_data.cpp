@@ -116,8 +116,8 @@ TEST(RegressionData, HoldsNothingOfTheMotionTwiceAndTellsAllOfIt) {
   auto recording = logged("a", 20.0, 1000.0, test::seed_ols);
   auto shifted = recording;
   shifted.time_s.array() += 1.0;
-  // inertia and viscous friction are acceleration and velocity; with the columns of neither, with a deadband, with uneven
-  // time and with a filter there is something that nothing else tells
+  // inertia and viscous friction are acceleration and velocity; with the columns of neither, with a deadband, with
+  // uneven time and with a filter there is something that nothing else tells
   Regressor const seed = seed_regressor(), none({"coulomb", "gravity"}, JointKind::revolute, 0.2),
                   drag_last({"coulomb", "viscous"}, JointKind::revolute, 0.2);
   struct Case {

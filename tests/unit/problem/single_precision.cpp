@@ -1,4 +1,5 @@
-// what float32 promises: a fitness near that of float64, its error said beforehand, refused where noise does not hide it
+// what float32 promises: a fitness near that of float64, its error said beforehand, refused where noise does not hide
+// it
 #include "engine/problem/single_precision.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// An error from statistics is the error from every sample, along weak directions too; where it would not be, it is refused.
+// An error from statistics is the error from every sample, along weak directions too; where it would not be, it is
+// refused.
 #include "engine/problem/sufficient_statistics.hpp"
 
 #include <gmock/gmock.h>

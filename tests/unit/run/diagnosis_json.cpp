@@ -16,18 +16,23 @@ namespace diagnosis_json_test {
 
 using Json = nlohmann::json;
 
-// DESIGN.md section 1, word for word but for values, and the candidates with their reasons: a list holds the pattern of its elements
+// DESIGN.md section 1, word for word but for values, and the candidates with their reasons: a list holds the pattern of
+// its elements
 Json const pattern = Json::parse(R"({
   "schema": 1, "verdict": "", "reason": "",
   "joints": [{
     "joint": 1, "twins": 0,
-    "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "train_relerr": 0, "validation_relerr": 0},
-    "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0, "repeatable_share": 0}],
-    "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""], "p": 0, "p_is_extrapolated": false, "q": 0, "z": 0,
+    "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}],
+                 "train_relerr": 0, "validation_relerr": 0},
+    "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0,
+                  "repeatable_share": 0}],
+    "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""],
+                 "p": 0, "p_is_extrapolated": false, "q": 0, "z": 0,
                  "gain": {"train": 0, "cv": 0, "validation": 0},
                  "region": {"axis": "", "from": 0, "to": 0},
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
-    "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0, "p_is_extrapolated": false, "q": 0, "gain": 0, "cv_gain": 0}],
+    "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0,
+                    "p_is_extrapolated": false, "q": 0, "gain": 0, "cv_gain": 0}],
     "augmented": {"train_relerr": 0, "validation_relerr": 0, "floor_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
     "budget": {"parameter_error": 0, "missing_physics": 0, "unexplained": 0, "noise": 0},

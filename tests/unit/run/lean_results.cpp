@@ -1,4 +1,5 @@
-// What `run` keeps in memory and in its result: [output] samples = false changes no number, and no fit needs the channels.
+// What `run` keeps in memory and in its result: [output] samples = false changes no number, and no fit needs the
+// channels.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// identify() stopped after any number of generations and begun again, divided into shards and merged: always the same file.
+// identify() stopped after any number of generations and begun again, divided into shards and merged: always the same
+// file.
 
 #include <gtest/gtest.h>
 

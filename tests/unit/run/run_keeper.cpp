@@ -1,5 +1,5 @@
-// What the keeper promises: nothing for short jobs, one segment an interval, everything at a stop or of a shard; and that what
-// it writes is read back to the bit, verified, by SavedRuns.
+// What the keeper promises: nothing for short jobs, one segment an interval, everything at a stop or of a shard; and
+// that what it writes is read back to the bit, verified, by SavedRuns.
 
 #include "engine/run/run_keeper.hpp"
 

@@ -1,5 +1,5 @@
-// Every process gets every twin of a batch, whoever computed it: alone, late, beside others, after kills, and when files are
-// missing, damaged or of another diagnosis. Twins here are numbers that name their place.
+// Every process gets every twin of a batch, whoever computed it: alone, late, beside others, after kills, and when
+// files are missing, damaged or of another diagnosis. Twins here are numbers that name their place.
 
 #include "engine/run/twin_folder.hpp"
 

@@ -1,5 +1,5 @@
-// When names may stand: what a model leaves is held against smooth functions of anything. The mismatch is planted in the
-// rows of one real comparison, so that its size and its axis are known.
+// When names may stand: what a model leaves is held against smooth functions of anything. The mismatch is planted in
+// the rows of one real comparison, so that its size and its axis are known.
 
 #include "engine/search/abstention.hpp"
 

@@ -1,5 +1,5 @@
-// The last look at several names: what explains nothing beside the others goes, and a wrong relative gives way to the right
-// one. The joint has a Stribeck curve and weight.
+// The last look at several names: what explains nothing beside the others goes, and a wrong relative gives way to the
+// right one. The joint has a Stribeck curve and weight.
 
 #include "engine/search/backward_selection.hpp"
 

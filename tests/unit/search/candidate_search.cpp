@@ -89,7 +89,8 @@ TEST_F(CandidateSearch, RefinesAShapeWithEveryOptimiserOfTheRegistry) {
   }
 }
 
-// a law of the speed along the motion, small beside what was named: another form of a named law of the speed, none of the position
+// a law of the speed along the motion, small beside what was named: another form of a named law of the speed, none of
+// the position
 TEST_F(CandidateSearch, TellsWhatAnotherFormOfANamedLawWouldExplain) {
   auto const scan = scan_candidates(columns, {effects.front()}, 2).front();
   auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search("de", 1), 2);

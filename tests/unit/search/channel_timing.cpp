@@ -40,7 +40,8 @@ TEST(ChannelTiming, TakesNoNoiseAwayAndNoLevel) {
   std::mt19937 draw(5);
   std::normal_distribution<double> normal;
   for (double& value : read.torque) value = normal(draw);
-  // half way between two samples straight lines would leave half of the variance; the window takes a tenth, near the Nyquist frequency
+  // half way between two samples straight lines would leave half of the variance; the window takes a tenth, near the
+  // Nyquist frequency
   EXPECT_GT(with_torque_earlier(read, 0.5e-3).torque.squaredNorm(), 0.85 * read.torque.squaredNorm());
 }
 

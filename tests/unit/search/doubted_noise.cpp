@@ -1,5 +1,5 @@
-// What is left without a name may be noise that the law does not tell. Noise alone ends as nothing missing; a pendulum that
-// hangs on the joint stays something without a name, and so does a wave whose frequency hunts.
+// What is left without a name may be noise that the law does not tell. Noise alone ends as nothing missing; a pendulum
+// that hangs on the joint stays something without a name, and so does a wave whose frequency hunts.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// What a law leaves beyond noise may hide among its own columns as well, and then moves their coefficients so far and no further.
+// What a law leaves beyond noise may hide among its own columns as well, and then moves their coefficients so far and
+// no further.
 
 #include "engine/search/law_discrepancy.hpp"
 

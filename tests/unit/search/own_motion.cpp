@@ -1,6 +1,6 @@
-// A load behind a spring whose resonance lies in the band: the motion of a twin without it misleads about its shape, the recording's
-// own motion tells it; and a soft loop that rings because its current comes late. Both are integrated here, in small steps, by nothing
-// of the engine's.
+// A load behind a spring whose resonance lies in the band: the motion of a twin without it misleads about its shape,
+// the recording's own motion tells it; and a soft loop that rings because its current comes late. Both are integrated
+// here, in small steps, by nothing of the engine's.
 
 #include "engine/search/own_motion.hpp"
 

@@ -1,4 +1,5 @@
-// Intervals hold the truth of a right law, grow where a law leaves something beyond noise, and end where a parameter does.
+// Intervals hold the truth of a right law, grow where a law leaves something beyond noise, and end where a parameter
+// does.
 
 #include "engine/search/parameter_intervals.hpp"
 

@@ -1,4 +1,5 @@
-// A line of the search can be copied before a round and go another way from there; the other way wins only when it leaves less.
+// A line of the search can be copied before a round and go another way from there; the other way wins only when it
+// leaves less.
 
 #include "engine/search/rival_lines.hpp"
 
@@ -14,7 +15,8 @@ using namespace torquescope::test;
 
 namespace rival_lines_test {
 
-// friction that rises with the speed as a power of it: on this motion a drag of squares and cubes explains it nearly as well
+// friction that rises with the speed as a power of it: on this motion a drag of squares and cubes explains it nearly as
+// well
 class RivalLines : public testing::Test {
  protected:
   static Recording power_law_recording() {

@@ -207,7 +207,8 @@ TEST(TrackingLaw, FollowsAMotionThatHasNoReference) {
   double const by_error = rms(group.position[0] - recording.position);
   double const torque_by_error = rms(group.torque[0] - recording.torque);
   EXPECT_LT(by_error, 2.0 * 1.3 / 1280.0);
-  // a law that knows friction and gravity need not learn of them by its error, nor fight at reversals what is in the motion
+  // a law that knows friction and gravity need not learn of them by its error, nor fight at reversals what is in the
+  // motion
   auto const& lanes = joint.lanes;
   TrackedJoint const known{
       lanes.inertia,     lanes.viscous,    joint.coulomb_forward + joint.offset, joint.coulomb_backward + joint.offset,

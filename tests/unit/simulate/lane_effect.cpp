@@ -146,7 +146,8 @@ TEST(EncoderEccentricity, ShiftsTheReadingOfAMotionThatIsTheSame) {
   ASSERT_GT(plain.position[0].maxCoeff() - plain.position[0].minCoeff(), 1.0);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     EXPECT_EQ(shifted.torque[lane], plain.torque[lane]);
-    // the first reading is the recorded one, so the joint itself begins off by the error there; nothing else pulls it on
+    // the first reading is the recorded one, so the joint itself begins off by the error there; nothing else pulls it
+    // on
     double const start = shifted.position[lane][0];
     EXPECT_NEAR(start, plain.position[lane][0], 1e-4);
     double const off = reading_error(plain.position[lane].head(1))[0];

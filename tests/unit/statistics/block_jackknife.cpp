@@ -1,4 +1,5 @@
-// The jackknife over blocks: as large as chance where the law is right, larger where it is not, silent on what happens once.
+// The jackknife over blocks: as large as chance where the law is right, larger where it is not, silent on what happens
+// once.
 
 #include "engine/statistics/block_jackknife.hpp"
 

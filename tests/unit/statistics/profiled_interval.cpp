@@ -1,5 +1,5 @@
-// An instant's interval reaches as far as the fit does not notice: over plateaus, to jumps, to the bounds, and on a parabola
-// it is the tangent's.
+// An instant's interval reaches as far as the fit does not notice: over plateaus, to jumps, to the bounds, and on a
+// parabola it is the tangent's.
 
 #include "engine/statistics/profiled_interval.hpp"
 
@@ -21,7 +21,8 @@ TEST(ProfiledInterval, OfAParabolaIsThatOfItsCurvature) {
 }
 
 TEST(ProfiledInterval, AddsWhatALawMayHideInSquares) {
-  // of a parabola a shift costs its square times the curvature: the two parts of the interval add up like sides of a right triangle
+  // of a parabola a shift costs its square times the curvature: the two parts of the interval add up like sides of a
+  // right triangle
   auto const gain = [](double s) { return 100.0 - 25.0 * (s - 4.0) * (s - 4.0); };
   auto const [from, to] = profiled_interval(at(4.0), 1.0, 9.0, gain);
   EXPECT_NEAR(from, 4.0 - std::hypot(1.96 * 0.2, 0.6), 0.02);

@@ -1,5 +1,5 @@
-// An effect helps where it acts: one that is there does, one that fits what happens elsewhere does not, and a weak one is
-// not refused for the noise it lies in.
+// An effect helps where it acts: one that is there does, one that fits what happens elsewhere does not, and a weak one
+// is not refused for the noise it lies in.
 
 #include "engine/statistics/region_consistency.hpp"
 
@@ -51,7 +51,8 @@ TEST(RegionConsistency, IsTheRegionsShareOfItsEnergyWhenTheMismatchIsTheEffect) 
   EXPECT_TRUE(found.holds());
 }
 
-// counted row by row: energy before less energy after, on the rows above the largest torque that leaves the region's energy
+// counted row by row: energy before less energy after, on the rows above the largest torque that leaves the region's
+// energy
 TEST(RegionConsistency, CountsTheEnergyTakenRowByRow) {
   Eigen::VectorXd const mismatch = 3.0 * hump() + noise_of(1);
   Eigen::VectorXd const torque = fitted(hump(), mismatch);

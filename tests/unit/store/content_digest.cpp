@@ -50,7 +50,8 @@ TEST(ContentDigest, OfBlocksThatRepeatIsThatOfTheFile) {
   }
 }
 
-// runs whose memory nobody else holds any more, more of them than are digested side by side, beside others of other sizes
+// runs whose memory nobody else holds any more, more of them than are digested side by side, beside others of other
+// sizes
 TEST(ContentDigest, OfRunsThatWaitIsThatOfTheFile) {
   test::TemporaryFolder const folder;
   constexpr std::size_t entries = 9000, n_runs = 37;  // above half a block of the digest: each run is one of its own

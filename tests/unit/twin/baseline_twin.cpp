@@ -90,7 +90,8 @@ TEST(BaselineTwin, FollowsARecordingThatHasNoReference) {
   EXPECT_LT(rms(group.position[0] - recording.position), 2.0 * 1.3 / 1280.0);
 }
 
-// what a stiff controller makes of its encoder is loud at the highest frequencies alone, where the noise of a torque is read that no law tells
+// what a stiff controller makes of its encoder is loud at the highest frequencies alone, where the noise of a torque is
+// read that no law tells
 TEST(BaselineTwin, ThatFollowsAMotionIsNoLouderThanARecordingWhoseTorqueRattles) {
   Recording rattling = recorded(simulate_joint(clean_joint().plan, 12));
   for (Eigen::Index i = 0; i < rattling.torque.size(); ++i) rattling.torque[i] += i % 2 == 0 ? 0.3 : -0.3;

@@ -1,5 +1,5 @@
-// Twins that follow the measured motion are no wilder and no tamer than recordings that lack nothing, whatever memory the
-// noise of the torque channel has.
+// Twins that follow the measured motion are no wilder and no tamer than recordings that lack nothing, whatever memory
+// the noise of the torque channel has.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Recordings of joints that lack nothing: what the clean twin is calibrated on. Made by engine/simulate's scalar plant and
-// its own controllers, of which the twin knows only the recording.
+// Recordings of joints that lack nothing: what the clean twin is calibrated on. Made by engine/simulate's scalar plant
+// and its own controllers, of which the twin knows only the recording.
 
 #include <array>
 #include <cmath>

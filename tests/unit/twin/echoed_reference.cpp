@@ -1,4 +1,5 @@
-// Which reference is none: the measured motion itself, exact, rounded or with noise; and that a loop's error is no echo.
+// Which reference is none: the measured motion itself, exact, rounded or with noise; and that a loop's error is no
+// echo.
 
 #include "engine/twin/echoed_reference.hpp"
 

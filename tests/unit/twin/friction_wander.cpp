@@ -1,5 +1,5 @@
-// Friction that changes by itself: how much of it a recording shows, that nothing else is counted, and that it is neither
-// named as a drift nor left unexplained.
+// Friction that changes by itself: how much of it a recording shows, that nothing else is counted, and that it is
+// neither named as a drift nor left unexplained.
 
 #include "engine/twin/friction_wander.hpp"
 
@@ -138,7 +138,8 @@ TEST_F(FrictionWanders, AndIsNeitherADriftNorUnexplained) {
   }
 }
 
-// a walk is no ramp and no step, and weighed rows spread it over all its frequencies; yet more than any joint does by itself
+// a walk is no ramp and no step, and weighed rows spread it over all its frequencies; yet more than any joint does by
+// itself
 TEST_F(FrictionWanders, AndIsADriftWhereItIsThreeTimesWhatIsPlausible) {
   for (std::size_t lane : {0U, 1U}) {
     Selection const selection =

@@ -1,5 +1,5 @@
-// Each textbook null is the one its name says: white noise of the residual's size, the Newey-West covariance, the residual's own
-// spectrum. And all of them keep the place and the shape of the twins.
+// Each textbook null is the one its name says: white noise of the residual's size, the Newey-West covariance, the
+// residual's own spectrum. And all of them keep the place and the shape of the twins.
 
 #include "engine/twin/null_kind.hpp"
 

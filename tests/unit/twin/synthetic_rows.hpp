@@ -1,5 +1,6 @@
 #pragma once
-// Rows of a made-up recording and its clean twins: known noise on a known motion, so that every planted mismatch is known.
+// Rows of a made-up recording and its clean twins: known noise on a known motion, so that every planted mismatch is
+// known.
 //
 // Motion     two sines of the position that share no period; rows at standstill are masked
 // Noise      first-order autoregression in time with variance 1, gaps included; recording and twins alike

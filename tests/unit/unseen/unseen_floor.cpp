@@ -1,5 +1,5 @@
-// A floor is what a complete model would leave: never more than what the recording's own twins show, and where these are louder than
-// the recording none is told.
+// A floor is what a complete model would leave: never more than what the recording's own twins show, and where these
+// are louder than the recording none is told.
 
 #include "engine/unseen/unseen_floor.hpp"
 

@@ -1,5 +1,5 @@
-// Names that an unseen recording speaks against only where it goes beyond the training motion. The joint has gravity, which a
-// narrow motion cannot tell from a spring; half a turn further the spring is absurd.
+// Names that an unseen recording speaks against only where it goes beyond the training motion. The joint has gravity,
+// which a narrow motion cannot tell from a spring; half a turn further the spring is absurd.
 
 #include "engine/unseen/unseen_range.hpp"
 

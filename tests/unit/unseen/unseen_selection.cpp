@@ -1,5 +1,5 @@
-// A name among several that unseen recordings speak against goes, the others stay. The joint has a Stribeck curve; the teeth
-// that a second name speaks of are in the training recording only, or in both.
+// A name among several that unseen recordings speak against goes, the others stay. The joint has a Stribeck curve; the
+// teeth that a second name speaks of are in the training recording only, or in both.
 
 #include "engine/unseen/unseen_selection.hpp"
 

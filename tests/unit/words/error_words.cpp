@@ -1,5 +1,5 @@
-// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where the unseen
-// recording is of another kind.
+// What is said of errors never contradicts them: no likeness beside a small p, no gap below the floor, no silence where
+// the unseen recording is of another kind.
 
 #include "engine/words/error_words.hpp"
 
