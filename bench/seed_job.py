@@ -1,7 +1,8 @@
-"""The seed's job for benchmarks: one simulated joint, four parameters, 30 runs of DE with 30 members and 100 generations.
+"""The seed's job for benchmarks: one simulated joint, four parameters, 30 runs of DE with 30 members and 100
+generations.
 
-`make` writes the job file, runs it once, and writes regressor and torque out of its result for programs that search only:
-n and R as uint64, the regressor by columns, the torque, all of them 8 bytes each.
+`make` writes the job file, runs it once, and writes regressor and torque out of its result for programs that search
+only: n and R as uint64, the regressor by columns, the torque, all of them 8 bytes each.
 """
 
 import pathlib

@@ -2,10 +2,10 @@
 
     python3 bench/peers/compare.py build/bench [--n 10000 100000 1000000] [--rounds 5]
 
-Every program runs once per round, one after the other, so that a busy neighbour hits all; the median over the rounds counts.
-A peer's seconds are those of its searches, without reading its data; ours twice: the searches likewise, and the whole
-process that simulates the recording, searches and stores every generation. Long peers do fewer of the 30 runs (said in the
-column "runs"; the runs of a job are equal work) and are scaled to 30.
+Every program runs once per round, one after the other, so that a busy neighbour hits all; the median over the rounds
+counts. A peer's seconds are those of its searches, without reading its data; ours twice: the searches likewise, and the
+whole process that simulates the recording, searches and stores every generation. Long peers do fewer of the 30 runs
+(said in the column "runs"; the runs of a job are equal work) and are scaled to 30.
 """
 
 import argparse
@@ -66,7 +66,8 @@ def compare(build, folder, n, rounds):
         rows.append([name, runs, f"{seconds[name]:.4f}", f"{median_of(done[name], lambda run: run.peak_mb):.0f}",
                      f"{mse:.7g}" if mse else "", *[f"{seconds[peer] / seconds[name]:.2f}" for peer in REFERENCES]])
     print(
-        f"\nn = {n}: {RUNS} runs of {MEMBERS} members and {GENERATIONS} generations, R = 4, one thread, CPU, median of {rounds}"
+        f"\nn = {n}: {RUNS} runs of {MEMBERS} members and {GENERATIONS} generations, R = 4, one thread, CPU, median "
+        f"of {rounds}"
     )
     print_table(
         ["program", "runs", "CPU s for 30", "peak MB", "median MSE", *[f"{peer} /" for peer in REFERENCES]], rows

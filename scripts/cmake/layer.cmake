@@ -62,7 +62,8 @@ function(precompile target)
 endfunction()
 
 function(precompile_matrices target)
-  precompile(${target} <Eigen/Core> <Eigen/QR> <Eigen/Cholesky> <algorithm> <cmath> <functional> <optional> <string> <vector>)
+  precompile(${target} <Eigen/Core> <Eigen/QR> <Eigen/Cholesky> <algorithm> <cmath> <functional> <optional> <string>
+    <vector>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-stringop-overread)  # as above: of code that is not there
   endif()

@@ -1,7 +1,8 @@
 # HDF5, matio, libcrypto and zlib as archives where the system has them all: as shared libraries they bring thirty more
 # (HDF5's reader of web addresses: libcurl, Kerberos, GnuTLS), and the program takes 10 ms to start instead of 2. The
 # targets keep their names; where an archive is missing or they do not link, everything stays shared.
-option(TORQUESCOPE_STATIC_LIBRARIES "link HDF5, matio, libcrypto and zlib statically where there are archives of them" ON)
+option(TORQUESCOPE_STATIC_LIBRARIES "link HDF5, matio, libcrypto and zlib statically where there are archives of them"
+  ON)
 
 function(find_archives)
   set(found TRUE)

@@ -1,4 +1,5 @@
-"""The scoreboard (board.json of tests/concealed/score.py) with the words of its page. Every number of the page is in that file."""
+"""The scoreboard (board.json of tests/concealed/score.py) with the words of its page. Every number of the page is in
+that file."""
 
 import json
 from pathlib import Path
@@ -104,7 +105,8 @@ def left_out(board):
         return ""
     verb = "is" if len(cases) == 1 else "are"
     return (
-        f"{q.count_word(len(cases)).capitalize()} of {q.count(board.suite['cases'] + len(cases), 'case')} {verb} in no row, because "
+        f"{q.count_word(len(cases)).capitalize()} of {q.count(board.suite['cases'] + len(cases), 'case')} {verb} in "
+        "no row, because "
         f"half the step of the plant would have given another recording: {q.listed(one['case'] for one in cases)}."
     )
 

@@ -1,4 +1,5 @@
-"""What the figures, the tables and the sentences of a diagnosis share: names of axes, of figures, and what there is to compare."""
+"""What the figures, the tables and the sentences of a diagnosis share: names of axes, of figures, and what there is to
+compare."""
 
 import math
 
@@ -109,7 +110,8 @@ def partial_regions(regions, start, stop):
 
 
 def effect_row(joint, effect):
-    """The row on which an effect is drawn before and after: its region's, or its curve's when the region is in a spectrum."""
+    """The row on which an effect is drawn before and after: its region's, or its curve's when the region is in a
+    spectrum."""
     row = joint.map.get(effect.region.axis)
     if row is not None and row.is_spectrum and effect.curve is not None:
         row = joint.map.get(effect.curve.range.axis, row)
@@ -155,7 +157,8 @@ def has_floor(joint):
 
 
 def share_closed(joint):
-    """Of the error that a complete model would take away on the unseen recording (or in training); NaN when there is none."""
+    """Of the error that a complete model would take away on the unseen recording (or in training); NaN when there is
+    none."""
     before, after, floor = unseen_errors(joint)
     if not has_after(joint) or is_at_floor(before, floor) or not before > floor:
         return math.nan

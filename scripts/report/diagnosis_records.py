@@ -46,7 +46,8 @@ class Region:
 
 @dataclass
 class MapRow:
-    """One axis of the mismatch map; arrays [cell]. Of a spectrum the cells hold amplitudes, z is that of the log power."""
+    """One axis of the mismatch map; arrays [cell]. Of a spectrum the cells hold amplitudes, z is that of the log
+    power."""
 
     axis: str
     unit: str

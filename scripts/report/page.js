@@ -7,7 +7,9 @@
 (() => {
   const root = document.documentElement;
   document.getElementById("theme").addEventListener("click", () => {
-    const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    const dark = root.dataset.theme
+      ? root.dataset.theme === "dark"
+      : matchMedia("(prefers-color-scheme: dark)").matches;
     root.dataset.theme = dark ? "light" : "dark";
   });
 
@@ -28,7 +30,8 @@
     const time = Float64Array.from(ticks, (tick) => packed.t.origin + tick * packed.t.scale);
     const series = {};
     for (const [part, { scale, data }] of Object.entries(packed.series)) {
-      series[part] = Float32Array.from(await inflate(data, Int16Array), (value) => (value === ABSENT ? NaN : value * scale));
+      const counts = await inflate(data, Int16Array);
+      series[part] = Float32Array.from(counts, (value) => (value === ABSENT ? NaN : value * scale));
     }
     // "measured-e0" is what e0 leaves of the measured
     const line = (part) => {
@@ -147,7 +150,10 @@
         const d = rows.map((row) => `M${x.toFixed(1)} ${row.top}V${row.bottom}`).join("");
         this.axis.append(element(this.svg, "path", { d, stroke: "var(--grid)", fill: "none" }));
         if (x < left + 8 && left < 20) continue;
-        const label = { x: Math.min(x, right - 4).toFixed(1), y: bottom + 16, "text-anchor": "middle", "font-size": "12px", fill: "var(--muted)" };
+        const label = {
+          x: Math.min(x, right - 4).toFixed(1), y: bottom + 16,
+          "text-anchor": "middle", "font-size": "12px", fill: "var(--muted)",
+        };
         this.axis.append(element(this.svg, "text", label, written(k * step, step)));
       }
       // below the lines, above the background
@@ -179,7 +185,8 @@
       const { left, right, rows } = this.layout;
       const clip = (x) => Math.min(Math.max(x, left), right).toFixed(1);
       const bottom = rows[rows.length - 1].bottom;
-      this.brush.setAttribute("d", from === null ? "" : `M${clip(from)} ${rows[0].top}H${clip(to)}V${bottom}H${clip(from)}Z`);
+      const path = from === null ? "" : `M${clip(from)} ${rows[0].top}H${clip(to)}V${bottom}H${clip(from)}Z`;
+      this.brush.setAttribute("d", path);
     }
   }
 
@@ -213,7 +220,10 @@
       const centre = (view.start + view.stop) / 2, half = ((view.stop - view.start) / 2) * factor;
       return show(centre - half, centre + half);
     };
-    const move = (share) => show(view.start + share * (view.stop - view.start), view.stop + share * (view.stop - view.start));
+    const move = (share) => {
+      const step = share * (view.stop - view.start);
+      return show(view.start + step, view.stop + step);
+    };
     const actions = {
       in: () => zoom(0.5), out: () => zoom(2), left: () => move(-0.25), right: () => move(0.25),
       back: () => show(home.start, home.stop),
@@ -233,7 +243,8 @@
 
     // drag: zoom; in the strip: move; with shift: measure
     let drag = null;
-    const row = (trace, y) => trace.layout.rows.find((one) => y >= one.top - 12 && y <= one.bottom + 12) ?? trace.layout.rows[0];
+    const row = (trace, y) =>
+      trace.layout.rows.find((one) => y >= one.top - 12 && y <= one.bottom + 12) ?? trace.layout.rows[0];
     area.addEventListener("pointerdown", (event) => {
       const trace = traces.find((one) => one.svg.contains(event.target));
       if (!trace || event.button !== 0) return;
@@ -273,7 +284,9 @@
       const box = row(trace, at.y);
       const value = (y) => box.low + ((box.bottom - y) / (box.bottom - box.top)) * (box.high - box.low);
       const seconds = trace.time(to.x, view) - trace.time(at.x, view);
-      return `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${(value(to.y) - value(at.y)).toPrecision(3)} ${box.unit}`.replace(/-/g, "\u2212");
+      const rise = value(to.y) - value(at.y);
+      const text = `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${rise.toPrecision(3)} ${box.unit}`;
+      return text.replace(/-/g, "\u2212");
     }
     figure.zoomTo = show;
   }

@@ -12,9 +12,11 @@
     fade.gap_history                                   all runs: array [run][generation]
     fade["population"][3, -1]                          of the last generation of run 3 only
     fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
-    result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found, diagnosis_records.py
+    result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found,
+                                                       diagnosis_records.py
 
-On the command line, `read_result.py R.h5` prints a summary; with --verify it first reads all of the file and compares its digest.
+On the command line, `read_result.py R.h5` prints a summary; with --verify it first reads all of the file and compares
+its digest.
 """
 
 import argparse
@@ -123,7 +125,8 @@ def _circumstances(name, content_sha256):
 
 
 class Provenance(Group):
-    """How a result was made: the program, from the file; when and where, from RESULT.made.json (from the file, if it is old)."""
+    """How a result was made: the program, from the file; when and where, from RESULT.made.json (from the file, if it is
+    old)."""
 
     def __init__(self, group, told):
         super().__init__(group)
@@ -142,9 +145,9 @@ class Provenance(Group):
 class Result(Group):
     """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
 
-    `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the records
-    of diagnosis_records.py. Whatever else the file has is there under its own name: `result.data.regressor_health`.
-    Use it in a `with` block, or close() it.
+    `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the
+    records of diagnosis_records.py. Whatever else the file has is there under its own name:
+    `result.data.regressor_health`. Use it in a `with` block, or close() it.
     """
 
     def __init__(self, name):

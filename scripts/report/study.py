@@ -1,4 +1,5 @@
-"""What the page and the figures need from a result file, in plain arrays. Beside the readers the only file that knows the layout.
+"""What the page and the figures need from a result file, in plain arrays. Beside the readers the only file that knows
+the layout.
 
 Source     engine/store/RESULT_FORMAT.md
 """

@@ -13,8 +13,8 @@ MARKS = {"named": "●", "class": "◍", "measurement": "✕", "no": "○", "not
 
 
 def candidates(joint):
-    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. Strongest first; what
-    was not tested is none of the strongest and comes last."""
+    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. Strongest
+    first; what was not tested is none of the strongest and comes last."""
     scale = (DOTS_WIDTH - 12) / max(
         [1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)]
     )

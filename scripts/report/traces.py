@@ -46,8 +46,8 @@ class Row:
 
 
 def draw(time, rows, window, overview, width, regions=()):
-    """rows: [Row]; window: (start, stop) in s; overview: the Line drawn whole in the strip below; regions: [(start, stop)]
-    in s, shaded in every row."""
+    """rows: [Row]; window: (start, stop) in s; overview: the Line drawn whole in the strip below; regions: [(start,
+    stop)] in s, shaded in every row."""
     heading = 24
     height = sum(heading + row.height for row in rows) + 34 + (44 if overview else 0)
     canvas = style.Canvas(width, height)

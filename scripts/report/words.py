@@ -1,4 +1,5 @@
-"""What the page says in sentences. Every number in them is stored in the file; the rules below only choose the words."""
+"""What the page says in sentences. Every number in them is stored in the file; the rules below only choose the
+words."""
 
 import math
 from collections import Counter
@@ -143,7 +144,8 @@ def search_answer(study):
         return "Every estimator of this job solves its equations directly; there is nothing to search."
     total = sum(int(e.evaluations_total) for e in study.searches)
     return (
-        f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} in all. "
+        f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} "
+        "in all. "
         "The problem is linear, so the exact optimum is known: each search is measured by its distance from it."
     )
 

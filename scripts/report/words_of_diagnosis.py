@@ -22,7 +22,8 @@ _HOW_SURE = re.compile(r" \(([^()]*p [<=][^()]*)\)(?=\.$)")
 
 
 def verdict(study):
-    """mark, word, tone, sentence (what, where, how much), evidence (how sure, what it buys): all of the reason, set in two sizes."""
+    """mark, word, tone, sentence (what, where, how much), evidence (how sure, what it buys): all of the reason, set in
+    two sizes."""
     found = study.diagnosis
     mark, word, tone = VERDICTS.get(found.verdict, ("◌", diagnosed.plain(found.verdict), "ochre"))
     # the class that keeps the verdict from a single name
@@ -128,7 +129,8 @@ def candidates_answer(joint):
     if tested and not named:
         said += "; none is named"
     return (
-        f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on blocks of "
+        f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on "
+        "blocks of "
         "time that nothing was fitted to; –: not tried."
     )
 
@@ -190,7 +192,8 @@ def effect_line(joint, effect):
 def forward_answer(joint):
     one = joint.forward[0]
     if not diagnosed.has_after(joint) or not math.isfinite(one.after_rms):
-        return "The model in a closed loop, driven by the recording's reference: how far its position strays from the measured one."
+        return ("The model in a closed loop, driven by the recording's reference: "
+                "how far its position strays from the measured one.")
     return ("The model in a closed loop, driven by the recording's reference: its position strays "
             f"{q.with_unit(q.number(one.before_rms, 2), joint.unit_position)} before, "
             f"{q.with_unit(q.number(one.after_rms, 2), joint.unit_position)} after.")

@@ -1,9 +1,10 @@
-"""What the parts of the method bring: the suite once more for each part that is taken away, the same recordings, one key of the job
-changed.
+"""What the parts of the method bring: the suite once more for each part that is taken away, the same recordings, one
+key of the job changed.
 
     ablations.py PROGRAM MAKE_CASE OUT --drawn FILE_OR_NAMES [--only NAME,NAME] [--shard I/N] [--jobs N] [--threads N]
 
-OUT is a folder of run_suite.py; cases that are missing there are made, and diagnosed as they are. Resumable as run_suite.py is.
+OUT is a folder of run_suite.py; cases that are missing there are made, and diagnosed as they are. Resumable as
+run_suite.py is.
 
     OUT/ablations/NAME/open/CASE      the edited job, links to the recordings; verdicts, results, logs beside
     OUT/rivals/ablation_NAME/CASE.json   the same verdict, its seconds with it: the scorer puts it beside the rivals

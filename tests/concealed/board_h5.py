@@ -1,18 +1,20 @@
 """board.h5: the scoreboard as HDF5, to be read without this repository.
 
-    /                       attributes: what it is, schema, truths_sha256, programs_sha256, plants_sha256, suite_seeds, cases,
-                            left_out (names of cases whose plant was not exact: in no rate)
-    /cases                  one entry per case, the same order everywhere: case (folder), drawn (name), tier, seed, seal, concealed,
-                            expected, snr_eff, wanted_snr, joint, controller, law, noise, train
-    /methods/M/cases        verdict, names, false_names, right, n_named, level and iou of the first effect, parameter_error,
-                            gap_closed, loop_ratio, seconds, reason; texts are lists joined by ", "
-    /methods/M/table        one entry per row of the table: words, value, low, high, n, hits, pass, pass_holds, stretch, ...
+    /                       attributes: what it is, schema, truths_sha256, programs_sha256, plants_sha256, suite_seeds,
+                            cases, left_out (names of cases whose plant was not exact: in no rate)
+    /cases                  one entry per case, the same order everywhere: case (folder), drawn (name), tier, seed,
+                            seal, concealed, expected, snr_eff, wanted_snr, joint, controller, law, noise, train
+    /methods/M/cases        verdict, names, false_names, right, n_named, level and iou of the first effect,
+                            parameter_error, gap_closed, loop_ratio, seconds, reason; texts are lists joined by ", "
+    /methods/M/table        one entry per row of the table: words, value, low, high, n, hits, pass, pass_holds, stretch,
+                            ...
     /methods/M/confusion/effects, families     rows, columns, counts [row][column]
-    /methods/M/power        tier, size, then hits, n, low, high of exact, class, family, guess (three of them), false_name
+    /methods/M/power        tier, size, then hits, n, low, high of exact, class, family, guess (three of them),
+                            false_name
     /methods/M/confidence   bins: from, to, n, stated, right, low, high; attributes n, brier, ece
 
-Every dataset has the attributes unit and long_name. What is unknown is NaN, a count that is unknown -1. Texts have a fixed
-length (UTF-8).
+Every dataset has the attributes unit and long_name. What is unknown is NaN, a count that is unknown -1. Texts have a
+fixed length (UTF-8).
 """
 
 import math
@@ -27,7 +29,8 @@ LONG = {
     "low": "one-sided 95 % lower bound",
     "high": "one-sided 95 % upper bound",
     "iou": "shared over joint occupancy of reported and true region",
-    "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data; oracle: true laws, recorded motion",
+    "gap_closed": "(baseline - augmented) / (baseline - oracle) relative error on unseen data; "
+                  "oracle: true laws, recorded motion",
     "loop_ratio": "closed-loop position error of the unseen recording, after over before",
     "seal": "SHA-256 of the sealed truth",
     "level": "how the first true effect was found",

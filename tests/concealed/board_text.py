@@ -56,14 +56,16 @@ def left_out_lines(suite):
 def case_line(j, width):
     said = ", ".join(name for name, *_ in j.names) or "-"
     levels = ", ".join(f"{f.name} {f.level}" for f in j.found) or ", ".join(j.concealed) or "-"
-    return f"{j.drawn or j.case:{width}} {protocol.size(j):7.2f}  {j.verdict:12} {'right' if j.right else 'WRONG':6} {levels:44} {said}"
+    right = "right" if j.right else "WRONG"
+    return f"{j.drawn or j.case:{width}} {protocol.size(j):7.2f}  {j.verdict:12} {right:6} {levels:44} {said}"
 
 
 def table_lines(rows):
     lines = [f"{'':58} {'measured':21} {'95 % sure above, below':23} {'pass':18} {'':4} stretch"]
     for row in rows:
         lines.append(
-            f"{row['words']:58} {measured(row):21} {bounds(row):23} {verdict(row, 'pass')} {verdict(row, 'stretch')}".rstrip()
+            f"{row['words']:58} {measured(row):21} {bounds(row):23} {verdict(row, 'pass')} "
+            f"{verdict(row, 'stretch')}".rstrip()
         )
     return lines + ["? too few cases to say; - not measured"]
 
@@ -80,7 +82,8 @@ def power_lines(power):
     share = lambda band: f"{band['hits']:3} of {band['n']:<3}"
     lines = [f"{'tier':5} {'SNR_eff':>7}  {'exact':10} {'class':10} {'family':10} {'3 guesses':10} {'false name':10}"]
     return lines + [
-        f"{row['tier']:5} {row['size']:7g}  {share(row['exact']):10} {share(row['class']):10} {share(row['family']):10} "
+        f"{row['tier']:5} {row['size']:7g}  {share(row['exact']):10} {share(row['class']):10} "
+        f"{share(row['family']):10} "
         f"{share(row['guess']):10} {share(row['false_name']):10}".rstrip()
         for row in power
     ]

@@ -1,7 +1,7 @@
 """The scoreboard taken apart: by tier, by size, by effect, by rig; what was said instead; misses and phantoms.
 
-Everything is made of dictionaries, lists and numbers, so that it can be stored as JSON. The first name of a verdict is what
-it says about one concealed effect; a verdict without names says its own word.
+Everything is made of dictionaries, lists and numbers, so that it can be stored as JSON. The first name of a verdict is
+what it says about one concealed effect; a verdict without names says its own word.
 """
 
 import collections
@@ -47,8 +47,8 @@ def _band(hits, n):
 
 
 def power(judgements):
-    """[{tier, size, exact, class, family, guess, false_name}]: cases made at this size in which everything was found and
-    nothing invented; each with its two-sided 95 % band."""
+    """[{tier, size, exact, class, family, guess, false_name}]: cases made at this size in which everything was found
+    and nothing invented; each with its two-sided 95 % band."""
     rows = []
     made = [j for j in judgements if j.wanted_snr and j.expected == "named"]
     for tier, size in sorted({(j.tier, j.wanted_snr) for j in made}):
@@ -86,7 +86,8 @@ def confusion(judgements, row_of, column_of):
 
 
 def by_effect(judgements):
-    """[{effect, sizes: {size: [found by family, cases]}, exact, class, cases, instead: {what was said: cases}}] of T1."""
+    """[{effect, sizes: {size: [found by family, cases]}, exact, class, cases, instead: {what was said: cases}}] of
+    T1."""
     rows = []
     single = [j for j in judgements if protocol.kind(j) == "T1" and j.found]
     for effect in sorted({j.found[0].name for j in single}):

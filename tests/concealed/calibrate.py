@@ -3,13 +3,13 @@
     run_suite.py torquescope make_case OUT --clean 1..120
     calibrate.py OUT [--json CALIBRATION.json]
 
-Reads of every clean record in OUT: the p-values in its result (engine/store/RESULT_FORMAT.md, /diagnosis: candidates, effects
-that were not tested left out; axes of the map; the whole mismatch), its verdict, and from the scorer's side which rig it was
-made with. The pooled figures are those of the candidates.
+Reads of every clean record in OUT: the p-values in its result (engine/store/RESULT_FORMAT.md, /diagnosis: candidates,
+effects that were not tested left out; axes of the map; the whole mismatch), its verdict, and from the scorer's side
+which rig it was made with. The pooled figures are those of the candidates.
 
-Effects of one record share its noise, so only p-values of different records are independent: the distance of Kolmogorov and
-Smirnov stands beside its 5 % critical value effect by effect, over records. The pooled rates have their spread from the
-records as a whole. Twins make p-values discrete (1/(M+1)): a distance below that says nothing.
+Effects of one record share its noise, so only p-values of different records are independent: the distance of Kolmogorov
+and Smirnov stands beside its 5 % critical value effect by effect, over records. The pooled rates have their spread from
+the records as a whole. Twins make p-values discrete (1/(M+1)): a distance below that says nothing.
 
     D      largest distance of the empirical distribution from the uniform one
     D+     the same above the diagonal only: too many small p-values, the harmful side
@@ -33,7 +33,8 @@ FEWEST_RECORDS = 20  # an effect tested on fewer says nothing about its distribu
 
 
 def p_values_of(path):
-    """-> {statistic: p} of the first joint: candidates while nothing was named yet, the axes of the map, the whole mismatch."""
+    """-> {statistic: p} of the first joint: candidates while nothing was named yet, the axes of the map, the whole
+    mismatch."""
     text = lambda word: word.decode() if isinstance(word, bytes) else str(word)
     with h5py.File(path, "r") as file:
         joint = file["diagnosis/joint_1"]
@@ -137,7 +138,8 @@ def read_records(out):
 def page(found):
     pooled, false = found["pooled"], found["false_name"]
     lines = [
-        f"{found['records']} clean records, {pooled['p_values']} p-values: D {pooled['D']:.3f}, D+ {pooled['D_plus']:.3f}"
+        f"{found['records']} clean records, {pooled['p_values']} p-values: D {pooled['D']:.3f}, D+ "
+        f"{pooled['D_plus']:.3f}"
     ]
     for rate in pooled["rates"]:
         error = "" if rate["standard_error"] is None else f" +- {rate['standard_error']:.2%}"

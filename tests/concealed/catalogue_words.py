@@ -61,8 +61,10 @@ def mistakes(words, catalogue):
 
 def teeth():
     page = (
-        "stribeck  Stribeck friction [reversal]\n (effect)\n  family     reversal, velocity_law\n  equation   tau = s Fs\n"
-        "  parameter  stribeck in N m (N on a slide): 0 to\n  2 x Coulomb level\n  shape      stribeck_exponent in 1: 0.5 to 2\n"
+        "stribeck  Stribeck friction [reversal]\n (effect)\n  family     reversal, velocity_law\n  equation   tau = s "
+        "Fs\n"
+        "  parameter  stribeck in N m (N on a slide): 0 to\n  2 x Coulomb level\n  shape      stribeck_exponent in 1: "
+        "0.5 to 2\n"
         "  parameter  gravity_sin in N m (revolute joints only)\n"
         "  signature  velocity, since_velocity_reversal; odd in the velocity\n  acts on    joint\n  source     me\n"
     )

@@ -1,11 +1,12 @@
-"""Reads folders of run_suite.py, shards of one suite or whole ones, into judgements: with the runner the only reader of truths.
+"""Reads folders of run_suite.py, shards of one suite or whole ones, into judgements: with the runner the only reader of
+truths.
 
-    OUT/sealed/NAME/truth.json, OUT/made.json (seal, plant, program, seconds), OUT/verdicts/NAME.json, OUT/results/NAME.h5,
-    OUT/rivals/METHOD/NAME.json (verdict_record.py)
+    OUT/sealed/NAME/truth.json, OUT/made.json (seal, plant, program, seconds), OUT/verdicts/NAME.json,
+    OUT/results/NAME.h5, OUT/rivals/METHOD/NAME.json (verdict_record.py)
 
-A case that lies in two folders must have the same seal and the same verdict, and a truth must still have the seal it was
-made with; Contradiction says which does not. A truth that is not exact (judge.Inexact) is left out for every method,
-whatever they answered, and the board names it.
+A case that lies in two folders must have the same seal and the same verdict, and a truth must still have the seal it
+was made with; Contradiction says which does not. A truth that is not exact (judge.Inexact) is left out for every
+method, whatever they answered, and the board names it.
 """
 
 import dataclasses

@@ -1,6 +1,7 @@
 """The plant that conceals physics and the engine that looks for it share nothing but the recordings.
 
-No include of engine/ or kernels/ in this folder, no engine library linked to it, and nobody but the scorer reads a truth.
+No include of engine/ or kernels/ in this folder, no engine library linked to it, and nobody but the scorer reads a
+truth.
 """
 
 import pathlib

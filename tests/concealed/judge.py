@@ -1,13 +1,16 @@
-"""One verdict against one truth: what was found, at which level, what was invented. A number of the verdict may be null: unknown.
+"""One verdict against one truth: what was found, at which level, what was invented.
 
-A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family (its
-family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
+A number of the verdict may be null: unknown.
+
+A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family
+(its family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
 Each reported effect answers at most one true effect, better levels first; one that answers none is a false name.
-A law whose form is not the catalogue's is found when its family is found (PHYSICS.md section 4).
-Guesses are what is named and then the ranking, without repeats: a true effect's rank is the place of the first guess of its family.
+A law whose form is not the catalogue's is found when its family is found.
+Guesses are what is named and then the ranking, without repeats: a true effect's rank is the place of the first guess of
+its family.
 The main parameter is the first the truth lists; of a pair called ..._sin and ..._cos the vector counts, not its turn.
-Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no physics)
-accepts every verdict that claims nothing beyond the names the truth allows.
+Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no
+physics) accepts every verdict that claims nothing beyond the names the truth allows.
 """
 
 import dataclasses
@@ -21,7 +24,7 @@ LARGEST_STEP_ERROR = 0.01  # of the noise floor: a coarser plant is no truth (ca
 
 
 class Inexact(ValueError):
-    """Half the step of the plant would have given another recording: its path, often a chaotic one, is not its laws' own."""
+    """Half the step of the plant would have given another recording: its path, often chaotic, is not its laws' own."""
 
     def __init__(self, case, step_error):
         super().__init__(f"{case}: step-halving error {step_error:.3g} of the noise floor")
@@ -144,7 +147,7 @@ def guesses(record):
 
 
 def blind_chance(n, n_right, guesses=3):
-    """Chance that `guesses` drawn without looking from a list of n hit one of the n_right; None without a list to draw from."""
+    """Chance that `guesses` drawn without looking from a list of n hit one of the n_right; None without a list."""
     return 1.0 - math.comb(n - n_right, guesses) / math.comb(n, guesses) if n >= guesses else None
 
 

@@ -3,8 +3,9 @@
 low and high are one-sided 95 % bounds each, so together a 90 % interval; None where so few cases bound nothing.
 
     rate       share of cases                      Clopper and Pearson 1934
-    mean       mean of shares between 0 and 1      the same for their sum, rounded away from the middle: conservative, since of
-                                                   all quantities between 0 and 1 with this mean yes-or-no varies most
+    mean       mean of shares between 0 and 1      the same for their sum, rounded away from the middle: conservative,
+                                                   since of all quantities between 0 and 1 with this mean yes-or-no
+                                                   varies most
     quantile   of whatever distribution            order statistics (Conover 1999, section 3.2)
 """
 

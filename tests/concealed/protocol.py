@@ -1,7 +1,8 @@
 """The table of PHYSICS.md section 4: what is measured, its pass and stretch level, and whether they hold.
 
-A level holds or not as soon as the one-sided 95 % bounds say so; before, there are too few cases to say. From `enough` cases
-on (what the whole suite has) a level is decided by what was measured, or, where the protocol states a bound, by the bound.
+A level holds or not as soon as the one-sided 95 % bounds say so; before, there are too few cases to say. From `enough`
+cases on (what the whole suite has) a level is decided by what was measured, or, where the protocol states a bound, by
+the bound.
 """
 
 import dataclasses
@@ -325,7 +326,8 @@ def holds(level, measured, enough, by_bound):
 
 
 def table(judgements):
-    """[{key, words, form, value, low, high, n, hits, pass, pass_holds, stretch, stretch_holds}] in the order of ROWS."""
+    """[{key, words, form, value, low, high, n, hits, pass, pass_holds, stretch, stretch_holds}] in the order of
+    ROWS."""
     rows = []
     for row in ROWS:
         measured = row.measure(judgements)

@@ -2,17 +2,20 @@
 
     run_rivals.py PROGRAM OUT [--methods NAME,NAME] [--jobs N] [--keep-columns] [--again]
 
-For every case that run_suite.py opened: `PROGRAM diagnose job.toml --columns C.h5` in OUT/open/NAME, then each method of
-rivals/__init__.py. The columns are deleted again unless asked for (some 3 to 30 MB a case). Ended before its time, the same
-command goes on: an answer stays while the recordings (their seal), the program and the rivals' own code are those it was made with.
+For every case that run_suite.py opened: `PROGRAM diagnose job.toml --columns C.h5` in OUT/open/NAME, then each method
+of rivals/__init__.py. The columns are deleted again unless asked for (some 3 to 30 MB a case). Ended before its time,
+the same command goes on: an answer stays while the recordings (their seal), the program and the rivals' own code are
+those it was made with.
 
-    OUT/rivals/METHOD/NAME.json   {"case", "verdict": none | named | data_fault | insufficient, "effects": [{"name", "family", "p"?, "q"?}],
-                                  "ranking", "unseen": {"before", "after"}, "remark", "seconds", "made_with"}
+    OUT/rivals/METHOD/NAME.json   {"case", "verdict": none | named | data_fault | insufficient, "effects": [{"name",
+                                  "family", "p"?, "q"?}], "ranking", "unseen": {"before", "after"}, "remark", "seconds",
+                                  "made_with"}
     OUT/rivals/words.json         {METHOD: why it could not be run} ({} when all could)
 
-verdict      none without names; data_fault when every name is a fault of a channel, as the engine's; insufficient where the
-             engine refuses the recording before anything is searched: no method has columns there
-Exit code: 0, also when a method is missing its library (words.json says which); 64 usage; 66 no cases; 70 when a rival or the program fails.
+verdict      none without names; data_fault when every name is a fault of a channel, as the engine's; insufficient where
+             the engine refuses the recording before anything is searched: no method has columns there
+Exit code: 0, also when a method is missing its library (words.json says which); 64 usage; 66 no cases; 70 when a rival
+or the program fails.
 """
 
 import argparse

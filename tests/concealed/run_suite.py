@@ -3,11 +3,12 @@
     run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO | --drawn FILE_OR_NAMES]
                  [--shard [I/N]] [--jobs N] [--threads N] [--all-right]
 
-PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or --drawn:
-every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated by commas;
-their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as long as the
-case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs a share of the cases (shard.py), without I/N the
-one Slurm says; each shard wants an OUT of its own, and score.py OUT... gathers them.
+PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or
+--drawn: every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated
+by commas; their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as
+long as the case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs
+a share of the cases (shard.py), without I/N the one Slurm says; each shard wants an OUT of its own, and score.py OUT...
+gathers them.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
     OUT/open/NAME       the job and its recordings, the folder the program runs in
@@ -15,7 +16,8 @@ one Slurm says; each shard wants an OUT of its own, and score.py OUT... gathers 
     OUT/made.json       which case was made (seal, program) and diagnosed (seal, program, seconds, exit code)
     OUT/board.json, OUT/board.h5   the scoreboard of these cases (score.py)
 
-Exit code: the scorer's; 64 usage, 70 when make_case fails. A program that fails is a case without a verdict, no error here.
+Exit code: the scorer's; 64 usage, 70 when make_case fails. A program that fails is a case without a verdict, no error
+here.
 """
 
 import argparse

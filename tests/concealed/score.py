@@ -5,10 +5,10 @@
 OUT is a folder of run_suite.py; several are the shards of one suite. FOLDER (default: the first OUT) takes board.json
 and board.h5 (board_h5.py); scripts/report/build_board.py makes a page of the first. A rival that put its answers into
 OUT/rivals/METHOD (verdict_record.py) is judged by the same functions and stands beside ours in all of them.
-A verdict that is missing or does not follow the schema counts as a failure, not as an absent case. A case whose plant was
-not exact is in no rate, and named.
-Exit code 0 whatever the score, with --all-right 1 unless every case is right and none left out; 66 when there is no truth; 65 when a truth is
-damaged, not the one that was sealed, or a case has two seals or two verdicts.
+A verdict that is missing or does not follow the schema counts as a failure, not as an absent case. A case whose plant
+was not exact is in no rate, and named.
+Exit code 0 whatever the score, with --all-right 1 unless every case is right and none left out; 66 when there is no
+truth; 65 when a truth is damaged, not the one that was sealed, or a case has two seals or two verdicts.
 """
 
 import argparse

@@ -1,5 +1,5 @@
-"""Which share of the cases is this process's? Names are dealt by their hash, so that each share is a sample of all: sizes, effects and
-rigs of the list come round in cycles, and every eighteenth pair had the same size.
+"""Which share of the cases is this process's? Names are dealt by their hash, so that each share is a sample of all:
+sizes, effects and rigs of the list come round in cycles, and every eighteenth pair had the same size.
 
     of("3/40", {})                  (3, 40)   shards count from 0
     of(None, os.environ)            the task of a Slurm array, or the process of an srun step; None outside both

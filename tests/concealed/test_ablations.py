@@ -1,4 +1,5 @@
-"""The runner of the ablations with a stand-in for the engine: each sees the same recordings and its own job, and is scored by itself.
+"""The runner of the ablations with a stand-in for the engine: each sees the same recordings and its own job, and is
+scored by itself.
 
     test_ablations.py MAKE_CASE
 
@@ -23,7 +24,8 @@ STAND_IN = """#!{python}
 import hashlib, json, os, sys, tomllib
 job = tomllib.load(open("job.toml", "rb"))
 with open("{calls}", "a") as calls:
-    calls.write(json.dumps([job, hashlib.sha256(open("train.csv", "rb").read()).hexdigest(), sorted(os.listdir("."))]) + "\\n")
+    train = hashlib.sha256(open("train.csv", "rb").read()).hexdigest()
+    calls.write(json.dumps([job, train, sorted(os.listdir("."))]) + "\\n")
 effects = [{{"name": "spring", "family": "static_position"}}] if "null" in job["diagnose"] else []
 joint = {{"joint": 1, "effects": effects, "baseline": {{"validation_relerr": 0.1}}}}
 json.dump({{"schema": 1, "verdict": "named" if effects else "none", "joints": [joint]}}, open(sys.argv[4], "w"))

@@ -1,4 +1,5 @@
-"""The scorer's numbers against small examples worked out by hand: bounds, levels, the table, curves, confusion, calibration."""
+"""The scorer's numbers against small examples worked out by hand: bounds, levels, the table, curves, confusion,
+calibration."""
 
 import sys
 import unittest

@@ -1,4 +1,5 @@
-"""The rivals on small made-up columns whose answer is known by construction, and the runner with a stand-in for the engine."""
+"""The rivals on small made-up columns whose answer is known by construction, and the runner with a stand-in for the
+engine."""
 
 import contextlib
 import io

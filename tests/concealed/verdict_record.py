@@ -6,11 +6,11 @@ A rival     OUT/rivals/METHOD/NAME.json, one file per case, NAME being the folde
               {"case": NAME, "verdict": "none" | "named" | "class" | "unexplained" | "insufficient" | "data_fault",
                "effects": [{"name", "family"}, ...]}            strongest first, words of `torquescope list effects`
             An effect may also have  "equivalent": [names], "q" or "confidence" (0 to 1: chance that the name is right),
-            "region": {"axis", "from", "to"} or {"axis", "places": [[from, to], ...]}, "parameters": [{"name", "value", "ci95"}];
-            the record "ranking": [{"name", "family"}] (named or not, strongest first), "unseen": {"before", "after"}
-            (relative errors on the unseen recording), "reason", "seconds".
-A rival is judged by the same functions against the same truths. What a method does not say is not scored; a file that is
-missing is a case without an answer.
+            "region": {"axis", "from", "to"} or {"axis", "places": [[from, to], ...]}, "parameters": [{"name", "value",
+            "ci95"}]; the record "ranking": [{"name", "family"}] (named or not, strongest first), "unseen": {"before",
+            "after"} (relative errors on the unseen recording), "reason", "seconds".
+A rival is judged by the same functions against the same truths. What a method does not say is not scored; a file that
+is missing is a case without an answer.
 """
 
 import json
@@ -56,7 +56,8 @@ def _placed(effect, places):
 
 
 def confidence_of(effect):
-    """Chance of being right that a name states: one minus the false discovery rate it was named at; None when it states none."""
+    """Chance of being right that a name states: one minus the false discovery rate it was named at; None when it states
+    none."""
     if effect.get("confidence") is not None:
         return effect["confidence"]
     return None if effect.get("q") is None else 1.0 - effect["q"]

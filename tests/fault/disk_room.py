@@ -1,4 +1,5 @@
-"""No room, or no locks: what is told before a job begins, what happens on a disk that is really full, and who may work at once."""
+"""No room, or no locks: what is told before a job begins, what happens on a disk that is really full, and who may work
+at once."""
 
 import contextlib
 import fcntl
@@ -70,7 +71,8 @@ class DiskRoom(shimmed.ShimmedTest):
         self.assertGreater(int(needed.group(1)), size - 700000)
 
     def test_a_disk_that_is_really_full(self):
-        """With the preflight overruled: the disk itself refuses, at whatever byte; with room the same command ends well."""
+        """With the preflight overruled: the disk itself refuses, at whatever byte; with room the same command ends
+        well."""
         shards = self.prepared(shimmed.shard(0, 2))
         sizes = {"run": os.path.getsize(self.whole / "r.h5"), "merge": os.path.getsize(self.whole / "r.h5"),
                  "shards": os.path.getsize(shards.segments()[0])}

@@ -1,9 +1,9 @@
-"""Every system call of a three-run job fails once: the exit code says so, what is published is whole, and the same command again
-makes the file that nobody disturbed.
+"""Every system call of a three-run job fails once: the exit code says so, what is published is whole, and the same
+command again makes the file that nobody disturbed.
 
-Counts: every call of every phase each time the tests run, in one of the ways it can fail, the next call of that name in the next way; of
-those that read twelve, and of a larger result some of its blocks. Every second call of a name is where a disk stays broken. With TORQUESCOPE_FAULTS above 60
-all calls in all ways, and a job of 20 runs in seven shards too.
+Counts: every call of every phase each time the tests run, in one of the ways it can fail, the next call of that name in
+the next way; of those that read twelve, and of a larger result some of its blocks. Every second call of a name is where
+a disk stays broken. With TORQUESCOPE_FAULTS above 60 all calls in all ways, and a job of 20 runs in seven shards too.
 """
 
 import collections
@@ -115,7 +115,8 @@ class Failing(shimmed.ShimmedTest):
         return [call for call in calls if call.name not in READS or call in kept]
 
     def numbered(self, calls):
-        """Each with how many of its name came before: calls of two names take turns, and none of them may always fail alike."""
+        """Each with how many of its name came before: calls of two names take turns, and none of them may always fail
+        alike."""
         before = collections.Counter()
         for call in calls:
             yield before[call.name], call
@@ -125,7 +126,8 @@ class Failing(shimmed.ShimmedTest):
         return errors if MANY else [errors[number % len(errors)]]
 
     def check_every_call(self, prepared, command, finish=None, names=None):
-        """finish: what makes the result, when the command does not; names: only six of the calls of these names fail."""
+        """finish: what makes the result, when the command does not; names: only six of the calls of these names
+        fail."""
         ended, calls = self.shimmed(self.copy_of(prepared), command)
         self.assert_ended(ended, 0)
         calls = [call for call in calls if not names or call.name in names]

@@ -1,6 +1,8 @@
-"""Killed at random moments and begun again until it is done: the file is, byte for byte, that of a run nobody disturbed.
+"""Killed at random moments and begun again until it is done: the file is, byte for byte, that of a run nobody
+disturbed.
 
-Counts: TORQUESCOPE_FAULTS (60 of each kind by default, 30 of merges), for example 2000 at night. FAULT_SEED repeats a chance.
+Counts: TORQUESCOPE_FAULTS (60 of each kind by default, 30 of merges), for example 2000 at night. FAULT_SEED repeats a
+chance.
 """
 
 import os
@@ -16,7 +18,8 @@ KILLS = int(os.environ.get("TORQUESCOPE_FAULTS", "60"))
 
 class Kills(study.FaultTest):
     def chain(self, kills, stop):
-        """Interrupts attempt after attempt, in folder after folder, until there were enough; returns how often it was done."""
+        """Interrupts attempt after attempt, in folder after folder, until there were enough; returns how often it was
+        done."""
         count = complete = 0
         while count < kills:
             folder, before = self.folder(), (0, 0)

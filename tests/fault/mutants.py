@@ -1,5 +1,5 @@
-"""Do the tests of this folder have teeth? Five faults are put into the program, one after the other, and each must be caught; and
-the same program without any of them must pass, or they would be caught for another reason.
+"""Do the tests of this folder have teeth? Five faults are put into the program, one after the other, and each must be
+caught; and the same program without any of them must pass, or they would be caught for another reason.
 """
 
 import os
@@ -39,7 +39,8 @@ class Mutants(unittest.TestCase):
                 caught += 1
             reason = re.findall(r"^AssertionError: (.*)", ended.stderr, re.MULTILINE)
             print(
-                f"mutant {number}, {name}: {failures[0][1] if failures else '?'}.py: {reason[0][:100] if reason else ''}",
+                f"mutant {number}, {name}: {failures[0][1] if failures else '?'}.py: "
+                f"{reason[0][:100] if reason else ''}",
                 file=sys.stderr,
             )
         print(f"{caught} of {len(MUTANTS)} mutants caught", file=sys.stderr)

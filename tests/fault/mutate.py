@@ -1,9 +1,10 @@
-"""Writes copies of a few source files with five faults in them, which TORQUESCOPE_MUTANT=1..5 switches on, one at a time.
+"""Writes copies of a few source files with five faults in them, which TORQUESCOPE_MUTANT=1..5 switches on, one at a
+time.
 
     mutate.py ENGINE_FOLDER OUTPUT_FOLDER
 
-For the tests of the tests alone (mutants.py): the program that people get is made of the files as they are. A text that is no longer
-there, or is there twice, ends the build: whoever changes these lines looks here.
+For the tests of the tests alone (mutants.py): the program that people get is made of the files as they are. A text that
+is no longer there, or is there twice, ends the build: whoever changes these lines looks here.
 """
 
 import os
@@ -44,7 +45,8 @@ MUTATIONS = {
     "run/run_keeper.cpp": [
         (
             "    std::lock_guard const alone(hdf5_);\n",
-            "    if (mutant(3) && setting_.safe) setting_.safe(runs_safe_ + ended);\n    std::lock_guard const alone(hdf5_);\n",
+            "    if (mutant(3) && setting_.safe) setting_.safe(runs_safe_ + ended);\n    std::lock_guard const "
+            "alone(hdf5_);\n",
         )
     ],
     # 5: no checksum

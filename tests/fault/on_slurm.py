@@ -1,5 +1,6 @@
-"""A job of 40 runs in four shards on a real Slurm, which this test starts itself: engines are killed and stopped, tasks go back into
-the queue, an urgent job takes the node away, and in the end one merge makes the file that nobody disturbed.
+"""A job of 40 runs in four shards on a real Slurm, which this test starts itself: engines are killed and stopped, tasks
+go back into the queue, an urgent job takes the node away, and in the end one merge makes the file that nobody
+disturbed.
 
 By night also the limit of time of a task, which takes Slurm half a minute to notice.
 
@@ -62,7 +63,8 @@ class OnSlurm(study.FaultTest):
         return found
 
     def frozen(self, engines):
-        """Those that could be stopped where they are: they end no more by themselves, and only Slurm can make them go on."""
+        """Those that could be stopped where they are: they end no more by themselves, and only Slurm can make them go
+        on."""
         stopped = []
         for engine in engines:
             with contextlib.suppress(FileNotFoundError, ProcessLookupError):  # it has ended meanwhile

@@ -1,8 +1,9 @@
 """What a disk may hold after the power went, of a log that shim.c wrote.
 
-Strict, as POSIX is: of a file, only what its last fsync covered is safe; of what was written since, each page of 4 KiB is there or
-not, by chance, and so is the new length. Of a folder, only what its last fsync covered is safe; each name that was made, renamed
-or taken away since is there or not, by chance and one by one. Real disks and file systems keep more.
+Strict, as POSIX is: of a file, only what its last fsync covered is safe; of what was written since, each page of 4 KiB
+is there or not, by chance, and so is the new length. Of a folder, only what its last fsync covered is safe; each name
+that was made, renamed or taken away since is there or not, by chance and one by one. Real disks and file systems keep
+more.
 """
 
 import os

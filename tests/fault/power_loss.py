@@ -1,8 +1,8 @@
-"""The power goes at any moment: no run that the program called safe is lost, nothing has its final name and other bytes, and the
-same command makes the file that nobody disturbed.
+"""The power goes at any moment: no run that the program called safe is lost, nothing has its final name and other
+bytes, and the same command makes the file that nobody disturbed.
 
-Counts: TORQUESCOPE_IMAGES (200 by default; with TORQUESCOPE_FAULTS above 60 two and a half times that). FAULT_SEED repeats a
-chance.
+Counts: TORQUESCOPE_IMAGES (200 by default; with TORQUESCOPE_FAULTS above 60 two and a half times that). FAULT_SEED
+repeats a chance.
 """
 
 import os
@@ -125,7 +125,8 @@ class PowerLoss(shimmed.ShimmedTest):
                 safe += runs
                 complete += whole
         print(
-            f"{IMAGES} power cuts ({len(moments)} moments of {len(stories)} stories): {safe} runs were called safe and are, "
+            f"{IMAGES} power cuts ({len(moments)} moments of {len(stories)} stories): {safe} runs were called safe "
+            "and are, "
             f"{complete} results were whole, none differs",
             file=sys.stderr,
         )

@@ -1,5 +1,6 @@
-"""A Slurm of one node that a test starts on the loopback interface and ends again: munged, slurmctld and slurmd, with a folder, a key
-and ports of their own. No systemd, no cgroups, no database; nothing of a Slurm that is installed otherwise is touched.
+"""A Slurm of one node that a test starts on the loopback interface and ends again: munged, slurmctld and slurmd, with a
+folder, a key and ports of their own. No systemd, no cgroups, no database; nothing of a Slurm that is installed
+otherwise is touched.
 """
 
 import os

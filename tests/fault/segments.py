@@ -221,7 +221,8 @@ class Segments(study.FaultTest):
         self.assert_ended(folder.run("status", "nothing.h5"), 66)
 
     def test_the_scripts_of_submit_requeue_what_was_stopped(self):
-        """Both scripts under bash, with Slurm's commands replaced: srun runs the rest of its line, scontrol notes its words."""
+        """Both scripts under bash, with Slurm's commands replaced: srun runs the rest of its line, scontrol notes its
+        words."""
         folder = self.folder()
         for name, text in (("srun", 'shift; exec "$@"'), ("squeue", "echo 1:00:00"), ("sleep", "exit 0"),
                            ("scontrol", f'echo "$@" >> {folder / "requeued"}; exit 1')):

@@ -1,4 +1,5 @@
-"""A small job of several estimators, run in a folder of its own, interrupted in every way, and compared byte by byte."""
+"""A small job of several estimators, run in a folder of its own, interrupted in every way, and compared byte by
+byte."""
 
 import contextlib
 import json
@@ -106,7 +107,8 @@ class Folder:
 
 
 class FaultTest(unittest.TestCase):
-    """Folders that go away, one result to compare with (made once, uninterrupted, by one thread), and the chance used."""
+    """Folders that go away, one result to compare with (made once, uninterrupted, by one thread), and the chance
+    used."""
 
     JOB = JOB
     COMMAND = "run"

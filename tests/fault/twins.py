@@ -1,4 +1,5 @@
-"""One diagnosis of several processes: whatever happens to some of them, the result is, byte for byte, that of one process."""
+"""One diagnosis of several processes: whatever happens to some of them, the result is, byte for byte, that of one
+process."""
 
 import contextlib
 import fcntl

@@ -1,7 +1,8 @@
 """Sixty seconds of clang's libFuzzer for every reader of foreign files, and what comes of its findings.
 
-A finding in our code fails. Where a foreign library crashes, loops or swallows memory (HDF5, matio: neither is compiled with the
-sanitizers, both are known to), the built program must turn the same file into a refusal, because it reads it in a child.
+A finding in our code fails. Where a foreign library crashes, loops or swallows memory (HDF5, matio: neither is compiled
+with the sanitizers, both are known to), the built program must turn the same file into a refusal, because it reads it
+in a child.
 
 Use: scripts/test --full; by hand, with TORQUESCOPE_FUZZ_SECONDS=600 for longer and ... minute.py hdf5 for one of them:
      TORQUESCOPE=build/release/bin/torquescope FUZZERS=build/fuzz/tests/fuzz /usr/bin/python3 tests/fuzz/minute.py
@@ -128,7 +129,8 @@ def minute(reader, home):
             print(f"{reader}: kept as {kept}\n{report[:6000]}", file=sys.stderr)
     inputs, edges = tried[-1] if tried else (0, 0)
     print(
-        f"{reader}: {inputs} inputs, {edges} edges, {len(names)} crashes, hangs or floods, {len(names) - bad} of them in a library, "
+        f"{reader}: {inputs} inputs, {edges} edges, {len(names)} crashes, hangs or floods, {len(names) - bad} of them "
+        "in a library, "
         f"refused by the program; {bad} ours",
         flush=True,
     )

@@ -1,6 +1,7 @@
 """Small files that the readers accept, or nearly: where fuzzing begins. Made anew each time; none is a real recording.
 
-Use: MAKE_SEGMENT=build/release/bin/make_segment /usr/bin/python3 tests/fuzz/seeds.py FOLDER     one folder per reader in it
+Use: MAKE_SEGMENT=build/release/bin/make_segment /usr/bin/python3 tests/fuzz/seeds.py FOLDER     one folder per reader
+                                                                                                 in it
 """
 
 import glob

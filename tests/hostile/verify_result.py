@@ -1,8 +1,9 @@
-"""`torquescope show R.h5 --verify` against damage: no flipped bit and no missing end of a result file passes in silence.
+"""`torquescope show R.h5 --verify` against damage: no flipped bit and no missing end of a result file passes in
+silence.
 
-A flip is either reported (exit code 65, with the place and the cure) or proved harmless: then everything in the file was read and
-has the digests it had, so the bit lies in bytes that no object uses. Another exit code, a signal or another digest is a failure.
-What another program changes on purpose, checksums renewed, is reported too.
+A flip is either reported (exit code 65, with the place and the cure) or proved harmless: then everything in the file
+was read and has the digests it had, so the bit lies in bytes that no object uses. Another exit code, a signal or
+another digest is a failure. What another program changes on purpose, checksums renewed, is reported too.
 
 Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/hostile/verify_result.py
 """
@@ -163,7 +164,8 @@ class DamagedFile(Folder):
                     self.assert_reported(program.Outcome(outcome.code, "", outcome.err), what)
                     reported += 1
             print(
-                f"{kind}: {flips} flipped bits: {reported} reported, {harmless} harmless (in bytes that nothing uses), 0 silent"
+                f"{kind}: {flips} flipped bits: {reported} reported, {harmless} harmless (in bytes that nothing "
+                "uses), 0 silent"
             )
             self.assertGreater(reported, flips // 2)
 

@@ -1,4 +1,5 @@
-"""Texts of jobs on one simulated joint, for tests and benchmarks: what they have in common stands here, and only here."""
+"""Texts of jobs on one simulated joint, for tests and benchmarks: what they have in common stands here, and only
+here."""
 
 import json
 
@@ -19,7 +20,8 @@ def section(header, settings):
 
 
 def job(estimators=(), replaced=(), **changes):
-    """`changes` by section ("__" for "."): settings that differ or come in addition; of sections in `replaced` these alone."""
+    """`changes` by section ("__" for "."): settings that differ or come in addition; of sections in `replaced` these
+    alone."""
     changes = {name.replace("__", "."): settings for name, settings in changes.items()}
     parts = [section(f"[{name}]", {**({} if name in replaced else COMMON.get(name, {})), **changes.get(name, {})})
              for name in [*COMMON, *(name for name in changes if name not in COMMON)]]

@@ -3,8 +3,8 @@
 
     effect_size.py STRANGER CASE...        each case is made twice in a temporary folder: with and without
 
-Rows    those that move: at rest dry friction is whatever it must be, and no model of its level can know it. What acts at
-        reversals is judged on all rows.
+Rows    those that move: at rest dry friction is whatever it must be, and no model of its level can know it. What acts
+        at reversals is judged on all rows.
 SNR     rms of what the effect leaves after mass and friction were fitted again, over the residual without it:
         sqrt(r1^2 - r0^2) / r0, where r1, r0 are the residuals of the baseline with and without the effect
 oracle  relerr when the exact column of what is concealed joins the baseline (fitted on train, applied to unseen)
@@ -108,14 +108,17 @@ def main(words):
             at = cases.index(option)
             extra, cases = extra + cases[at:at + 2], cases[:at] + cases[at + 2:]
     print(
-        f"{'case':30} {'snr':>6} {'clean':>7} {'train: before':>13} {'oracle':>7} {'unseen: before':>14} {'oracle':>7}  parameters"
+        f"{'case':30} {'snr':>6} {'clean':>7} {'train: before':>13} {'oracle':>7} {'unseen: before':>14} "
+        f"{'oracle':>7}  parameters"
     )
     for case in cases:
         with tempfile.TemporaryDirectory() as folder:
             m = measure(stranger, case, folder, extra)
         print(
-            f"{case:30} {m['snr']:6.2f} {100 * m['clean_train']:6.2f}% {100 * m['train_before']:12.2f}% {100 * m['train_oracle']:6.2f}% "
-            f"{100 * m['unseen_before']:13.2f}% {100 * m['unseen_oracle']:6.2f}%  {np.array2string(np.array(m['parameters']), precision=4)}"
+            f"{case:30} {m['snr']:6.2f} {100 * m['clean_train']:6.2f}% {100 * m['train_before']:12.2f}% "
+            f"{100 * m['train_oracle']:6.2f}% "
+            f"{100 * m['unseen_before']:13.2f}% {100 * m['unseen_oracle']:6.2f}%  "
+            f"{np.array2string(np.array(m['parameters']), precision=4)}"
             f" rms {m['torque_rms']:.3g}",
             flush=True,
         )

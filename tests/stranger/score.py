@@ -2,11 +2,12 @@
 """Compares what the program said with what a stranger's case conceals.
 
     score.py FOLDER [CASE...]     FOLDER/CASE has truth/truth.json and verdict.json; prints one row per case (Markdown)
-    --forgive NAME                as if NAME had not been said where it is not what is concealed: to see past one known fault
+    --forgive NAME                as if NAME had not been said where it is not what is concealed: to see past one known
+                                  fault
 
-right        what an expert would sign: clean is none; one effect is its name alone (or a class with it); of an effect whose
-             form is not the catalogue's its family will do; a pair is both; outside the catalogue is unexplained; weak
-             motion is no wrong name
+right        what an expert would sign: clean is none; one effect is its name alone (or a class with it); of an effect
+             whose form is not the catalogue's its family will do; a pair is both; outside the catalogue is unexplained;
+             weak motion is no wrong name
 acceptable   true, but less than could be said: no name although something is there, one of a pair, a near relative
 wrong        a false name, "nothing" where something is, "something" where nothing is, no answer
 """
@@ -197,7 +198,8 @@ def main(words):
     cases = words[1:] or sorted(p.parent.name for p in folder.glob("*/seconds"))
     counts = {}
     print(
-        "| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | floor % | s |"
+        "| case | concealed | verdict | score | parameter error % | place IoU | unseen before % | after % | floor % | "
+        "s |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for case in cases:

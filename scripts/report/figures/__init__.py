@@ -2,7 +2,8 @@
 
 A figure module has  TITLE     a heading of a few words
                      draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080)
-                     cases()   Study (or Board) -> {name: Case}: what of this file it can draw; empty when there is nothing to draw
+                     cases()   Study (or Board) -> {name: Case}: what of this file it can draw; empty when there is
+                               nothing to draw
 Adding one is a file here, its name in one of the lists below, and a place in the template of its kind of result.
 """
 

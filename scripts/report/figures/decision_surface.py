@@ -13,7 +13,8 @@ MOST_CELLS = 48  # per side: finer cells cannot be told apart at this size
 
 
 def draw(surface, first, second, path, output, first_name, second_name, width=style.SMALL):
-    """surface [m][m]: output over (first = row, second = column); path [G+1][2]: (first, second), NaN where undefined."""
+    """surface [m][m]: output over (first = row, second = column); path [G+1][2]: (first, second), NaN where
+    undefined."""
     canvas = style.Canvas(width, 292)
     axes = canvas.axes(50, 30, width - 62, 244)
     axes.grid(False)

@@ -30,7 +30,8 @@ def draw(time, torque, before, after, floor, window, regions, effort, symbol, un
 
 
 def window_of_most_gain(time, before, after, length=traces.OPENED_S):
-    """(start, stop) of the `length` seconds in which the residual's energy falls most, or is largest without an after."""
+    """(start, stop) of the `length` seconds in which the residual's energy falls most, or is largest without an
+    after."""
     first, last = float(time[0]), float(time[-1])
     if last - first <= 1.3 * length:
         return first, last
@@ -89,7 +90,8 @@ def _case(study, joint, trace, regions):
     if floor:
         sentence += " Band: ±2 sd of the floor."
     if regions:
-        sentence += f" Shaded: {quantities.listed(dict.fromkeys(diagnosed.axis_title(r.axis) for r in regions))} in the located region."
+        shaded = quantities.listed(dict.fromkeys(diagnosed.axis_title(r.axis) for r in regions))
+        sentence += f" Shaded: {shaded} in the located region."
     series = {"measured": trace.torque, "before": trace.before} | ({"after": after} if after is not None else {})
     return Case(draw, arguments, f"{study.effort.capitalize()} of {trace.recording}", sentence, wide=True,
                 traces={"time": trace.time, "series": series, "guide": trace.before, "guided_by": "residual"})

@@ -1,4 +1,5 @@
-"""The relative error before and after, in training, in blocked cross-validation and unseen, with the floor; from zero."""
+"""The relative error before and after, in training, in blocked cross-validation and unseen, with the floor; from
+zero."""
 
 import numpy as np
 

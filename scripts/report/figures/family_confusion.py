@@ -62,7 +62,8 @@ def cases(board):
             draw,
             {"rows": matrix["rows"], "columns": matrix["columns"], "counts": matrix["counts"]},
             TITLE,
-            f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the family of "
+            f"{quantities.count(total, 'case')} with one concealed effect of any size: its family (rows) and the "
+            "family of "
             "the first name, or what was said without a name (columns). Framed: right.",
             wide=True,
         )

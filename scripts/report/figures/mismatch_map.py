@@ -188,7 +188,8 @@ def cases(study):
         if rows:
             name = diagnosed.figure_name(study, joint, "mismatch_map")
             sentence = (
-                f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} clean twins; "
+                f"Mean residual of the baseline along each axis, in spreads of {quantities.whole(joint.twins)} clean "
+                "twins; "
                 "grey: no more than chance; blank: nothing measured; framed: located."
             )
             found[name] = Case(draw, {"rows": rows}, "The mismatch map", sentence, wide=True)

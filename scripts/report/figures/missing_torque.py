@@ -9,7 +9,8 @@ from figures import Case
 
 
 def draw(axis_words, unit, at, partial, modelled, spread, regions, width=style.SMALL):
-    """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; regions: [(from, to)]."""
+    """Arrays [cell]: the effect and what is left, the effect, the spread of one clean twin's mean; regions: [(from,
+    to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 188)
     for region in diagnosed.partial_regions(regions, at[0], at[-1]):
@@ -54,7 +55,8 @@ def cases(study):
                 "spread": curve.spread,
                 "regions": regions,
             }
-            sentence = f"Dots: {diagnosed.plain(effect.name)} and what is left, in {quantities.unit(joint.unit_torque)}; line: as modelled."
+            sentence = (f"Dots: {diagnosed.plain(effect.name)} and what is left, in "
+                        f"{quantities.unit(joint.unit_torque)}; line: as modelled.")
             name = diagnosed.figure_name(study, joint, f"effect_{number}_missing")
             found[name] = Case(draw, arguments, f"The missing {study.effort}, as modelled", sentence)
     return found

@@ -1,4 +1,5 @@
-"""Forest plot: every estimate of every parameter as a difference from the truth, in standard errors of least squares."""
+"""Forest plot: every estimate of every parameter as a difference from the truth, in standard errors of least
+squares."""
 
 import numpy as np
 
@@ -9,8 +10,8 @@ from figures import Case
 
 
 def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
-    """groups: [(label, difference [R], half interval [R] or None, inner half interval [R] or None, low [R], high [R], colour)],
-    low and high: span over the runs or None. published: [(label, difference [R], colour)], hollow diamonds.
+    """groups: [(label, difference [R], half interval [R] or None, inner half interval [R] or None, low [R], high [R],
+    colour)], low and high: span over the runs or None. published: [(label, difference [R], colour)], hollow diamonds.
     values: [R] words at the right."""
     narrow = width < style.WIDE
     lanes = len(groups) + len(published)

@@ -13,8 +13,8 @@ MOST = 100.0  # %: beyond it an arrow says "further out"
 
 
 def draw(names, before, after, origin, values, width=style.WIDE):
-    """before, after: [(difference, half interval) in %], NaN where there is none; origin: what the differences are taken from;
-    values: words at the right."""
+    """before, after: [(difference, half interval) in %], NaN where there is none; origin: what the differences are
+    taken from; values: words at the right."""
     narrow = width < style.WIDE
     row, room = (58, 18) if narrow else (40, 0)
     top = 8
@@ -70,7 +70,8 @@ def value_words(one):
 
 
 def differences(joint, truth):
-    """(names, before, after) in % of the truth where it is known, else of the baseline's value, else of the parameter itself."""
+    """(names, before, after) in % of the truth where it is known, else of the baseline's value, else of the parameter
+    itself."""
     changed = diagnosed.has_after(joint)
     names = list({**joint.baseline, **(joint.augmented if changed else {})})
     before, after = [], []

@@ -45,7 +45,8 @@ def cases(study):
     for e in study.searches:
         if e.controller is None or e.PC is None or not np.any(np.asarray(e.PC) > 0):
             continue
-        sentence = "Root mean square change of the members (PC, solid) and of their fitness (FC, dashed): the controller's input."
+        sentence = ("Root mean square change of the members (PC, solid) and of their fitness (FC, dashed): "
+                    "the controller's input.")
         found[f"population_changes_{e.name}"] = Case(draw, {"PC": e.PC, "FC": e.FC, "colour": e.ink},
                                                      f"PC and FC of {e.label}", sentence)
     return found

@@ -10,7 +10,8 @@ LABEL_PX = 96
 
 
 def draw(sizes, curves, width=style.SMALL):
-    """sizes [k]: SNR_eff; curves: {family | exact | guess: [(share, low, high)] per size}, the band is that of the first."""
+    """sizes [k]: SNR_eff; curves: {family | exact | guess: [(share, low, high)] per size}, the band is that of the
+    first."""
     canvas = style.Canvas(width, 252)
     axes = canvas.axes(44, 30, width - LABEL_PX, 208)
     # sizes double from step to step: equal distances

@@ -1,4 +1,5 @@
-"""The mean residual along one axis before and after the named effects, over what clean twins show; below, the time spent there."""
+"""The mean residual along one axis before and after the named effects, over what clean twins show; below, the time
+spent there."""
 
 import math
 
@@ -11,8 +12,8 @@ from figures import Case
 
 
 def draw(axis_words, unit, centre, before, after, low, high, samples, outside, regions, is_spectrum, width=style.SMALL):
-    """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside: cells beyond
-    it; regions: [(from, to)]."""
+    """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside:
+    cells beyond it; regions: [(from, to)]."""
     canvas = style.Canvas(width, 238)
     axes = canvas.axes(54, 8, width - 14, 158)
     time = canvas.axes(54, 162, width - 14, 188)

@@ -45,7 +45,8 @@ def cases(board):
             draw,
             {"bins": confidence["bins"]},
             "Is a stated confidence kept?",
-            f"{quantities.count(confidence['n'], 'name')}; confidence = 1 − q, the false discovery rate it was named at. "
+            f"{quantities.count(confidence['n'], 'name')}; confidence = 1 − q, the false discovery rate it was named "
+            "at. "
             f"Bar: stated; dot: right; grey: exact 95 % band. Brier score {quantities.number(confidence['brier'], 2)}.",
         )
     }

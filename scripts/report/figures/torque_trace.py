@@ -1,4 +1,5 @@
-"""Measured and predicted torque with what is left of it below, one row per estimator on one scale: Fig. 6 of the seed."""
+"""Measured and predicted torque with what is left of it below, one row per estimator on one scale: Fig. 6 of the
+seed."""
 
 import numpy as np
 

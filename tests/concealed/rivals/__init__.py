@@ -1,6 +1,7 @@
 """Methods that others use, on the engine's own pipeline and columns (`torquescope diagnose --columns`).
 
-A rival is one file with `answer(columns) -> Answer` (columns.py) and one line here. None of them sees a truth or a twin.
+A rival is one file with `answer(columns) -> Answer` (columns.py) and one line here. None of them sees a truth or a
+twin.
 """
 
 from . import hac_wald, iid_f, lasso_cv, nested_friction, stlsq_ensemble

@@ -3,14 +3,16 @@
     columns = read("C.h5")            of `torquescope diagnose JOB --columns C.h5` (RESULT_FORMAT.md, /columns)
     answer = METHODS["iid_f"](columns)
 
-Rows are those the engine fits: filtered, decimated, reversals masked. The columns of each effect stand at the shape that
-explains most of the least-squares residual; `Candidate.df` charges a test for that search, as an extra-sum-of-squares test
-of nonlinear regression does (Bates, Watts 1988, section 3.5): its linear parameters and its shapes.
+Rows are those the engine fits: filtered, decimated, reversals masked. The columns of each effect stand at the shape
+that explains most of the least-squares residual; `Candidate.df` charges a test for that search, as an
+extra-sum-of-squares test of nonlinear regression does (Bates, Watts 1988, section 3.5): its linear parameters and its
+shapes.
 
-Timing comes first, as for anybody who is careful: a digital loop holds its torque for a sample, so that what is logged at the
-tick acts half a sample later (measured on drawn cases: -0.5 samples wherever nothing else bends it). Our twins know that
-from the loop. For the rivals a delay of at most one sample of the recording, either way, is a nuisance of the model and no
-finding (`aligned`); a longer one stays a candidate. Without this all of them name a delay on every clean recording.
+Timing comes first, as for anybody who is careful: a digital loop holds its torque for a sample, so that what is logged
+at the tick acts half a sample later (measured on drawn cases: -0.5 samples wherever nothing else bends it). Our twins
+know that from the loop. For the rivals a delay of at most one sample of the recording, either way, is a nuisance of the
+model and no finding (`aligned`); a longer one stays a candidate. Without this all of them name a delay on every clean
+recording.
 """
 
 import dataclasses

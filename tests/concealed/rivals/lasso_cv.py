@@ -2,10 +2,11 @@
 
 Columns   less what the baseline explains (it is not penalised), scaled to one length
 Folds     ten contiguous blocks with guard bands as wide as the filter reaches
-Penalty   the largest whose error is within one standard error of the least: the sparser of the two usual rules (the penalty
-          of least error names more); no hand-picked number
+Penalty   the largest whose error is within one standard error of the least: the sparser of the two usual rules (the
+          penalty of least error names more); no hand-picked number
 Names     effects with a coefficient that is not zero, by the energy of their torque; at most as many as the job allows
-Source    Tibshirani 1996; Hastie, Tibshirani, Friedman: Elements (2009) section 7.10 (one standard error); scikit-learn LassoCV
+Source    Tibshirani 1996; Hastie, Tibshirani, Friedman: Elements (2009) section 7.10 (one standard error); scikit-learn
+          LassoCV
 """
 
 import warnings

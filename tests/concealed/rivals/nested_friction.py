@@ -1,14 +1,15 @@
 """Friction models from simple to rich, the one with the least error on the unseen recording: the way of BAM.
 
-Models    Coulomb-viscous; Stribeck; load dependent; Stribeck and load dependent; the same with directional efficiency; the
-          same with quadratic drag: M1 to M6 of BAM in the catalogue's words. A model whose effect explains nothing in
-          training (not in the columns) is left out
-Choice    mean absolute error on the unseen recording, as BAM; the simplest model that the best does not beat by two standard
-          errors (ten blocks of the difference: what the engine asks of its own effects), else a clean joint would nearly
-          always be given a rich one. Without an unseen recording, the last fifth of the training recording stands in and the
-          rest is fitted
+Models    Coulomb-viscous; Stribeck; load dependent; Stribeck and load dependent; the same with directional efficiency;
+          the same with quadratic drag: M1 to M6 of BAM in the catalogue's words. A model whose effect explains nothing
+          in training (not in the columns) is left out
+Choice    mean absolute error on the unseen recording, as BAM; the simplest model that the best does not beat by two
+          standard errors (ten blocks of the difference: what the engine asks of its own effects), else a clean joint
+          would nearly always be given a rich one. Without an unseen recording, the last fifth of the training recording
+          stands in and the rest is fitted
 Can say   friction, nothing else: what is not friction it calls none, or friction
-Source    Duclusaud, Passault, Padois, Ly 2024: extended friction models for the physics simulation of servo actuators (BAM)
+Source    Duclusaud, Passault, Padois, Ly 2024: extended friction models for the physics simulation of servo actuators
+          (BAM)
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
 """Forward selection by a test, with Benjamini-Hochberg at every step: what the two testing rivals have in common.
 
-Each candidate alone beside the model is tested; all q at or below the level are discoveries, and the one that explains most
-of the residual goes into the model. Then what is left is tested again. Naming every discovery of the first step instead would
-name all relatives of one effect; steps are the kinder reading. The first step is the plain procedure: on a clean recording
-both name something or neither does.
+Each candidate alone beside the model is tested; all q at or below the level are discoveries, and the one that explains
+most of the residual goes into the model. Then what is left is tested again. Naming every discovery of the first step
+instead would name all relatives of one effect; steps are the kinder reading. The first step is the plain procedure: on
+a clean recording both name something or neither does.
 """
 
 import numpy as np
@@ -23,8 +23,8 @@ def benjamini_hochberg(p):
 
 
 def explained(group, residual):
-    """Energy of the residual in the span of columns that are orthogonal to the model already; columns they leave nothing of
-    are dropped. -> (energy, orthonormal basis)"""
+    """Energy of the residual in the span of columns that are orthogonal to the model already; columns they leave
+    nothing of are dropped. -> (energy, orthonormal basis)"""
     u, s, _ = np.linalg.svd(group / np.maximum(np.linalg.norm(group, axis=0), 1e-300), full_matrices=False)
     u = u[:, s > 1e-6 * s[0]] if s.size and s[0] > 0.0 else u[:, :0]
     return float(np.sum((u.T @ residual) ** 2)), u

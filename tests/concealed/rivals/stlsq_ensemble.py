@@ -1,13 +1,15 @@
 """Sequentially thresholded least squares on bootstrapped rows: the way of PySINDy's ensembles.
 
-Fit       ridge 0.05 (PySINDy's default) on columns of unit mean square, without what the baseline explains; columns below the
-          threshold go, the rest is fitted again, until none goes
+Fit       ridge 0.05 (PySINDy's default) on columns of unit mean square, without what the baseline explains; columns
+          below the threshold go, the rest is fitted again, until none goes
 Threshold in units of the residual's rms: the largest of a grid whose error on ten blocked folds is within one standard
           error of the least, as for LASSO; PySINDy leaves it to its user
-Ensemble  20 fits (PySINDy's default) on rows drawn with replacement; an effect is named when one of its columns is in more
-          than 60 % of them (the published inclusion), strongest median torque first, at most as many as the job allows
+Ensemble  20 fits (PySINDy's default) on rows drawn with replacement; an effect is named when one of its columns is in
+          more than 60 % of them (the published inclusion), strongest median torque first, at most as many as the job
+          allows
 Random    numbers of one fixed seed: the same answer every time
-Source    Brunton, Proctor, Kutz 2016; Fasel, Kutz, Brunton, Brunton 2022 (E-SINDy); PySINDy 1.7 STLSQ, EnsembleOptimizer
+Source    Brunton, Proctor, Kutz 2016; Fasel, Kutz, Brunton, Brunton 2022 (E-SINDy); PySINDy 1.7 STLSQ,
+          EnsembleOptimizer
 """
 
 import numpy as np

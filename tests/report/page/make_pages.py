@@ -1,4 +1,5 @@
-"""Builds the page of every kind once, for the tests that ctest tells where they are (support.py):  make_pages.py FOLDER"""
+"""Builds the page of every kind once, for the tests that ctest tells where they are (support.py): make_pages.py
+FOLDER"""
 
 import shutil
 import sys

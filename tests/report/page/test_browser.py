@@ -59,11 +59,15 @@ const seen = (e) => { const b = e.getBoundingClientRect(); return b.width > 0 &&
 const small = [], outside = [], overlapping = [], empty = [], tainted = [];
 for (const svg of [...document.querySelectorAll('figure svg')].filter(seen)) {
   const name = svg.closest('figure').id;
-  const marks = [...svg.querySelectorAll('path,use,rect,circle')].filter((e) => { const b = e.getBoundingClientRect(); return b.width + b.height > 0; });
+  const marks = [...svg.querySelectorAll('path,use,rect,circle')].filter((e) => {
+    const b = e.getBoundingClientRect();
+    return b.width + b.height > 0;
+  });
   if (!marks.length) empty.push(name);
   const texts = [...svg.querySelectorAll('text')].filter(seen).map((e) => {
     const b = e.getBoundingClientRect();
-    return {text: e.textContent, l: b.left, r: b.right, t: b.top, b: b.bottom, size: parseFloat(getComputedStyle(e).fontSize) * b.height / e.getBBox().height,
+    return {text: e.textContent, l: b.left, r: b.right, t: b.top, b: b.bottom,
+            size: parseFloat(getComputedStyle(e).fontSize) * b.height / e.getBBox().height,
             colour: getComputedStyle(e).fill};
   });
   for (const t of texts) {
@@ -75,7 +79,8 @@ for (const svg of [...document.querySelectorAll('figure svg')].filter(seen)) {
   }
   for (let i = 0; i < texts.length; i++) for (let j = i + 1; j < texts.length; j++) {
     const a = texts[i], b = texts[j];
-    if (Math.min(a.r, b.r) - Math.max(a.l, b.l) > arguments[1] && Math.min(a.b, b.b) - Math.max(a.t, b.t) > arguments[1] + 2)
+    const across = Math.min(a.r, b.r) - Math.max(a.l, b.l), down = Math.min(a.b, b.b) - Math.max(a.t, b.t);
+    if (across > arguments[1] && down > arguments[1] + 2)
       overlapping.push([name, a.text, b.text]);
   }
 }
@@ -166,7 +171,8 @@ class Page(unittest.TestCase):
             "f.zoomTo(a, b).then(() => done());", figure, start, stop)
 
     def assert_little_is_drawn(self, figure):
-        """However many samples a window has: every line of the width that is shown is drawn once, with a few points per pixel."""
+        """However many samples a window has: every line of the width that is shown is drawn once, with a few points per
+        pixel."""
         for window in ((0, 60), (5, 50), (20, 20.5)):
             for part, is_shown, times, points, pieces, pixels in self.browser.execute_async_script(
                 DRAWN_BY_A_ZOOM, figure, *window
@@ -183,7 +189,8 @@ class Page(unittest.TestCase):
 
     def drawn(self, part, figure="torque_trace_train"):
         return self.script(
-            "return [...document.querySelectorAll(`#${arguments[1]} svg[data-layout]`)].find((s) => s.getBoundingClientRect()"
+            "return [...document.querySelectorAll(`#${arguments[1]} svg[data-layout]`)].find((s) => "
+            "s.getBoundingClientRect()"
             ".width)?.querySelector(`[data-part=\"${arguments[0]}\"] path`).getAttribute('d')",
             part,
             figure,
@@ -206,7 +213,8 @@ class Page(unittest.TestCase):
             self.assertAlmostEqual(first[0], second[0], delta=2)
 
     def test_zooming_out_keeps_every_spike(self):
-        """The lowest and highest residual of the minute are drawn where they are, however many samples share a pixel."""
+        """The lowest and highest residual of the minute are drawn where they are, however many samples share a
+        pixel."""
         self.open("many")
         study = support.study("many")
         residual = study.train.torque - study.train.prediction(study.estimators[0].chosen)
@@ -225,7 +233,8 @@ class Page(unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                      {"width": 400, "height": 900, "deviceScaleFactor": 1, "mobile": True})
         ticks = self.browser.execute_async_script(
-            "const done = arguments[0], svg = document.querySelector('#torque_trace_train svg.narrow'), began = performance.now();"
+            "const done = arguments[0], svg = document.querySelector('#torque_trace_train svg.narrow'), began = "
+            "performance.now();"
             "const read = () => [...svg.querySelectorAll('text')].map((t) => t.textContent);"
             "const look = () => read().includes('1.50') || read().includes('1.5') || performance.now() - began > 3000"
             " ? done(read()) : requestAnimationFrame(look); look();"
@@ -286,15 +295,18 @@ class Page(unittest.TestCase):
             "const done = arguments[0], began = performance.now();"
             "const look = () => { const told = document.querySelector('#copy-verdict + output').textContent;"
             "const open = document.querySelector('#copy-verdict').parentElement.nextElementSibling.open;"
-            "told || open || performance.now() - began > 3000 ? done([told, open]) : requestAnimationFrame(look); }; look();"
+            "told || open || performance.now() - began > 3000 ? done([told, open]) : requestAnimationFrame(look); "
+            "}; look();"
         )
         self.assertIn(told, (["copied", False], ["", True]))
 
     def wait_for_zoom(self, before):
         self.browser.execute_async_script(
             "const [before, done] = arguments; const began = performance.now();"
-            "const look = () => { const d = document.querySelector('#torque_trace_train svg.wide [data-part=measured] path')"
-            ".getAttribute('d'); d !== before || performance.now() - began > 3000 ? done() : requestAnimationFrame(look); }; look();",
+            "const look = () => "
+            "{ const d = document.querySelector('#torque_trace_train svg.wide [data-part=measured] path')"
+            ".getAttribute('d'); d !== before || performance.now() - began > 3000 ? done() : "
+            "requestAnimationFrame(look); }; look();",
             before,
         )
         return self.drawn("measured")

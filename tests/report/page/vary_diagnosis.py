@@ -1,4 +1,5 @@
-"""Diagnoses the invented ones do not show: a minute at 1 kHz, two joints, hardly anything measured, effects side by side."""
+"""Diagnoses the invented ones do not show: a minute at 1 kHz, two joints, hardly anything measured, effects side by
+side."""
 
 import numpy as np
 

@@ -1,10 +1,13 @@
 """A user's own simulator (MuJoCo) beside a recording of a joint that has more friction than the simulator knows.
 
-    example.py inverse   TORQUESCOPE MAKE_CASE SIMULATE CONCEALED OUT    the column holds what the model says, the job reads it
-    example.py diagnosis TORQUESCOPE MAKE_CASE SIMULATE CONCEALED OUT    real - simulated gives the concealed effect its name
+    example.py inverse   TORQUESCOPE MAKE_CASE SIMULATE CONCEALED OUT the column holds what the model says, the job
+                         reads it
+    example.py diagnosis TORQUESCOPE MAKE_CASE SIMULATE CONCEALED OUT    real - simulated gives the concealed effect its
+                                                                         name
 
-SIMULATE is the program made of simulated_torque.cpp, "" where MuJoCo is not installed: exit code 77, skipped. CONCEALED is the
-folder of tests/concealed, whose scorer judges. The sealed case is an elbow; elbow.xml is its model with numbers 5 % off.
+SIMULATE is the program made of simulated_torque.cpp, "" where MuJoCo is not installed: exit code 77, skipped. CONCEALED
+is the folder of tests/concealed, whose scorer judges. The sealed case is an elbow; elbow.xml is its model with numbers
+5 % off.
 """
 
 import os
