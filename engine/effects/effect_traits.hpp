@@ -1,7 +1,5 @@
 #pragma once
-// What kind of thing an effect is: words that search, report and catalogue share.
-//
-// Source     PHYSICS.md section 1 (equivalence families, signature axes)
+// What kind of thing an effect is: words that search, report and catalogue share (effects/README.md lists them all).
 
 #include <string>
 

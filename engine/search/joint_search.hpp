@@ -1,9 +1,9 @@
 #pragma once
-// The whole search on one recording: names among the rows that move one way, the torque channel's time within a sample,
-// and the reversals.
+// The whole search on one recording: rows that move one way, time of the torque channel within a sample, reversals.
 //
 // Threads    as the stages
 // Errors     as select_effects
+// Source     METHOD.md, The search
 
 #include "engine/search/abstention.hpp"
 #include "engine/search/forward_selection.hpp"

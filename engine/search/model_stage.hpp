@@ -1,9 +1,9 @@
 #pragma once
-// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes
-// a new stage, twins included, for a mismatch means nothing against twins of another model.
+// One model on one recording with its replicates: where a step of the search begins. Every accepted effect makes a new
+// stage with new replicates, since a mismatch means nothing against replicates of another model.
 //
-// Threads    spreads twins over `threads`; same bits for any number; a stage is a plain record
-// Source     LESSONS items 5, 8, 13 of our own prototype
+// Threads    spreads replicates over `threads`; same bits for any number; a stage is a plain record
+// Source     METHOD.md, Replicates
 
 #include <cstdint>
 #include <memory>

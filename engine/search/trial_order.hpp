@@ -1,15 +1,13 @@
 #pragma once
-// In which order candidates with a refined shape are tried for a name, and whether they help where they were not
-// fitted.
+// In which order refined candidates are tried, and whether they help where they were not fitted.
 //
-// Order      most gain first. Something that acts all the time and explains, on blocks it was not fitted to, half as
-//            much and no less than what happens once does there comes before that, for it fits any one peak. Among
-//            those that give 97 % of the first one's gain, another wave of what is named already first, then fewer
-//            parameters, those of a law's plain form (Effect::has_plain_form) where that gives as much
-// Elsewhere  t >= 2 over blocks, or half of the gain there: an effect that acts in few places gains in few blocks, so
-//            that its spread says nothing
+// Order      most gain first. What acts all the time comes before an event, when it explains half as much on blocks it
+//            was not fitted to and no less than the event does there. Within 97 % of the first one's gain: another wave
+//            of what is accepted, then fewer parameters (those of a plain form, Effect::has_plain_form, where that
+//            does)
+// Elsewhere  t >= 2 over blocks, or half of the gain there: what acts in few places gains in few blocks
 // Threads    free functions
-// Source     LESSONS items 9, 11 and 17 of our own prototype
+// Source     METHOD.md, Refinement and choice
 
 #include <limits>
 #include <optional>

@@ -93,7 +93,7 @@ TrackedJoint fitted_joint(JointModel const& model, Eigen::VectorXd const& parame
 }
 
 // As its controller knows it: without what effects of the torque channel add, for it never saw a fault of the
-// measurement (LESSONS item 16)
+// measurement
 struct InLoop {
   Recording recording;
   NeededTorque needed_torque;

@@ -3,7 +3,7 @@
 // its first 5 %.
 //
 // Refits     only beyond three standard errors, neighbours of a row repeating each other (autoregression of order 1)
-// Shapes     residuals, columns: rows of the unseen recording; parameters: of the whole model
+// Shapes     residuals, columns: rows of the validation recording; parameters: of the whole model
 // Units      SI
 // Threads    free functions
 

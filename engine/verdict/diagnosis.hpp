@@ -2,11 +2,11 @@
 // What a diagnosis found about one joint: everything the verdict, the page and the result file are written from.
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
-// Unknown    NaN: not measured (no unseen recording, no repeated laps, no reference to simulate with)
+// Unknown    NaN: not measured (no validation recording, no repeated laps, no reference to simulate with)
 // relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all
 //            but rests where `rows` says so
 // Threads    plain records
-// Source     DESIGN.md section 1 (verdict JSON); PHYSICS.md section 2 (abstention ladder)
+// Source     diagnose/METHOD.md, Verdict; as JSON: run/diagnosis_json.hpp; as HDF5: store/RESULT_FORMAT.md
 
 #include <Eigen/Core>
 #include <cstddef>

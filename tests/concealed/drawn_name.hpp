@@ -2,13 +2,13 @@
 // Names of drawn cases: everything about such a case follows from its name.
 //
 // Grammar    TIER:WORDS:SIZE:SEED, WORDS joined by +, for example
-//              T0:17                          clean
-//              T1:stribeck:0.5:3              one effect at SNR_eff 0.5
-//              T2:stribeck+cable:2:8          two effects, each at SNR_eff 2 when alone;  T3 likewise three
-//              T4:outside_sloshing:2:5        physics the catalogue does not hold
-//              T5:one_speed+stribeck:2:9      weak motion; a rich one of the same rig would show the effect at SNR_eff
-//              2 T6:filter:4                    a decoy of measurement, no physics concealed T7:noise:6,
-//              T7:gains+spring:2:7  a rig out of the ordinary, clean or with one effect
+//              T0:17                            clean
+//              T1:stribeck:0.5:3                one effect at SNR_eff 0.5
+//              T2:stribeck+cable:2:8            two effects, each at SNR_eff 2 when alone;  T3 likewise three
+//              T4:outside_sloshing:2:5          physics the catalogue does not hold
+//              T5:one_speed+stribeck:2:9        weak motion; a rich one of the same rig would show the effect at
+//            SNR_eff 2 T6:filter:4                      a decoy of measurement, no physics concealed
+//              T7:noise:6, T7:gains+spring:2:7  a rig out of the ordinary, clean or with one effect
 // Folder     twelve hexadecimal digits that tell nothing; the truth file holds the name
 // Errors     std::invalid_argument with what to write instead
 

@@ -3,7 +3,7 @@
 A reported effect answers a true one exactly (its name), by class (the true name among its equivalents) or by family (its
 family is one of those the catalogue puts the true effect into: the own one and those it is also confused with).
 Each reported effect answers at most one true effect, better levels first; one that answers none is a false name.
-A law whose form is not the catalogue's is found when its family is found (PHYSICS.md section 4).
+A law whose form is not the catalogue's is found when its family is found.
 Guesses are what is named and then the ranking, without repeats: a true effect's rank is the place of the first guess of its family.
 The main parameter is the first the truth lists; of a pair called ..._sin and ..._cos the vector counts, not its turn.
 Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no physics)

@@ -1,10 +1,21 @@
-"""What a reader would trip over: OpenMP outside its one file, sources no target lists, machine paths, unfinished promises."""
+"""What a reader would trip over: OpenMP outside its one file, sources no target lists, references to documents that are
+not in the tree, leading comments that are pages, old notes above tests that pass."""
 
 import pathlib
 import re
+import subprocess
 import sys
 
 PRAGMA_HOME = "engine/base/parallel.cpp"
+FOLDERS = ("engine", "kernels", "tests", "bench", "scripts", "jobs")
+SOURCES = (".hpp", ".cpp", ".h", ".py", ".in", ".txt", ".cmake", ".toml", ".sh", ".html", ".js", ".css", ".yml", "")
+LONGEST_HEADER = 15  # comment lines; what is longer is a page: engine/diagnose/METHOD.md, or a comment where it belongs
+METHOD = "engine/diagnose/METHOD.md"
+
+DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
+SECTION = re.compile(r"\bMETHOD\.md, ([A-Z][\w ,'-]*)")
+PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) |\bour own prototype\b")
+FAILS = re.compile(r"^\s*(?://|#) fails:", re.MULTILINE)
 
 
 def listed(path, cmake_text):
@@ -12,8 +23,70 @@ def listed(path, cmake_text):
     return re.search(rf"\b{re.escape(path.name)}\b|\b{re.escape(path.stem)}\b", cmake_text) is not None
 
 
+def as_prose(text):
+    """Comments that continue in the next line as one line."""
+    return re.sub(r"\n[ \t]*(?://|#)[ \t]+", " ", text)
+
+
+def leading_comments(text):
+    """Lines of the first comment of a C++ file."""
+    count = 0
+    for line in text.splitlines():
+        if line.startswith("//"):
+            count += 1
+        elif count or (line.strip() and not line.startswith("#pragma once")):
+            break
+    return count
+
+
+def absent_documents(text, documents):
+    """Names of documents that are none: `documents` are paths, a name may leave out leading folders."""
+    names = {re.sub(r"^(?:\.{1,2}/)+", "", found) for found in DOCUMENT.findall(text)}
+    return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in documents))
+
+
+def unknown_sections(text, headings):
+    """Sections of METHOD.md that sources name and that it does not have."""
+    return [found for found in SECTION.findall(as_prose(text)) if not any(found.startswith(one) for one in headings)]
+
+
+def complaints(name, text, documents, headings):
+    """What is wrong with one source file of the tree."""
+    found = [f"{name}: names {one}, which is not in the tree" for one in absent_documents(text, documents)]
+    found += [f"{name}: {METHOD} has no section \"{one}\"" for one in unknown_sections(text, headings)]
+    found += [f"{name}: \"{one.strip()}\" is not in the tree" for one in PRIVATE.findall(as_prose(text))]
+    if FAILS.search(text):
+        found.append(f"{name}: \"fails:\" above a test that is enabled; say what holds")
+    if name.endswith((".hpp", ".cpp", ".h")) and leading_comments(text) > LONGEST_HEADER:
+        found.append(f"{name}: {leading_comments(text)} leading comment lines, {LONGEST_HEADER} at most")
+    return found
+
+
+def teeth():
+    """The checks themselves find what they are for, and nothing else."""
+    md = ".md"
+    assert absent_documents(f"see LESSONS{md} and b/NOTES{md}", [f"a/NOTES{md}"]) == [f"LESSONS{md}", f"b/NOTES{md}"]
+    assert absent_documents(f"see ../a/NOTES{md}, NOTES{md}", [f"a/NOTES{md}"]) == []
+    assert unknown_sections(f"// METHOD{md}, The\n// search: {md}", ["The search"]) == []
+    assert unknown_sections(f"// METHOD{md}, The riddle", ["The search"]) == ["The riddle"]
+    assert PRIVATE.search("LESSONS" + " item 3") and not PRIVATE.search("the lessons of item 3")
+    assert leading_comments("#pragma once\n// a\n//\n// b\n\n// c\n") == 3
+    assert FAILS.search("// " + "fails: because") and not FAILS.search("// what fails: nothing")
+
+
+def tracked(root):
+    """Files of the tree: those of git, or without it all that are no build."""
+    try:
+        names = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"], capture_output=True,
+                               text=True, check=True).stdout.splitlines()
+    except (OSError, subprocess.CalledProcessError):
+        names = [p.relative_to(root).as_posix() for p in root.rglob("*") if p.is_file()]
+    return sorted(n for n in names if not n.startswith(("build/", ".git/")) and (root / n).is_file())
+
+
 def main(root):
     root = pathlib.Path(root)
+    teeth()
     found = []
     for folder in ("engine", "kernels", "tests", "bench"):
         for path in sorted((root / folder).rglob("*.cpp")):
@@ -27,7 +100,14 @@ def main(root):
     for path in root.rglob("CMakeLists.txt"):
         if "build" not in path.parts and re.search(r"file\s*\(\s*GLOB", path.read_text()):
             found.append(f"{path.relative_to(root)}: sources are listed, not globbed")
-    print("\n".join(found) or "sources are listed, pragmas are at home")
+    names = tracked(root)
+    documents = [name for name in names if name.endswith(".md")]
+    headings = re.findall(r"^#+ (.+)$", (root / METHOD).read_text(), re.MULTILINE)
+    for name in names:
+        path = pathlib.PurePosixPath(name)
+        if path.parts[0] in FOLDERS and path.suffix in SOURCES:
+            found += complaints(name, (root / name).read_text(errors="replace"), documents, headings)
+    print("\n".join(found) or "sources are listed, pragmas are at home, documents exist, leading comments are short")
     return 1 if found else 0
 
 
