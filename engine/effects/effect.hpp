@@ -41,7 +41,7 @@ struct EffectParameter {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
   }
   Sign sign() const { return lower.factor == 0.0 ? Sign::non_negative : Sign::any; }
-  // what the parameter is, told by what its bounds are relative to
+  // what the parameter is, by what its bounds are relative to
   bool is_instant() const { return is_shape && lower.to == RelativeTo::instant; }              // of this recording
   bool is_order() const { return is_shape && lower.to == RelativeTo::lowest_order; }           // waves per turn or m
   bool is_frequency() const { return is_shape && lower.to == RelativeTo::slowest_frequency; }  // waves per second
@@ -87,7 +87,7 @@ struct EffectInput {
 class EffectRunner {
  public:
   virtual ~EffectRunner() = default;
-  // the joint has come to `state`, step_s after the last one told (0: it starts there)
+  // the joint has come to `state`, step_s after the last one (0: it starts there)
   virtual void advance(JointState const& state, double step_s) = 0;
   // with the memory as it stands; affine in ddq unless the effect follows the load
   virtual double torque(JointState const& state) const = 0;
@@ -102,7 +102,7 @@ struct EffectDescription {
   std::string title{};
   std::string equation{};
   std::string source{};
-  std::string separated_by{};  // the motion that tells it from those it is confused with; empty for baseline terms
+  std::string separated_by{};  // the motion that separates it from those it is confused with; empty for baseline terms
   std::vector<EffectParameter> parameters{};
   std::vector<EffectFamily> families{EffectFamily::baseline};  // own one first, then those it is also confused with
   std::vector<SignatureAxis> signature{};                      // principal axis first

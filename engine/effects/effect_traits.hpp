@@ -5,7 +5,7 @@
 
 namespace torquescope {
 
-// effects that imitate one another; when the member cannot be told, the family is named
+// effects that imitate one another; when the member cannot be identified, the family is reported
 enum class EffectFamily {
   baseline,         // part of the model one starts from
   reversal,         // shows where the joint turns round

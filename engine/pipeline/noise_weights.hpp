@@ -18,7 +18,7 @@
 
 namespace torquescope {
 
-// wander on one set of rows, ready to be taken off
+// friction random walk on one set of rows, ready to be projected out
 struct WanderOnRows {
   Eigen::MatrixXd modes{};   // rows x K
   Eigen::MatrixXd shrink{};  // K x K: signals - modes * shrink * modes' * signals
@@ -29,7 +29,7 @@ class NoiseWeights {
   NoiseWeights() = default;  // all rows alike
   explicit NoiseWeights(RowWhitening rows) : rows_(std::move(rows)) {}
 
-  // the same with friction that wanders
+  // the same with a friction random walk
   NoiseWeights with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const;
 
   bool are_equal() const { return rows_.is_identity() && !wanders(); }

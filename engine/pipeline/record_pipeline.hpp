@@ -79,7 +79,7 @@ class RecordPipeline {
   bool whitens() const { return weights_ && !weights_->are_equal(); }
   // signals on rows, in place
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
-  // the same without a thought of friction that wanders: what that wander is measured on
+  // the same without the friction random walk: what that walk is measured on
   void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;

@@ -35,7 +35,7 @@ struct RecordedLoop {
   std::string remark{};
 };
 
-// by the model, one per sample; asked for where some samples are limited
+// by the model, one per sample; needed where some samples are limited
 using NeededTorque = std::function<Eigen::VectorXd(std::vector<LimitedSample> const&)>;
 
 // joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows; needed_torque: none

@@ -20,15 +20,15 @@ struct Remainder {
   double share = 0.0;  // of the first excess that the final model leaves
   bool is_significant = false;
   std::vector<GenericAxis> axes{};  // of what is left, strongest first; empty when nothing is
-  bool is_named_enough = true;      // the names explain two thirds, or what they leave may be chance (z below 3)
+  bool is_named_enough = true;      // effects explain two thirds, or what they leave may be chance (z below 3)
   bool is_unexplained = false;
-  bool is_most_left = false;  // the reason for that: the names explain less than half
+  bool is_most_left = false;  // the reason for that: the accepted effects explain less than half
 };
 
 // selection: with its baseline
 Remainder judge_remainder(Selection const& selection, ModelStage const& final);
 
-// Where to look for what has no name: of the regions of a map the five that tell most, first the one whose share of the
+// Where unexplained torque is: of the regions of a map the five with most information, first the one whose share of the
 // energy is most surprising for its share of the time (the scan statistic of Kulldorff 1997); of spectra the stretch
 // that is so for its width and its share of the torque
 std::vector<UnexplainedPart> largest_parts(std::vector<MapAxis> const& map);

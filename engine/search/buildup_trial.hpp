@@ -23,7 +23,7 @@ namespace torquescope {
 // remembers where it turned, and nothing else
 bool is_buildup(Effect const& effect);
 
-// on rows with reversals, beside what is named
+// on rows with reversals, beside the accepted effects
 struct BuildupLook {
   ModelStage const& rows;
   BaselineReference reference;

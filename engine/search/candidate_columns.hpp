@@ -25,7 +25,7 @@ enum class DrivenBy { twin, recording };
 
 class CandidateColumns {
  public:
-  // parameters: of the pipeline's model, for the tangents; reference: what candidates are told of the baseline
+  // parameters: of the pipeline's model, for the tangents; reference: what candidates need to know of the baseline
   // without: this effect of the model is no nuisance, it is one of the candidates; none: all are
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison, BaselineReference reference,

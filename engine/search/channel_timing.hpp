@@ -34,7 +34,7 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
 Recording with_torque_earlier(Recording recording, double late_s);
 
 // Whether in the torque put back in time a law leaves more than twice the noise (variance) that as_read's left in the
-// torque as it was read: then the rows are those in which the controller wrote it. Without a reference nobody knows:
+// torque as it was read: then the rows are those in which the controller wrote it. Without a reference this is unknown:
 // false
 bool loses_the_law(RecordedLoop const& as_read, Recording const& in_time);
 

@@ -13,7 +13,7 @@
 
 namespace torquescope {
 
-// columns: of the stage.  named: an effect of its model; named_gain: in the stage's unit of energy
+// columns: of the stage.  named: an accepted effect of its model; named_gain: in the stage's unit of energy
 bool is_form_of(ShapedEffect const& named, double named_gain, RefinedEffect const& candidate, ModelStage const& stage,
                 CandidateColumns const& columns);
 

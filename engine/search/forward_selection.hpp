@@ -25,7 +25,7 @@ struct SelectionOptions {
   double q = 0.05;
   std::size_t max_effects = 5;
   std::string shape_optimiser = "de";
-  bool only_gate = false;  // whether something is missing; nothing is named
+  bool only_gate = false;  // only whether something is missing; no effect is accepted
 };
 
 struct AcceptedEffect {
@@ -35,7 +35,7 @@ struct AcceptedEffect {
   double gain = 0.0;                    // energy of the mismatch it explained there, in the unit of the first step
   double cv_gain = 0.0;                 // the same on blocks it was not fitted to
   double region_gain = 0.0;             // share of the gain where it acts
-  std::optional<LateTorque> instead{};  // beside the effects named before it: by itself, with none
+  std::optional<LateTorque> instead{};  // beside the effects accepted before it; by itself, with none
 };
 
 // why a refined candidate was not taken
@@ -80,7 +80,7 @@ double energy_about_true_mean(ModelStage const& stage);
 // hierarchical, of each scan
 std::vector<double> q_of(std::vector<EffectScan> const& scans);
 
-// told before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
+// called before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
 using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
 
 Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress);

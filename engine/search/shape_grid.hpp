@@ -32,7 +32,7 @@ struct ShapeGrid {
 
 ShapeGrid shape_grid(Effect const& effect, JointScales const& scales);
 
-// on the recording's own motion; nothing for an effect without a resonance
+// on the recorded motion; nothing for an effect without a resonance
 std::optional<ShapeGrid> resonance_grid(Effect const& effect, JointScales const& scales);
 
 // unit scale <-> parameter

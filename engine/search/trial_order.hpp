@@ -24,20 +24,20 @@ struct Trial {
   double q = 1.0;
   RefinedEffect refined;
   DrivenBy driven_by = DrivenBy::twin;  // whose motion the refined shape was found on (own_motion.hpp)
-  std::optional<RefinedEffect> own{};   // on the recording's own motion, where `refined` is not that
+  std::optional<RefinedEffect> own{};   // on the recorded motion, where `refined` is not
   BlockedGain cv{};
   double most_in_a_block = 0.0;  // of the refined effect's energy
   bool is_named = false;         // already: another wave of it is no new kind of physics
   double region_share =
       std::numeric_limits<double>::quiet_NaN();  // of its gain, where it acts (region_consistency.hpp)
-  std::optional<LateTorque> instead{};           // beside the effects named before
+  std::optional<LateTorque> instead{};           // beside the effects accepted before
 };
 
 std::vector<Trial> in_order_of_trial(std::vector<Trial> trials);
 
 bool helps_elsewhere(BlockedGain const& cv, double gain);
 
-// Nothing in other blocks of time can speak for it: it begins at an instant, or it reaches its limit mostly in one
+// Other blocks of time cannot confirm it: it begins at an instant, or it reaches its limit mostly in one
 // block, and what is left of it elsewhere does not help. For its refusal; the order above asks for instants alone
 bool happens_once(Trial const& trial);
 

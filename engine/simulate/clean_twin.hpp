@@ -33,7 +33,7 @@ struct TwinLoop {
   // standard error of both their variances, as a share: every twin draws a level of its own
   double torque_noise_variance_error = 0.0;
   double disturbance_std = 0.0;  // N m or N, white from tick to tick, acting on the joint
-  // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
+  // standard error of its square: every replicate draws its own level, so that the null holds this uncertainty
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder
   // the level of dry friction as a random walk: standard deviation of its change in one second, as a share of it; every

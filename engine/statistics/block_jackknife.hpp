@@ -4,8 +4,8 @@
 //
 // Equation   std^2 = (B - 1) / B sum_b (theta_b - mean theta)^2, theta_b without block b of B = 10 blocks of
 //            consecutive rows
-// Left out   for a coefficient: blocks that hold more than half of its column's energy (what happens once cannot be
-//            asked twice); 0 when fewer than half of the blocks remain
+// Left out   for a coefficient: blocks that hold more than half of its column's energy (an event occurs in
+//            one block only); 0 when fewer than half of the blocks remain
 // Shapes     signal: n rows, columns: n x k; result: k, in the units of the coefficients; n >= 10
 // Threads    free function
 // Source     delete-a-group jackknife: Shao, Tu 1995, section 2.3, doi:10.1007/978-1-4612-0795-5

@@ -30,7 +30,7 @@ struct TwinLevels {
   Eigen::VectorXd parameters;  // to begin the correction with
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
-  std::optional<TorqueColour> colour{};  // where no controller tells it
+  std::optional<TorqueColour> colour{};  // where no controller separates it
 };
 
 struct TwinOptions {
@@ -50,7 +50,7 @@ struct BaselineTwin {
   BaselineCorrection baseline;
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
-  std::optional<TorqueColour> colour;  // of the torque noise, where no controller tells it
+  std::optional<TorqueColour> colour;  // spectrum of the torque noise, where no controller separates it
   CleanTwin twin;
 };
 
@@ -58,7 +58,7 @@ inline constexpr std::uint32_t first_free_twin_set = 3;
 
 TwinLevels levels_of(BaselineTwin const& made);
 
-// the wander of dry friction once more, under the weights that the pipeline has now
+// the friction random walk once more, under the weights that the pipeline has now
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
                            TwinOptions const& options, TwinWorkers const& workers);
 

@@ -43,7 +43,7 @@ class FrictionWander {
   Eigen::VectorXd friction_;  // kept samples: torque of dry friction
 };
 
-// the wander that the twin has already is not used
+// a random walk that the twin has already is not used
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
                            WanderReading reading, TwinAddress const& address, std::size_t twins,
                            TwinWorkers const& workers);

@@ -1,5 +1,5 @@
 #pragma once
-// The spectrum of the torque noise where no controller tells it: how much is white, how much slow, and how slow.
+// The spectrum of the torque noise where no controller separates it: a white part and a slow part with its corner.
 //
 // Model      white noise plus white noise through one pole (corner_hz), both added to the recorded torque only
 // Equation   octave energies (octave_energies.hpp) of the recording = those of replicates without torque noise + those
@@ -22,7 +22,7 @@ struct TorqueColour {
   double white_std = 0.0;
   double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
   double variance_error = 0.0;             // standard error of both variances, as a share: of the octave known worst
-  // chance that noise of this colour has energies so unlike its own (deviance, chi squared): a line or a hump in the
+  // p-value of energies as far from this spectrum (deviance, chi squared): a line or a hump in the
   // spectrum is no memory of an amplifier
   double misfit_p = 1.0;
   bool ran_away = false;

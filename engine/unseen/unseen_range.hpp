@@ -17,11 +17,11 @@
 
 namespace torquescope {
 
-// where the names' training motion kept to, when only what is beyond speaks against them
+// the range of the training motion, when only rows beyond it refute the accepted effects
 std::optional<MotionRange> spoils_only_beyond(StageSetting const& setting, std::span<Recording const> unseen,
                                               Selection const& selection);
 
-// the verdict then; joint: with the names and the relative errors of the unseen recordings
+// the verdict then; joint: with the accepted effects and the relative errors of the validation recordings
 Hopeless too_narrow(JointDiagnosis const& joint, MotionRange const& trained);
 
 }  // namespace torquescope

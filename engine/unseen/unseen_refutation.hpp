@@ -14,18 +14,18 @@
 
 namespace torquescope {
 
-// of the torque that the names add, on one stretch of rows: its own energy, and its product with what is left without
-// the names
+// of the torque that the accepted effects add, on one stretch of rows: its energy, and its product with the baseline's
+// residual
 struct AddedTorque {
   double energy = 0.0, found = 0.0;
 };
 
 struct UnseenEnergies {
   PredictionEnergies found{};
-  // that twins with the names leave; 0 where they run away, which a right law's do not; NaN: unknown
+  // that replicates with the effects leave; 0 where they diverge, which a right law's do not; NaN: unknown
   double floor = 0.0;
   std::vector<AddedTorque> blocks{};  // of all recordings
-  // of twins that have the names, predicted as the recordings are, over all of these; empty: not known
+  // of replicates that have the effects, predicted as the recordings are, over all of these; empty: not known
   std::vector<PredictionEnergies> twins{};
 };
 
@@ -35,10 +35,10 @@ inline constexpr double enough_moved = 0.1;  // of the residual: less says nothi
 double least_by_chance(std::vector<PredictionEnergies> const& twins);
 
 bool speak_against(UnseenEnergies const& energies);
-// the same of names that both recordings say are not all: they must keep half of what twins promise, too
+// the same of effects that are a part only, by training and validation: they must also keep half of the promise
 bool speak_against_a_part(UnseenEnergies const& energies);
 
-// of the residuals without and with the names, in equal stretches
+// of the residuals without and with the accepted effects, in equal stretches
 std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after);
 
 // the sums, twin by twin; empty where those of one recording are

@@ -7,7 +7,7 @@
 // Restart    same population, new mean: when the distribution collapsed, or 100 + 100 R^1.5 / NP generations found
 //            nothing better. A growing population (IPOP) has no end that the result file could make room for
 // Cut batch  an evaluation budget ends with it: its best counts, the distribution learns nothing
-// Population the candidates told last; F, CR, PC, FC are NaN
+// Population the candidates last passed to tell(); F, CR, PC, FC are NaN
 // Random     sample of member i in generation t: stream (key, t, i); a start's mean: the last stream of its generation
 // Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016); restart: pycma's tolstagnation
 

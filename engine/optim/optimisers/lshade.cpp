@@ -176,7 +176,7 @@ class Lshade final : public GenerationalSearch {
   RandomKey key_;
   SuccessHistory history_;
   MemberArchive archive_;
-  std::size_t to_keep_;  // of the generation just told
+  std::size_t to_keep_;  // of the last generation passed to tell()
 };
 
 MakeSearch configure_lshade(LshadeOptions const& options, StopRules const& budget) {
