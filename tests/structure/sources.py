@@ -12,6 +12,9 @@ SOURCES = (".hpp", ".cpp", ".h", ".py", ".in", ".txt", ".cmake", ".toml", ".sh",
 LONGEST_HEADER = 15  # comment lines; what is longer is a page: engine/diagnose/METHOD.md, or a comment where it belongs
 METHOD = "engine/diagnose/METHOD.md"
 
+# files that the examples of engine/README.md tell a reader to write
+EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cpp", "data/readers/raw64.cpp"}
+
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
 SECTION = re.compile(r"\bMETHOD\.md, ([A-Z][\w ,'-]*)")
 PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) |\bour own prototype\b")
@@ -45,6 +48,13 @@ def absent_documents(text, documents):
     return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in documents))
 
 
+def absent_sources(text, files):
+    """Names of C++ files in a document, outside its code blocks, that no file of the tree has."""
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    names = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp))`", prose))
+    return sorted(name for name in names if not any(f"/{path}".endswith(f"/{name}") for path in files))
+
+
 def unknown_sections(text, headings):
     """Sections of METHOD.md that sources name and that it does not have."""
     return [found for found in SECTION.findall(as_prose(text)) if not any(found.startswith(one) for one in headings)]
@@ -67,6 +77,7 @@ def teeth():
     md = ".md"
     assert absent_documents(f"see LESSONS{md} and b/NOTES{md}", [f"a/NOTES{md}"]) == [f"LESSONS{md}", f"b/NOTES{md}"]
     assert absent_documents(f"see ../a/NOTES{md}, NOTES{md}", [f"a/NOTES{md}"]) == []
+    assert absent_sources("`b/a.hpp`, `c.cpp`\n```\n`d.hpp`\n```\n", ["x/b/a.hpp"]) == ["c.cpp"]
     assert unknown_sections(f"// METHOD{md}, The\n// search: {md}", ["The search"]) == []
     assert unknown_sections(f"// METHOD{md}, The riddle", ["The search"]) == ["The riddle"]
     assert PRIVATE.search("LESSONS" + " item 3") and not PRIVATE.search("the lessons of item 3")
@@ -103,6 +114,9 @@ def main(root):
     names = tracked(root)
     documents = [name for name in names if name.endswith(".md")]
     headings = re.findall(r"^#+ (.+)$", (root / METHOD).read_text(), re.MULTILINE)
+    for name in ("engine/README.md", METHOD):
+        absent = set(absent_sources((root / name).read_text(), names)) - EXAMPLES
+        found += [f"{name}: names {one}, which is not in the tree" for one in sorted(absent)]
     for name in names:
         path = pathlib.PurePosixPath(name)
         if path.parts[0] in FOLDERS and path.suffix in SOURCES:
