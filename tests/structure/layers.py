@@ -86,7 +86,7 @@ def main(root, *options):
     if "--write" in options:
         document.write_text(drawn)
     elif drawn != document.read_text():
-        found.append("engine/README.md: the picture is not that of engine/layers.txt: tests/structure/layers.py . --write")
+        found.append("engine/README.md: the picture is not that of engine/layers.txt; run layers.py . --write")
     print("\n".join(found) or f"{len(sources)} files, {len(allowed)} layers: every include points downwards")
     return 1 if found else 0
 

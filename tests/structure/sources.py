@@ -17,7 +17,8 @@ EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cp
 
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
 SECTION = re.compile(r"\bMETHOD\.md, ([A-Z][\w ,'-]*)")
-PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) |\bour own prototype\b")
+PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) "
+                     r"|\bour own prototype\b")
 FAILS = re.compile(r"^\s*(?://|#) fails:", re.MULTILINE)
 
 
