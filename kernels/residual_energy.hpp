@@ -1,21 +1,19 @@
 #pragma once
 // Sum of squared (or Huber) residuals of a block of candidates over a packed recording: the inner loop of every search.
 //
-// Equation   e_i = tau_i - sum_r phi_ir v_mr
-//            residual_energy  energy_m = sum_i e_i^2
+// Equation   e_i = tau_i - sum_r phi_ir v_mr;  residual_energy  energy_m = sum_i e_i^2
 //            huber_energy     energy_m = sum_i rho(e_i),  rho(e) = e^2 if |e| <= delta, else delta (2 |e| - delta)
-//            (twice the textbook Huber loss, so that delta = infinity gives residual_energy, bit for bit)
 // Shapes     candidates: n_members rows of n_regressors numbers, `leading_dimension` apart; energy: n_members
-// Units      energy in (unit of tau)^2; delta in the unit of tau
-// Bits       the same on every instruction set (dispatch.hpp), for any grouping of members, on any number of threads:
-//            e by r = 0, 1, ... with one rounding each; lane l sums samples l, l+8, ... of a block of 2048 with fused
-//            multiply-add; lanes ((0+4)+(2+6)) + ((1+5)+(3+7)); blocks by PairwiseTree
-// Error      at most ((1+g(R))^2 (1+g(D)) - 1) sum_i (|tau_i| + sum_r |phi_ir v_mr|)^2 with u = 2^-53,
-//            g(k) = k u / (1 - k u), D = 259 + ceil(log2(number of blocks)), two more for the Huber loss
-// Not finite a NaN parameter makes its own member NaN, an infinite one NaN or infinite; the others are untouched
+// Units      energy in (unit of tau)^2; delta in the unit of tau; delta = infinity gives residual_energy, bit for bit
+// Bits       the same on every instruction set, grouping of members and number of threads: e by r = 0, 1, ...; lane l
+//            sums samples l, l+8, ... of a block of 2048 by FMA; lanes ((0+4)+(2+6)) + ((1+5)+(3+7)); blocks by
+//            PairwiseTree
+// Error      at most ((1+g(R))^2 (1+g(D)) - 1) sum_i (|tau_i| + sum_r |phi_ir v_mr|)^2, g(k) = k u / (1 - k u), u =
+//            2^-53, D = 259 + ceil(log2(number of blocks)), two more for Huber. A NaN or infinite parameter spoils its
+//            own member
 // Threads    any number on the same tiles, each with its own workspace; does not allocate
-// Source     register tile after Goto, van de Geijn, ACM TOMS 34(3), 2008: 4 vectors x 6 candidates; ours sums the
-//            squares while they are in registers, the product phi v is never stored
+// Source     register tile: Goto, van de Geijn, ACM TOMS 34(3), 2008, doi:10.1145/1356052.1356053; squares are summed
+//            in registers, phi v is never stored
 
 #include <cstddef>
 

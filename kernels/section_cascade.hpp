@@ -1,18 +1,15 @@
 #pragma once
-// Second-order sections of a filter over several signals side by side, in place: one recursion waits for its own last
-// sample, several together keep the processor busy.
+// Second-order sections of a filter over several signals side by side, in place: several recursions keep the processor
+// busy while each waits for its own last sample.
 //
-// Equation   y_i = b0 x_i + z1;  z1 = b1 x_i - a1 y_i + z2;  z2 = b2 x_i - a2 y_i  (transposed direct form II), section
-//            after section
+// Equation   y_i = b0 x_i + z1;  z1 = b1 x_i - a1 y_i + z2;  z2 = b2 x_i - a2 y_i  (transposed direct form II), per
+//            section
 // Start      every section in the steady state of the first sample: gain 1 at f = 0 is assumed
-// Shapes     samples: n_samples x signals, one sample of all signals after the other; signals: 2, 4 or 8 (few are
-//            faster alone: their block stays in the L2 cache)
+// Shapes     samples: n_samples x signals, one sample of all signals after the other; signals: 2, 4 or 8
 // Bits       the same on every instruction set and for any company: no operation is fused, each signal is its own lane
 // Speed      two sections go along the samples together: the second fills the time in which the first waits
-// Not faster 16 signals side by side, loading and filtering piece by piece in the L1 cache, and loading by squares of
-// two
-//            signals (60 000 samples, Intel Xeon, 2 MB of L2: 5 % better to 20 % worse): the zero-phase filter waits
-//            for reading its columns and writing its block, 8 MB of each eight signals
+// Not faster 16 signals side by side; filtering piece by piece in the L1 cache; loading by squares of two signals
+//            (60 000 samples, Intel Xeon, 2 MB of L2: 5 % better to 20 % worse). Memory traffic is the limit
 // Threads    free function
 // Source     Oppenheim, Schafer: Discrete-Time Signal Processing, section 6.3
 

@@ -3,7 +3,7 @@
 //
 // Use        validate(cutoff_hz < nyquist_hz, [&] { return Problem{ExitCode::bad_job, "cutoff_hz = 600 is above"}; });
 //            or collect several Problems and throw one Error: the user sees all of them at once.
-// Style      lower case, the offending value shown, no stack, no "please" (UX.md section 4)
+// Style      lower case, the offending value shown, no stack, no "please"
 // Threads    values; Error never crosses an OpenMP region (parallel.hpp carries it out)
 
 #include <stdexcept>

@@ -1,18 +1,14 @@
 #pragma once
-// The columns of every candidate on a recording, for methods other than ours: same pipeline, same catalogue, same
-// search of shapes, but no twin anywhere.
+// The columns of every candidate on a recording, for other methods: same pipeline, catalogue and search of shapes, but
+// no replicates.
 //
-// Rows       those of RecordPipeline::process() on the recording itself: kept samples on which the joint surely moves
-//            one way
-// Motion     the recording's own, filtered: what somebody without twins has (ours are computed from the motion of a
-//            twin without noise and encoder, candidate_columns.hpp)
+// Rows       those of RecordPipeline::process() on the recording itself
+// Motion     the recording's own, filtered (a diagnosis uses a noise-free one, candidate_columns.hpp)
 // Shape      where the effect explains most of the least-squares residual, signs kept: grid (shape_grid.hpp), then the
-//            same refinement as in a diagnosis. The whole grid would be gigabytes; `grid_points` and the count of
-//            shapes say how much was searched, for tests that charge for it
-// Unseen     the same columns, at the shape found in training, on every unseen recording
-// Simulator  a recording with a simulator's torque is exported less what that simulator explains, as it is diagnosed
-// Units      SI
-// Errors     as RecordPipeline
+//            refinement of a diagnosis. `grid_points` and the count of shapes say how much was searched
+// Validation the same columns, at the shape found in training, on every validation recording
+// Simulator  a recording with a simulator's torque is exported less what that simulator explains
+// Units      SI. Errors: as RecordPipeline
 // Threads    spreads grid points over `threads`; same bits for any number
 
 #include <Eigen/Core>

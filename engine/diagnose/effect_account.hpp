@@ -1,18 +1,15 @@
 #pragma once
 // Where an effect of the final model acts and how large it is: its region, its curve, its torque.
 //
-// Torque     of the effect on the common motion, filtered like the residual, on the rows; without what the model's own
-//            terms would imitate of it. Its peak is that of the rows in its places, so that a size and a place that are
-//            told in one sentence belong together; of all rows where its places hold none, or are waves
-// Region     the interval of its principal axis in which it acts, places: one or two of them (acting_region.hpp); a
-//            wave: its order or frequency with half a resolution to both sides. Of every sample of the motion, not
-//            filtered: a delay acts most where the joint turns round, and no row is left there. What opposes the motion
-//            has no place in rests
-// Curve      means over the cells of the mismatch map of that axis: effect alone, effect plus what is left, and the
-//            spread of one twin's mean; waves are drawn over position
+// Torque     of the effect on the noise-free motion, filtered like the residual, beside the model's own terms. Peak: of
+//            the rows in its places, of all rows where its places hold none or are waves
+// Region     the interval of its principal axis in which it acts; places: one or two of them (acting_region.hpp); a
+//            wave: its order or frequency with half a resolution to both sides. Of every unfiltered sample of the
+//            motion, since a delay acts most at reversals, where no row is left
+// Curve      means over the map's cells of that axis: effect alone, effect plus what is left, spread of a replicate's
+//            mean; waves are drawn over position
 // Units      SI
 // Threads    free functions
-// Source     UX.md section 3 item 3
 
 #include "engine/search/model_stage.hpp"
 #include "engine/verdict/diagnosis.hpp"

@@ -1,26 +1,11 @@
 #pragma once
-// The whole diagnosis of one joint: checks, search, abstention, unseen recordings, verdict.
+// The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
 //
-// Verdict    data_fault, insufficient   the recording cannot carry a diagnosis (recording_checks.hpp), the baseline
-//            cannot be
-//                                       fitted or simulated; what was named fails on unseen recordings only where they
-//                                       go beyond the training motion (unseen_range.hpp); or all that is missing is a
-//                                       fault of a channel
-//            none                       no gate opened (forward_selection.hpp)
-//            unexplained                something is missing and nothing fits. Or the named effects are withdrawn: they
-//            explain
-//                                       less than half of it, in weighed rows and in the torque itself, and the rest is
-//                                       beyond chance; or they leave more than 3 % of
-//                                       it, far beyond chance, and either the smooth function that holds most of that
-//                                       holds more than half and is of an axis which is none of theirs, or they explain
-//                                       less than two thirds while a smooth function holds a fifth of what is left; or
-//                                       unseen recordings speak against them (unseen_refutation.hpp)
-//            named, one_of_class        the rest, less names that spoil unseen recordings (unseen_selection.hpp); a
-//            class when another effect fits as well (equivalent_effects.hpp)
-// Errors     Error 78 for a filter that does not suit the recording; everything a recording is to blame for is a
-//            verdict
+// Verdict    none, named, class, unexplained, insufficient or data_fault: METHOD.md, Verdict. Accepted effects are
+//            withdrawn by abstention.hpp and unseen_refutation.hpp, one of several by unseen_selection.hpp
+// Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
-// Source     PHYSICS.md section 2; LESSONS items 9 to 18 of our own prototype
+// Source     METHOD.md
 
 #include <functional>
 #include <vector>

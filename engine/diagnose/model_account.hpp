@@ -1,5 +1,5 @@
 #pragma once
-// What is told of the models before and after the search: parameters, errors, floor, noise, and how unusual the
+// What is reported of the models before and after the search: parameters, errors, floor, noise, and how unusual the
 // recording is among its twins.
 //
 // Threads    free functions

@@ -1,5 +1,5 @@
 #pragma once
-// What is told of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told
+// What is reported of every accepted effect: evidence, parameters with intervals, where it acts, what it cannot be told
 // from.
 //
 // Waves      a second wave of one kind belongs to the first: one name, both waves' parameters, the lower order first

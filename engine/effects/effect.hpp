@@ -2,29 +2,12 @@
 // One physical effect of a joint: the torque it needs, as columns for identification and step by step for simulation.
 //
 // Equation   tau_effect = columns(input, shape) * linear parameters
-// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8
+// Parameters linear ones first (solved for), then shapes (searched within shape_bounds(scales)). Bounds of linear ones
+//            are plausible sizes, except 0, which is physics (sign())
+// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8; full rate, before the parallel filter
 // Units      SI of a revolute joint (N m, rad); unit_for() gives the prismatic ones (N, m)
 // Threads    const objects, any number of threads; a runner belongs to one
-// Source     PHYSICS.md section 1 (names, equations); each file names its own
-//
-// Parameters linear ones first, then shapes. Linear ones are solved for, shapes are searched in shape_bounds(scales)
-//            (variable projection). The bounds of linear ones are plausible sizes, except 0, which is physics (sign()).
-//            A parameter without a unit for the joint's kind is not one of that joint's: its column is zero there.
-//
-// To identify
-//            EffectInput const input{motion, scales, load_torque, model_torque};    (fitted_baseline.hpp makes it)
-//            effect.columns(input, shape, phi);                                     full rate, before the parallel
-//            filter Effects with memory run their state over the samples in order, so the motion must be whole: mask
-//            and crop the columns, never the motion.
-// To simulate
-//            auto const runner = effect.runner(parameters, scales);
-//            per step: runner->advance(state, step_s);  then runner->torque(state) as often as needed: it is const, so
-//            a trial state (other ddq, other sign of dq) may be asked for. torque(state, step_s) does both. The first
-//            advance() only tells where the memory starts. state.load_torque and state.motor_torque must be set when
-//            needs_baseline(). acts_on() says where it goes: into the joint's equation of motion, into the torque
-//            channel, or (then it is a position) into the position channel.
-//            Columns use the fitted baseline where simulation has the motor torque: they agree to first order of the
-//            effect.
+// Source     each file in effects/ names its own; table of all: effects/README.md. How to add one: engine/README.md
 
 #include <Eigen/Core>
 #include <limits>
@@ -58,7 +41,7 @@ struct EffectParameter {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
   }
   Sign sign() const { return lower.factor == 0.0 ? Sign::non_negative : Sign::any; }
-  // what the parameter is, told by what its bounds are relative to
+  // what the parameter is, by what its bounds are relative to
   bool is_instant() const { return is_shape && lower.to == RelativeTo::instant; }              // of this recording
   bool is_order() const { return is_shape && lower.to == RelativeTo::lowest_order; }           // waves per turn or m
   bool is_frequency() const { return is_shape && lower.to == RelativeTo::slowest_frequency; }  // waves per second
@@ -85,6 +68,8 @@ struct ParameterRange {
   Spacing spacing = Spacing::linear;
 };
 
+// columns(input, shape, out): effects with memory run their state over the samples in order, so the motion must be
+// whole; mask and crop the columns, never the motion. Made by FittedBaseline (fitted_baseline.hpp)
 struct EffectInput {
   Motion const& motion;
   JointScales scales{};
@@ -95,10 +80,14 @@ struct EffectInput {
   JointState state(Eigen::Index sample) const;
 };
 
+// For simulation: advance() once per step, then torque() as often as needed, also for trial states (other ddq, other
+// sign of dq). The first advance() only tells where the memory starts. state.load_torque and state.motor_torque must be
+// set when needs_baseline(). acts_on() says where the result goes: equation of motion, torque channel, or (a position)
+// the position channel. Columns use the fitted baseline for the motor torque: equal to first order of the effect
 class EffectRunner {
  public:
   virtual ~EffectRunner() = default;
-  // the joint has come to `state`, step_s after the last one told (0: it starts there)
+  // the joint has come to `state`, step_s after the last one (0: it starts there)
   virtual void advance(JointState const& state, double step_s) = 0;
   // with the memory as it stands; affine in ddq unless the effect follows the load
   virtual double torque(JointState const& state) const = 0;
@@ -113,7 +102,7 @@ struct EffectDescription {
   std::string title{};
   std::string equation{};
   std::string source{};
-  std::string separated_by{};  // the motion that tells it from those it is confused with; empty for baseline terms
+  std::string separated_by{};  // the motion that separates it from those it is confused with; empty for baseline terms
   std::vector<EffectParameter> parameters{};
   std::vector<EffectFamily> families{EffectFamily::baseline};  // own one first, then those it is also confused with
   std::vector<SignatureAxis> signature{};                      // principal axis first

@@ -1,13 +1,11 @@
 #pragma once
-// What kind of thing an effect is: words that search, report and catalogue share.
-//
-// Source     PHYSICS.md section 1 (equivalence families, signature axes)
+// What kind of thing an effect is: words that search, report and catalogue share (effects/README.md lists them all).
 
 #include <string>
 
 namespace torquescope {
 
-// effects that imitate one another; when the member cannot be told, the family is named
+// effects that imitate one another; when the member cannot be identified, the family is reported
 enum class EffectFamily {
   baseline,         // part of the model one starts from
   reversal,         // shows where the joint turns round

@@ -1,11 +1,10 @@
 #pragma once
-// The seed's two one-sided Coulomb parameters as friction and offset: the same model, in the words of a data sheet.
+// The two one-sided Coulomb parameters of the seed paper (CITATION.cff) as friction and offset: the same model.
 //
 // Equation   Fc = (a3 - a4) / 2, b = (a3 + a4) / 2; everything else unchanged; values = map * parameters
 // Shapes     map: K x R, K = R
 // Why        a3 = 0.0089, a4 = -0.2582 reads as two odd frictions; it is Fc = 0.134 with an offset of -0.125
 // Threads    const object
-// Source     FADE.md item 19
 
 #include <Eigen/Core>
 #include <optional>

@@ -14,7 +14,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 double cube(double x) { return x * x * x; }
 
 // a wave of the angle must stand above the encoder's step and below the cutoff while the joint is slow; a turn has no
-// more than 400 of them (PHYSICS.md T1)
+// more than 400 of them
 double highest_order(JointScales const& scales) {
   double const by_filter = two_pi * scales.cutoff_hz / (0.1 * scales.peak_speed);
   double const by_encoder = two_pi / (4.0 * scales.resolution());

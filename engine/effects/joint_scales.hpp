@@ -1,11 +1,10 @@
 #pragma once
-// The sizes of one joint in one recording, and bounds written relative to them.
+// The sizes of one joint in one recording, and bounds written relative to them, so that they transfer between joints.
 //
 // Why        a Stribeck speed of 0.2 to 20 % of the peak speed means the same on a wrist and on a gantry; 0.01 rad/s
 //            does not
 // Units      SI; a slide reads m for rad and N for N m
 // Threads    plain records and functions of their arguments
-// Source     PHYSICS.md section 1: "bounds are relative so they transfer"
 
 #include <string>
 
@@ -46,7 +45,7 @@ struct JointScales {
   // mean Coulomb level; 0 when the baseline has none
   double coulomb() const { return 0.5 * (coulomb_positive + coulomb_negative); }
   // sign(dq) times the Coulomb level of that direction over the mean one (1 without Coulomb friction): friction that is
-  // modulated keeps the asymmetry the baseline has, else its even part would pass for gravity (LESSONS.md item 14)
+  // modulated keeps the asymmetry the baseline has, else its even part would pass for gravity
   FrictionSign friction_sign() const;
 };
 

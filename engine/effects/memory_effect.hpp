@@ -1,22 +1,16 @@
 #pragma once
-// An effect whose columns depend on what happened before: it runs a state over the motion, the same one for
-// identification and for simulation. Files in effects/ add the state, a plain class:
+// An effect whose columns depend on the past: it runs a state over the motion, for identification and simulation alike.
+// Files in effects/ add the state, a plain class:
 //
 //   void start(JointState const& state)
-//   void advance(JointState const& state, double step_s)                                    step_s > 0
-//   std::array<double, L> row(JointState const& state) const    torque per unit of each linear parameter, memory as it
-//   stands
+//   void advance(JointState const& state, double step_s)                     step_s > 0
+//   std::array<double, L> row(JointState const& state) const                 torque per unit of each linear parameter
+// Optional, for a memory that fades by an exponential (lanes then compute all of theirs at once):
+//   double decay_exponent(JointState const& state) const                     until this state
+//   void advance(JointState const& state, double step_s, double decay)       decay = exp of it; replaces the other one
 //
-// Decay      a class whose memory fades by an exponential may leave that to the lanes, which take all of theirs at
-//            once:
-//   double decay_exponent(JointState const& state) const                                    until this state
-//   void advance(JointState const& state, double step_s, double decay)                      decay: e to that, instead
-//   of the above
-//
-// Row        of the state told last: a simulator tries other velocities and accelerations there, never another place or
-//            time
-// Lanes      the twins of a group go side by side, each with a state of its own; which class it is, is asked once for
-//            all of them and not once for each: a twin takes 50 000 steps per second
+// Row        of the state last advanced to; a simulator may vary velocity and acceleration there, not place or time
+// Lanes      replicates of a group go side by side, each with its own state; the class is looked up once for all
 // Threads    an EffectMemory is used by one thread
 
 #include <array>

@@ -6,7 +6,7 @@
 // Units      SI; units() are those of the joint's kind
 // Errors     Error 78, all problems at once: unknown, repeated or redundant terms, none, an angle's effect on a slide
 // Threads    const object, any number of threads
-// Source     Gautier, Khalil 1990; deadband: FADE.md item 20 (0 is the seed's sign(0) = 0)
+// Source     Gautier, Khalil 1990, doi:10.1109/70.56655; a deadband of 0 is the seed paper's sign(0) = 0
 
 #include <Eigen/Core>
 #include <cstddef>

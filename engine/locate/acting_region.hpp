@@ -1,14 +1,12 @@
 #pragma once
-// Where on an axis an effect acts: the cells with its largest torque, said as one interval or as two.
+// Where on an axis an effect acts: the cells with its largest torque, as one interval or as two.
 //
-// Cells      up to 400, equally populated
-// Acting     the cells with most energy that together hold 80 % of it
-// One, two   the interval, or the two, that match the acting cells best: most samples in both over samples in either
-//            (Jaccard). A law that acts at high speed in both directions needs two; they are given when they match by a
-//            quarter better, for two are harder to say than one
+// Cells      up to 400, equally populated; acting: the strongest ones that together hold 80 % of its energy
+// Equation   the interval, or the two, with the largest (acting samples inside) / (samples inside or acting) (Jaccard).
+//            Two are given when they match by a quarter better
 // Units      of the axis
 // Threads    free function
-// Source     PHYSICS.md section 4 (region: samples holding 80 % of the energy); ratio maximised after Dinkelbach 1967
+// Source     METHOD.md, The mismatch map; ratio maximised after Dinkelbach 1967, doi:10.1287/mnsc.13.7.492
 
 #include <Eigen/Core>
 #include <utility>

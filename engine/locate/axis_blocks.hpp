@@ -1,13 +1,10 @@
 #pragma once
-// Rows in the order of what an effect is a function of, in blocks that weigh alike: where a law of another form needs
-// another number at every level, leaving out one level after the other shows it. Blocks of time do not: each of them
-// has all levels.
+// Rows in the order of what an effect is a function of, in blocks of equal weight: leaving out one level after the
+// other shows a law of another form. Blocks of time do not, since each of them has all levels.
 //
-// Axis       the effect's principal one (its signature); speed without its sign; the position where that is an order,
-//            for a wave of another form has other phases elsewhere. None for what goes with time: blocks of time are
-//            those
-// Weight     half of it the effect's torque squared, half of it the rows: a law that acts on a tenth of the rows is
-//            still parted
+// Axis       the effect's principal one; speed without its sign; the position where that is an order. None for what
+//            goes with time: blocks of time are those
+// Weight     half of it the effect's torque squared, half of it the rows
 // Shapes     torque: of the effect, one per row; order: a permutation of the rows
 // Threads    free function
 

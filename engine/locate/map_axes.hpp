@@ -1,15 +1,12 @@
 #pragma once
 // The axes of the mismatch map: where each row of a recording lies on them and where their cells begin and end.
 //
-// Cells      54 for every axis (UX.md section 3), chosen for looking:
-//            velocity, load, acceleration   equal width on either side of zero, which is an edge: parity shows
-//            position, time                 equal width
-//            distances since a reversal     equally populated: they crowd near zero
-//            order, frequency               wave_spectrum.hpp
-// Load       load torque along the motion: sign(dq) * load torque; above zero the motor drives, below it is driven
-// Shown      what the mean of a cell is the mean of. The residual itself, but along the motion for load and distance
-//            since a velocity reversal, along the model's torque for distance since a torque reversal: what depends on
-//            these axes changes its sign with the direction, and would average out
+// Cells      54 for every axis. velocity, load, acceleration: equal width on either side of zero, which is an edge, so
+//            that parity shows; position, time: equal width; distances since a reversal: equally populated;
+//            order, frequency: wave_spectrum.hpp
+// Load       sign(dq) * load torque; above zero the motor drives, below it is driven
+// Shown      the mean residual of a cell; along the motion for load and distance since a velocity reversal, along the
+//            model's torque for distance since a torque reversal, where it would average out otherwise
 // Requires   rows that move one way (reversal_mask.hpp), or all but rests (friction_buildup.hpp)
 // Units      SI of the joint's kind
 // Threads    free functions

@@ -1,14 +1,12 @@
 #pragma once
-// Where on an axis the recording differs from its clean twins: runs of neighbouring cells, with one error rate per
-// axis.
+// Where on an axis the recording differs from its replicates: runs of neighbouring cells, with one error rate per axis.
 //
-// z          of the recording among all twins, of each twin among all others (twin_null.hpp)
-// Seed       a cell whose |z| is beyond the largest |z| that 95 % of the twins have anywhere on the axis: at most 5 %
-//            of clean recordings show any region on this axis. Fewer than 19 twins cannot carry a 5 % claim: no regions
-// Growth     from a seed to neighbours of the same sign whose |z| is beyond what 95 % of all single cells of the twins
-//            have
-// Readings   one axis may be read in several ways (the residual itself, the residual along the motion): the largest |z|
-//            is taken over all of them, and their runs are merged where they overlap
+// z          of the recording among all replicates, of each replicate among all others (twin_null.hpp)
+// Seed       a cell whose |z| is beyond the largest |z| that 95 % of the replicates have anywhere on the axis: at most
+//            5 % of clean recordings show a region on this axis. Fewer than 19 replicates: no regions
+// Growth     to neighbours of the same sign whose |z| is beyond 95 % of all single cells of the replicates
+// Readings   an axis may be read in several ways (the residual, the residual along the motion): the largest |z| of all
+//            readings counts, and runs are merged where they overlap
 // Empty      a cell without rows has z = NaN and ends a run, unless it has no width (tied quantiles)
 // Requires   M >= 3
 // Threads    free functions

@@ -1,19 +1,16 @@
 #pragma once
-// How much of the residuals waves of one frequency, or of one order of the position, explain: least squares at every
+// How much of the residuals a wave of one frequency, or of one order of the position, explains: least squares at every
 // wave of a fine grid, on rows with gaps.
 //
 // Equation   energy(f) = max over a, b of ||x||^2 - ||x - a cos(2 pi f s) - b sin(2 pi f s)||^2, s: time or position
-// x          recording: residual - mean of the twins; twin: the same times sqrt((M + 1) / (M - 1)), so that a clean
-//            recording and a twin, which is part of that mean, have the same expected energy
-// Grid       rows lie on points of equal distance: kept samples in time (exact); in position eighths of the shortest
-//            wave, so that a wave loses at most 5 % of its energy there, 1 % at half the order, in data and twins
-//            alike. Waves are half to a quarter of 1 / span apart: none falls between two
+// x          recording: residual - replicates' mean; replicate: the same times sqrt((M + 1) / (M - 1)), so that a clean
+//            recording and a replicate have the same expected energy
+// Grid       kept samples in time (exact); position: eighths of the shortest wave, which costs it at most 5 % of its
+//            energy. Waves are half to a quarter of 1 / span apart: none falls between two
 // Method     one FFT for two columns, one for the gaps (sums of cos^2, sin^2, sin cos): Lomb-Scargle without its phase
-// Units      Hz and s; 1/rad and rad (order k is cos(k q)), 1/m and m
-// Memory     bands x (1 + M), and a few copies of the grid per thread
+// Units      Hz and s; 1/rad and rad (order k is cos(k q)), 1/m and m. Memory: bands x (1 + M), some grids per thread
 // Threads    spreads columns over `threads`; same bits for any number
-// Source     Lomb 1976; Press, Rybicki 1989 (FFT of data and weights), here on a grid that needs no extirpolation in
-//            time
+// Source     Lomb 1976, doi:10.1007/BF00648343; Press, Rybicki 1989, doi:10.1086/167197
 
 #include <Eigen/Core>
 #include <vector>

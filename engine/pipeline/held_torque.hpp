@@ -1,16 +1,13 @@
 #pragma once
-// What a torque that holds from its sample to the next does to the joint at the instant of a sample, and the other way
-// round.
+// What a torque that holds from its sample to the next does to the joint at the instant of a sample, and the inverse.
 //
-// Why        at the instant of a sample the joint has been moved by the torque of the row before: beside what its
-//            motion needs at that instant a controller's torque is half a sample early. Inverse dynamics take that for
-//            a mismatch (of EMPS, at 1 kHz, a quarter of the published error on the unseen record) and for wrong
-//            parameters. Twins hold their torque, too
+// Why        at the instant of a sample the joint has been moved by the torque of the row before, so a controller's
+//            torque is half a sample early beside its motion (METHOD.md, Rows of a recording). Replicates hold theirs,
+//            too
 // Equation   acting: mean over the sample before, of the cubic through the rows around it, (13 (u[k-1] + u[k]) - u[k-2]
 //            - u[k+1]) / 24. to hold: value in the middle of the sample that begins, less what the mean adds to it, (7
-//            (u[k] + u[k+1]) - u[k-1] - u[k+2]) / 12. One after the other gives back cubics as they were
-// Rows       where a recording has another timing, channel_timing.hpp finds by how much. Rows at the ends that the
-//            equations do not reach: as read
+//            (u[k] + u[k+1]) - u[k-1] - u[k+2]) / 12. One after the other gives back cubics
+// Rows       of another timing: channel_timing.hpp. Rows at the ends that the equations do not reach: as read
 // Units      as the torque
 // Threads    free functions
 

@@ -3,11 +3,11 @@
 //
 // Equation   tau = [columns of the baseline | columns of each effect at its shape] * parameters
 // Shapes     columns: n_samples x size(), full rate, before the parallel filter; effects in the order of acceptance
-// Reference  the baseline's parameters that effects are told (Coulomb levels, load and model torque): fixed numbers, so
-//            that the model stays linear in its parameters and is the same for the recording and its twins
+// Reference  the baseline's parameters that effects are given (Coulomb levels, load and model torque): fixed numbers,
+//            so that the model stays linear in its parameters and is the same for the recording and its replicates
 // Units      SI
 // Threads    const object, any number of threads
-// Source     PHYSICS.md section 2 step 8
+// Source     METHOD.md, The search
 
 #include <Eigen/Core>
 #include <cstddef>

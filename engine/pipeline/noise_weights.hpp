@@ -1,16 +1,14 @@
 #pragma once
-// The noise of a recording's rows as least squares should see it: coloured along the rows, and dry friction that
-// wanders.
+// Weights of rows by their noise: coloured along the rows, and a random walk of the dry friction level.
 //
-// Wander     a random walk of the level of dry friction about its mean, torque(t) = friction(t) * x(t), in its
-//            Karhunen-Loeve modes: cosines of time. With modes W (rows x K, whitened, in standard deviations of the
-//            white noise) the covariance is I + W W', and signals become (I + W W')^(-1/2) signals: a direction along
-//            which friction may wander by itself counts for less, one that no wander can imitate counts in full
-// Equation   the same on torque and columns, so that torque = columns * parameters goes on holding
+// Equation   signals <- (I + W W')^(-1/2) signals, W: rows x K Karhunen-Loeve modes (cosines of time) of the walk about
+//            its mean, torque(t) = friction(t) * x(t), whitened, in standard deviations of the white noise. The same on
+//            torque and columns, so that torque = columns * parameters still holds
 // Shapes     friction: torque of dry friction at every kept sample of the pipeline; signals: rows x any number
-// Units      SI; variance of the wander: share of the level, squared, per second
+// Units      SI; variance of the walk: share of the level, squared, per second
 // Threads    const object, any number of threads
-// Source     generalised least squares: Aitken 1935; modes of a random walk less its mean: Watson 1961
+// Source     generalised least squares: Aitken 1935; modes of a random walk less its mean: Watson 1961,
+//            doi:10.1093/biomet/48.1-2.109
 
 #include <Eigen/Core>
 #include <utility>
@@ -20,7 +18,7 @@
 
 namespace torquescope {
 
-// wander on one set of rows, ready to be taken off
+// friction random walk on one set of rows, ready to be projected out
 struct WanderOnRows {
   Eigen::MatrixXd modes{};   // rows x K
   Eigen::MatrixXd shrink{};  // K x K: signals - modes * shrink * modes' * signals
@@ -31,7 +29,7 @@ class NoiseWeights {
   NoiseWeights() = default;  // all rows alike
   explicit NoiseWeights(RowWhitening rows) : rows_(std::move(rows)) {}
 
-  // the same with friction that wanders
+  // the same with a friction random walk
   NoiseWeights with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const;
 
   bool are_equal() const { return rows_.is_identity() && !wanders(); }

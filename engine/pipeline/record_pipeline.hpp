@@ -1,17 +1,15 @@
 #pragma once
-// What the fit sees of one recording, data or twin: the same code for both, so that a processing artefact cannot
-// differ.
+// What the fit sees of one recording or replicate: the same code for both, so that processing artefacts cannot differ.
 //
 // Steps      differentiate, columns of the model, parallel filter on torque and columns, reversal mask, weights of the
 //            rows by their noise (noise_weights.hpp) where they were set, least squares
 // Equation   torque = columns * parameters + residual, on the kept rows: residual is orthogonal to every column, but
 //            for parameters that are at a bound (joint_fit.hpp)
 // Shapes     motion: n samples at the full rate; rows, torque, columns, residual: the samples that survive decimation,
-//            edges and mask, in time order
-// Memory     about 100 bytes per recorded sample: make it, take what is wanted, drop it; never keep one per twin
+//            edges and mask, in time order. Memory: about 100 bytes per recorded sample; never keep one per replicate
 // Errors     constructor: Error 78, 65 as ParallelFilter; process: 65 when the rows cannot tell the parameters apart
 // Threads    const object, any number of threads
-// Source     LESSONS item 3; parallel filtering: Gautier 1997
+// Source     METHOD.md, Rows of a recording; parallel filtering: Gautier 1997, IEEE ICRA
 
 #include <Eigen/Core>
 #include <memory>
@@ -81,7 +79,7 @@ class RecordPipeline {
   bool whitens() const { return weights_ && !weights_->are_equal(); }
   // signals on rows, in place
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
-  // the same without a thought of friction that wanders: what that wander is measured on
+  // the same without the friction random walk: what that walk is measured on
   void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;

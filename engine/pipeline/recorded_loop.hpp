@@ -1,24 +1,16 @@
 #pragma once
-// The loop a recording was made in, as far as the recording tells: the controller, its noise, its encoder, its track.
+// The loop a recording was made in: controller, torque limit, noise, encoder, and the motion to follow.
 //
-// Sources    identified       reference, position and torque obey one linear law with a white remainder
-//            approximated     they obey it with a remainder that is not white: twins carry the remainder's spectrum
-//            tracking         no reference: a stiff loop of our own (bandwidth 3 % of the rate, less where a step of
-//            the
-//                             encoder would ask for more than the recording's torque) follows the smoothed
-//                             measured motion, what the joint needs for it fed forward; good for most names, not
-//                             calibrated for elasticity, payload and delay
-// Limit      of the torque: the drive's, unless the joint has got most of what was asked for beyond it. Then it is one
-//            of the channel that tells the torque, the loop has none (its controller keeps it), and what is missing in
-//            the record is for the search to find. The upper and the lower one by themselves
-// Noise      tracking: white torque noise from second differences, an upper bound while the torque itself bends; what
-//            it is in the band of the fit, and how slow, is measured with twins (torque_colour.hpp)
-// Ends       the motion that twins follow goes on as its odd reflection while it is smoothed: no accelerations of the
-//            filter's
-// Units      SI
-// Requires   100 samples
+// Sources    identified: one linear law with a white remainder. approximated: a law whose remainder is coloured;
+//            replicates carry its spectrum. tracking: no reference; a stiff loop of our own (bandwidth 3 % of the rate
+//            or less) follows the smoothed motion, with the needed torque fed forward. Not calibrated for elasticity,
+//            payload and delay
+// Limit      of the torque: the drive's, or the measurement channel's when the joint got most of what was asked beyond
+//            it
+// Noise      tracking: white noise from second differences, an upper bound; measured with replicates: torque_colour.hpp
+// Units      SI. Requires 100 samples
 // Threads    free functions
-// Source     LESSONS items 1 and 2 of our own prototype
+// Source     METHOD.md, The controller
 
 #include <functional>
 #include <optional>
@@ -43,7 +35,7 @@ struct RecordedLoop {
   std::string remark{};
 };
 
-// by the model, one per sample; asked for where some samples are limited
+// by the model, one per sample; needed where some samples are limited
 using NeededTorque = std::function<Eigen::VectorXd(std::vector<LimitedSample> const&)>;
 
 // joint: the baseline, for the tracking loop; cutoff of `filter` smooths the motion it follows; needed_torque: none

@@ -1,16 +1,12 @@
 #pragma once
-// What makes a diagnosis of a recording hopeless before it begins: no search, no name, a way out.
+// What makes a diagnosis of a recording hopeless before it begins: the finding and the way out, no search.
 //
-// Insufficient   one direction, one speed, hardly more than the encoder's steps, too short
-//                a motion that keeps to one speed and only ramps through the others shows what happens at places, so it
-//                is searched; but when nothing is found, that says nothing of laws of the speed
-// Data fault     the torque channel sits at its limit, is held so long that it has less than four values in a period of
-//                the filter's cut-off (it would be late by an eighth of one), has nothing to do with the motion, or its
-//                sign is wrong: it takes work out of a joint that only has friction, and the fit asks for less inertia
-//                or friction than none
-// Units          as Excitation
-// Threads        free function
-// Source         PHYSICS.md section 2 step 1; UX.md section 3 (abstention)
+// Rule       limits of both kinds: METHOD.md, Checks before the search. insufficient: the motion is too poor. data
+//            fault: the torque channel sits at its limit, is held too long, has no relation to the motion, or has the
+//            wrong sign
+// Silence    mostly one speed is asked only when nothing was found: such a motion says nothing of laws of the speed
+// Units      as Excitation
+// Threads    free function
 
 #include <optional>
 #include <string>

@@ -1,20 +1,14 @@
 #pragma once
-// The samples at which a joint surely moves one way: everything but reversals and what the regression filter smears of
-// them.
+// The samples at which a joint surely moves one way: everything but reversals and what the regression filter smears.
 //
 // Equation   still_k: |dq_k| < 0.005 max|dq|, or the sign of dq differs from that of sample k-1;
-//            dropped: every sample within 1.6 / cutoff_hz of a still one
-// Reversals  kept where friction that builds up after them is asked for (friction_buildup.hpp): there only rests are
-//            dropped, for what friction holds at rest no law of the motion says
-// Why        the filtered velocity misplaces the sign of friction by a few samples, and no law of sticking is known
-//            well enough to be simulated there: with these rows nothing was calibrated, without them everything else
-//            shows up to ten times clearer, whatever the true law of sticking is
-// Use        on the whole record before its edges are cut (a reversal just outside reaches in), on data and twins
-//            alike, each from its own filtered velocity
+//            dropped: every sample within 1.6 / cutoff_hz of a still one (cutoff_hz 0: nothing is widened)
+// Reversals  kept for friction_buildup.hpp: there only rests are dropped
+// Use        on the whole record before its edges are cut, on recording and replicates, each from its filtered velocity
 // Shapes     dq: n samples at the full rate; result: n, true where the sample is kept
-// Units      rad/s or m/s; Hz; cutoff_hz is that of the filter the rows go through, 0: none, nothing is widened
+// Units      rad/s or m/s; Hz
 // Threads    free function
-// Source     LESSONS item 3 of our own prototype (40 clean sets)
+// Source     METHOD.md, Reversal mask
 
 #include <Eigen/Core>
 #include <vector>

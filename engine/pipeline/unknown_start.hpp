@@ -1,14 +1,10 @@
 #pragma once
-// How many samples pass before a joint's friction depends on nothing but the record: what its contacts remember of the
-// time before the first sample nobody knows.
+// How many samples pass before a joint's friction depends on nothing but the record.
 //
 // Equation   the first sample that ends a way of 0.06 (max q - min q) without a turn: three times the longest distance
-//            over which the catalogue lets friction build up (effects/presliding.cpp), after which a twentieth is left
-//            of whatever it was
+//            over which the catalogue lets friction build up (effects/presliding.cpp); a twentieth of the start is left
 // Limit      none (0) where a tenth of all the way passes before that: a record of small strokes has no such start
-// Why        a joint that creeps from rest into its first stroke has up to twice its Coulomb friction more or less than
-//            any law that begins with sliding; of a recording whose law was right such rows held half of the mismatch
-// Use        on data and twins alike, each from its own filtered motion (record_pipeline.cpp)
+// Use        on recording and replicates alike, each from its own filtered motion (record_pipeline.cpp)
 // Shapes     q, dq: n samples at the full rate
 // Units      rad or m; rad/s or m/s
 // Threads    free function

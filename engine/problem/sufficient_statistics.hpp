@@ -1,20 +1,13 @@
 #pragma once
-// All that the squared error of a linear problem depends on, as a quadratic form around its minimum: two sweeps over
-// the samples, then an evaluation costs R^2 / 2 operations whatever n.
+// The squared error of a linear problem as a quadratic form around its minimum: R^2 / 2 operations per evaluation.
 //
-// Equation   sum_t (tau_t - phi_t v)^2 = constant - 2 slope . (v - centre) + |root (v - centre)|^2
-//            first sweep: phi'phi, its root and the centre by Cholesky of the column-scaled matrix; second sweep: the
-//            same of the whitened columns phi root^-1 and of the residual at the centre; again while the centre leaves
-//            more than 1e-6 of the least error to gain
-// Error      of the MSE, relative: at most about 4 R 2^-53 rms(|tau| + sum_r |phi_r centre_r| + sum_r |phi_r (v -
-//            centre)_r|) / sqrt(least MSE), as if every sample were rounded the same way; below 1e-12 in the tests
-//            where usable() and that rms is at most ten times the torque's. The root's own rounding, which n samples do
-//            not average out, is kept out by doubled precision (kernels/quadratic_energy.hpp).
-//            A plain Gram (one sweep, tau'tau - 2 tau'phi v + v'phi'phi v) loses 1e-16 tau'tau / MSE; one that is
-//            centred but evaluated as d'phi'phi d loses 1e-16 times the squared condition number along weak directions
-// Usable     least MSE at least 1e-8 of the torque's mean square, condition (columns of length one) at most 1e8, more
-//            rows than parameters
+// Equation   sum_t (tau_t - phi_t v)^2 = constant - 2 slope . (v - centre) + |root (v - centre)|^2; first sweep:
+//            phi'phi (scaled), root and centre by Cholesky; second: the same of phi root^-1 and of the residual at the
+//            centre
 // Shapes     phi: n x R, tau: n
+// Error      of the MSE, relative: about 4 R 2^-53 rms(|tau| + sum_r |phi_r centre_r| + sum_r |phi_r (v - centre)_r|) /
+//            sqrt(least MSE); below 1e-12 in the tests where usable(). One sweep alone loses 1e-16 tau'tau / MSE
+// Usable     least MSE at least 1e-8 of the torque's mean square, condition (unit columns) at most 1e8, n > R
 // Bits       the same on every instruction set (kernels/gram.hpp; R x R algebra without vector target)
 // Threads    immutable once made
 // Source     CholeskyQR2: Yamamoto, Nakatsukasa, Yanagisawa, Fukaya, ETNA 44 (2015) 306-326

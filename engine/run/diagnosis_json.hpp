@@ -1,5 +1,6 @@
 #pragma once
-// A diagnosis as the JSON document that programs read: {"schema": 1, ...}, exactly the keys of DESIGN.md section 1.
+// A diagnosis as the JSON document that programs read: {"schema": 1, ...}; tests/unit/run/diagnosis_json.cpp has all
+// keys.
 //
 // Numbers    unrounded; unknown and infinite ones are null
 // Stable     keys never change their meaning within a schema; a new key is a new schema

@@ -4,10 +4,8 @@
 // Pace       a segment at most every `interval_s` (1 % of the time so far if that is longer, but no more than fifteen
 //            intervals), when every run under way has handed over what it has; jobs that are shorter write none. More
 //            than `most_bytes` waiting is written at once
-// First      what ends in its first tenth is not kept at all, and until its middle half of `most_bytes` is, unless
-//            everything
-// interval   must be: repeating two seconds of a job costs less than memory that every short one would pay for (12 % of
-//            3000 runs in a second)
+// First      what ends in its first tenth of an interval is not kept, and until its middle only half of `most_bytes`
+//            is: repeating two seconds costs less than memory of every short job. With `everything` all is kept
 // Threads    any; runs hand over in the thread they run in, and one of these writes. `hdf5` is held while it does:
 //            whoever else uses HDF5 meanwhile must hold it too
 // Errors     74 from the thread that writes: nothing published is damaged, what was kept before is safe

@@ -1,18 +1,13 @@
 #pragma once
-// The twins of one diagnosis, shared by several processes through files in RESULT.parts.
+// The replicates of one diagnosis, shared by several processes through files in RESULT.parts.
 //
-// Parts      a batch that is worth it is cut into parts, the same in every process. Each begins with those of its own
-//            share and goes on with whatever nobody has done or is doing: a part is claimed (flock) while it is
-//            computed, then published, and taken by the others. So one process alone makes all of them, one that comes
-//            late catches up, one that was killed holds nothing, and the same command takes up what was published
-// Waiting    for parts that a living process is computing, no longer than it could take; then they are computed here
-// Trust      a part counts when every byte fits its SHA-256 and its key: the job, the recordings, the program, the
-//            place among the batches, what the twins follow from. Any other one is computed again and replaced
-// No disk    nothing is published where it would take the room of the result, or cannot be written; the diagnosis goes
-//            on
-// No locks   (some network file systems) every process computes whatever is not there yet
-// Files      batch-<number>.part-<i>-of-<n>.twins, and .lock beside it while it is computed; removed with the folder
-//            when the result stands (remove_segments)
+// Parts      a large batch is cut into parts, the same in every process. A process begins with its own share and goes
+//            on with what nobody has done: it claims a part (flock), computes and publishes it. One process alone makes
+//            all of them; a killed one holds nothing; the same command takes up what was published
+// Waiting    for parts of a living process, no longer than they could take; then they are computed here
+// Trust      a part counts when its bytes fit their SHA-256 and its key: job, recordings, program, batch, inputs
+// No disk    nothing is published where it would take the room of the result; without locks everybody computes
+// Files      batch-<number>.part-<i>-of-<n>.twins and .lock beside it; removed with the folder when the result stands
 // Errors     TwinsAbandoned when a stop is asked for, or another process has published the result
 // Threads    as TwinExchange
 

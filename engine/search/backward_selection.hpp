@@ -1,12 +1,12 @@
 #pragma once
-// The last look at several effects that were named one after the other: an early name may have stood for two.
+// The last look at several accepted effects: an early one may have stood for two.
 //
-// Backward   an effect whose own share, beside all others, is below 0.2 % of the whole is taken out again
-// Swap       an effect is replaced by another of its families that explains 3 % more beside all others, when the twins
-//            with the other leave less
-// Twins      made anew after every change
+// Backward   an effect whose own share, beside all others, is below 0.2 % of the whole is removed
+// Swap       an effect is replaced by another of its families that explains 3 % more beside all others, when the
+//            replicates with the other leave less
+// Replicates made anew after every change
 // Threads    as the stages
-// Source     LESSONS item 15 of our own prototype
+// Source     METHOD.md, Other lines
 
 #include "engine/search/forward_selection.hpp"
 

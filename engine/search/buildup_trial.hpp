@@ -1,16 +1,12 @@
 #pragma once
-// Friction that builds up after reversals as a candidate for a name, along one of two motions (friction_buildup.hpp).
+// Friction that builds up after reversals as a candidate, along one of two motions (friction_buildup.hpp).
 //
-// Common     the motion and the mismatch of the search. Within a tick of the encoder that motion is not the one
-//            friction made
-// Own        the recording's motion and its residual: where the joint creeps and its twins stick, theirs is another
-//            motion, and what sticking leaves in their residual is none of the recording's
+// Common     the noise-free motion and the mismatch of the search. Within an encoder step it differs from the real one
+// Own        the recorded motion and its residual: where the joint creeps and its replicates stick, theirs is another
 // Nuisance   sign(dq) smeared over a speed, at five speeds from 1/2000 to 1/25 of the peak
-// Answer     the one of the two laws that explains more; the simpler where it explains half as much. None unless it
-//            explains more than any other effect, a quarter of what is left beside the nuisance, helps on other blocks,
-//            is plausible, and q is at the level
-// Others     at the shapes that explain most along the common motion: nobody looks for theirs along the recording's,
-//            twins judge in the end
+// Answer     the law of the two that explains more, the simpler one from half as much; none unless it explains more
+//            than any other effect and a quarter of what is left, helps on other blocks, is plausible, and q is at the
+//            level
 // Shapes     q: one per scan
 // Units      gains are energies of the rows, (N m)^2 or N^2
 // Threads    free functions, which use those of the look
@@ -27,7 +23,7 @@ namespace torquescope {
 // remembers where it turned, and nothing else
 bool is_buildup(Effect const& effect);
 
-// on rows with reversals, beside what is named
+// on rows with reversals, beside the accepted effects
 struct BuildupLook {
   ModelStage const& rows;
   BaselineReference reference;

@@ -1,13 +1,12 @@
 #pragma once
-// The columns of effects on the common motion, as the fit would see them, and what is left of them beside the model.
+// The columns of effects on the noise-free motion, as the fit would see them, and what is left of them beside the
+// model.
 //
-// Motion     of the twin without noise, as a rule: no noise of the recording gets into a statistic. On the recording's
-//            own a law shows that shapes the motion itself (own_motion.hpp)
-// Columns    of Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those
-//            are
-// Nuisance   columns of the model, and how they change with the shapes of the effects accepted so far: what a slightly
-//            wrong shape leaves must not take a second name (LESSONS item 11)
-//            More can be added: laws that are neither known nor asked for
+// Motion     of the replicate without noise, as a rule: no noise of the recording gets into a statistic. On the
+//            recorded one a law shows that shapes the motion itself (own_motion.hpp)
+// Columns    Effect::columns at the full rate, through the parallel filter, on the common rows, whitened as those are
+// Nuisance   columns of the model, and their derivatives by the shapes of the accepted effects: what a slightly wrong
+//            shape leaves must not be accepted as another effect. More can be added: laws neither known nor asked for
 // Shapes     n rows; L = effect.n_linear()
 // Threads    const object, any number of threads; looks into the comparison and the pipeline, which outlive it
 
@@ -26,7 +25,7 @@ enum class DrivenBy { twin, recording };
 
 class CandidateColumns {
  public:
-  // parameters: of the pipeline's model, for the tangents; reference: what candidates are told of the baseline
+  // parameters: of the pipeline's model, for the tangents; reference: what candidates need to know of the baseline
   // without: this effect of the model is no nuisance, it is one of the candidates; none: all are
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   CandidateColumns(RecordPipeline const& pipeline, TwinComparison const& comparison, BaselineReference reference,

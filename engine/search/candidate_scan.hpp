@@ -1,16 +1,14 @@
 #pragma once
-// Every candidate effect at every point of its shape grid, on the recording and on each of its twins.
+// Every candidate effect at every point of its shape grid, on the recording and on each of its replicates.
 //
-// Statistic  c = Q'(residual - twin mean) of the effect's columns beside the model (Q orthonormal);
-//            T = c' S^-1 c with S the twins' covariance of c, largest over the grid; a single parameter that must not
-//            be negative counts only with that sign
-// Null       the same of each twin against all others (closed form leave-one-out), largest over the same grid: the
-//            search is paid for
-// Gain       energy of the mismatch explained with the signs physics allows, less what noise alone gives: what
-//            candidates are ranked by, for with a real mismatch nearly all are significant (LESSONS item 9)
+// Equation   c = Q'(residual - replicates' mean), Q: orthonormal columns of the effect beside the model;
+//            T = c' S^-1 c with S the replicates' covariance of c, largest over the grid; a single parameter that must
+//            not be negative counts only with that sign
+// Null       the same of each replicate against all others (leave-one-out), largest over the same grid
+// Gain       energy of the mismatch explained with allowed signs, less that of noise: candidates are ranked by it
 // Units      gain in (N m)^2 or N^2, summed over rows
 // Threads    spreads grid points over `threads`; same bits for any number
-// Source     LESSONS items 7, 9 of our own prototype
+// Source     METHOD.md, The null distribution
 
 #include <vector>
 

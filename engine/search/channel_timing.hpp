@@ -1,21 +1,15 @@
 #pragma once
-// Where within a sample the torque channel was read: not known, not asked, and no fault.
+// Where within a sample the torque channel was read: a delay of up to a sample is a convention of the log, no fault.
 //
-// Why        twins hold the torque of a row from its sample to the next, as a controller does that runs at the rate of
-//            the recording. A drive whose loop is faster than its log writes the torque of the instant, which comes
-//            half a sample later to its motion, or the mean since the row before, a whole sample later; one that
-//            computes for a sample is a whole one earlier. Nobody can tell that from a channel that is late by as much
-// Lags       of a torque that acts after its row: none (held from the row on), half a sample or a whole one are what
-//            simulations and programs make that log before or after a step. Any other one, beyond doubt and a tenth of
-//            a sample, is no timing: a current loop or a filter (EMPS: 0.3 ms), which the search names like any law
-// Rule       a delay that the search names, and that is for all that is known no more than one sample (and a tenth of
-//            one, for what a current loop needs itself), is taken out of the recordings, and the search begins again;
-//            also one that explains by itself nine tenths of what was named first, or of what comes closest: when a row
-//            was read is asked before any physics. Where nothing explains the recording, any that may be timing is
-//            taken out: torque beside its rows hides what is missing; but not where the controller's law is lost by
-//            that. A longer one, or such a lag, is a finding
-// Threads    free functions
+// Lags       none (held from the row on), half a sample (torque of the instant) or a whole one (mean since the row
+//            before, or one sample early) are conventions. Any other lag, certain and beyond a tenth of a sample, is a
+//            finding
+// Rule       a delay of at most 1.1 samples is taken out of the recordings and the search begins again: when it was
+//            accepted, when it explains nine tenths of what was accepted first, or when nothing explains the recording
+//            and the controller's law is not lost by that
 // Units      s
+// Threads    free functions
+// Source     METHOD.md, Time of the torque channel
 
 #include <optional>
 
@@ -40,7 +34,7 @@ std::optional<double> delay_within_a_sample(Selection const& selection, bool is_
 Recording with_torque_earlier(Recording recording, double late_s);
 
 // Whether in the torque put back in time a law leaves more than twice the noise (variance) that as_read's left in the
-// torque as it was read: then the rows are those in which the controller wrote it. Without a reference nobody knows:
+// torque as it was read: then the rows are those in which the controller wrote it. Without a reference this is unknown:
 // false
 bool loses_the_law(RecordedLoop const& as_read, Recording const& in_time);
 

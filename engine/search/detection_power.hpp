@@ -1,8 +1,8 @@
 #pragma once
-// What a verdict "nothing is missing" is worth: the smallest effect that would have been told.
+// What a verdict "nothing is missing" is worth: the smallest effect that would have opened the gates.
 //
-// Effect     Stribeck friction at a twentieth of the peak speed, exponent 1: the textbook's first suspect
-// Told       when its part beside the model is large enough for the gates of forward_selection.hpp
+// Effect     Stribeck friction at a twentieth of the peak speed, exponent 1, and any torque beside the model's columns
+// Gate       overall z and share of the torque of forward_selection.hpp
 // Threads    free function
 
 #include <string>

@@ -1,9 +1,10 @@
 #pragma once
-// One line of the forward search: a stage, what was accepted on the way to it, and the next round. What a round asks
-// for is said in forward_selection.hpp, whose part this is. A copy is cheap (stages are shared) and goes its own way.
+// One line of the forward search: a stage, what was accepted on the way to it, and the next round. Conditions of a
+// round: METHOD.md, The search. A copy is cheap (stages are shared) and continues by itself.
 //
 // Threads    as the stages; a line is used by one thread
-// Errors     Error 65 from the constructor: the baseline cannot be fitted, or its twins do not follow the reference
+// Errors     Error 65 from the constructor: the baseline cannot be fitted, or its replicates do not follow the
+//            reference
 
 #include <memory>
 #include <optional>
@@ -21,14 +22,14 @@ class EffectSearch;
 
 inline constexpr double least_share_of_rest = 0.25;  // that an effect must explain, of what a round looks for
 
-// of which rows that are weighed by how much friction may wander make little
+// of which rows weighted by the friction random walk keep little
 inline bool is_drift_of_friction(Effect const& effect) {
   return effect.is_dry_friction() && effect.family() == EffectFamily::time;
 }
 
 struct Round {
   bool is_taken = false;
-  bool began_again = false;  // among twins whose friction wanders by itself: what was before is forgotten
+  bool began_again = false;  // among replicates with the largest friction random walk, with nothing accepted
   // Nine tenths as good as what was taken, and refused by nothing but the order; not what happens once, nor a change
   // over time
   std::vector<Trial> nearly_taken{};

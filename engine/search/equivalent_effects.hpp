@@ -1,17 +1,14 @@
 #pragma once
-// Which other effects explain an accepted effect's part of the torque as well: what cannot be excluded.
+// Which other effects explain an accepted effect's part of the torque as well, and so cannot be excluded.
 //
 // Part       mismatch of the final stage plus the accepted effect itself, beside all other effects of the model
 // Rival      of the same equivalence families, or with half of its gain in the first scan; its shape refined on that
 //            part
-// Excluded   when the advantage of the accepted effect over it is larger than
-//              what chance gives if the rival were the truth: twins' residuals on top of the rival's torque, and
-//              what the accepted effect itself leaves unexplained, for a rival that explains nine tenths as much: a
-//              form that is wrong by that much cannot exclude another that is wrong by little more. What begins at an
-//              instant fits whatever happened once with the edges it wants: it excludes no law that explains nine
-//              tenths as much
+// Excluded   when the accepted effect's advantage is larger than chance gives with the rival as the truth (5 %), and,
+//            for a rival that explains nine tenths as much, than what the accepted effect itself leaves. An event
+//            excludes no law that explains nine tenths as much
 // Threads    spreads grid points over `threads`; same bits for any number
-// Source     PHYSICS.md section 2 step 10; non-nested models by simulation: Cox 1962, Williams 1970
+// Source     Cox 1962, doi:10.1111/j.2517-6161.1962.tb00468.x; Williams 1970, doi:10.2307/2529041
 
 #include <string>
 #include <vector>

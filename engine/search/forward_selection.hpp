@@ -1,31 +1,11 @@
 #pragma once
-// Which effects, one after the other: the mismatch is searched, the effect that explains most of it is put into the
-// model, twins are made anew, and what is left is searched again.
+// Forward selection of effects: search the mismatch, accept the effect that explains most, make new replicates, repeat.
 //
-// Gate       the family test of the scans at level q, and more than 0.25 % of the torque's rms beyond the twins: of the
-//            whole mismatch with an omnibus z above 4, or of what one found candidate explains alone. The second way is
-//            there because a disturbance was fitted to the energy of the residual: where physics is missing it takes
-//            part of it for noise, so that the whole looks like noise while one direction of it does not Otherwise a
-//            candidate must be certain (q below 0.005), and its torque beside the model's own columns more than 0.02 %
-//            of the torque's rms; up to 0.25 % nothing that happens once gets a name. After the first name it must also
-//            explain 3 % of the whole: what an imperfect name leaves is just as certain, and no physics
-// Weights    every accepted effect gets rows weighed anew (noise_weights.hpp), for what is missing passes for noise in
-//            part; energies of earlier steps are counted in the unit of the last (energy_unit)
-// Choice     the candidates with most gain are refined in shape, linear parameters within their plausible bounds, on
-//            the common motion, or on the recording's own where a memory explains a good part more there
-//            (own_motion.hpp); the largest gain wins, a lesser one that gives 97 % of it when it is another wave of a
-//            named effect or has fewer parameters. It must explain a quarter of what is left and 0.2 % of the whole,
-//            have a plausible shape, help where it acts (region_consistency.hpp) and improve blocks of time it was not
-//            fitted to (t >= 2, or by half of its gain); what happens once (happens_once in trial_order.hpp) cannot do
-//            that, and must explain a quarter of the whole. As soon as an effect of the family `time` would be
-//            accepted, the search begins again among twins whose friction wanders as much as it may at most
-//            (friction_wander.hpp, by itself)
-// Accepted   when twins with it follow the reference and the mismatch, counted from their mean, loses at least a third
-//            of what the projection promised
-// Doubt      a second line from where another effect was nearly as good (rival_lines.hpp)
-// End        backward and swap (backward_selection.hpp)
+// Gates, conditions of acceptance, order of candidates, other lines and backward steps: METHOD.md, The search.
+// Equation   gain of a candidate = energy of the mismatch that its columns explain beside the model, less that of noise
+// Units      energies in (N m)^2 or N^2, summed over weighted rows; earlier steps are converted by energy_unit
 // Threads    as the stages
-// Source     LESSONS items 9 to 15 of our own prototype; PHYSICS.md section 2 steps 6 to 8
+// Source     METHOD.md, The search; hierarchical tests: Benjamini, Bogomolov 2014, doi:10.1111/rssb.12028
 
 #include <functional>
 #include <memory>
@@ -45,7 +25,7 @@ struct SelectionOptions {
   double q = 0.05;
   std::size_t max_effects = 5;
   std::string shape_optimiser = "de";
-  bool only_gate = false;  // whether something is missing; nothing is named
+  bool only_gate = false;  // only whether something is missing; no effect is accepted
 };
 
 struct AcceptedEffect {
@@ -55,7 +35,7 @@ struct AcceptedEffect {
   double gain = 0.0;                    // energy of the mismatch it explained there, in the unit of the first step
   double cv_gain = 0.0;                 // the same on blocks it was not fitted to
   double region_gain = 0.0;             // share of the gain where it acts
-  std::optional<LateTorque> instead{};  // beside the effects named before it: by itself, with none
+  std::optional<LateTorque> instead{};  // beside the effects accepted before it; by itself, with none
 };
 
 // why a refined candidate was not taken
@@ -100,7 +80,7 @@ double energy_about_true_mean(ModelStage const& stage);
 // hierarchical, of each scan
 std::vector<double> q_of(std::vector<EffectScan> const& scans);
 
-// told before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
+// called before and after every piece of work: "twins" (how many of how many), "search" and "verify" (effects)
 using StageSink = std::function<void(std::string const& stage, std::size_t done, std::size_t total)>;
 
 Selection select_effects(StageSetting const& setting, SelectionOptions const& options, StageSink const& progress);

@@ -1,16 +1,12 @@
 #pragma once
-// How much of a mismatch is a smooth function of something, whatever the function: what no catalogue name is needed
-// for.
+// How much of a mismatch is a smooth function of something, whatever the function.
 //
 // Axes       splines of position, velocity, time, acceleration; of position and of time with a sign or a size (s q, v
-//            q, a q, s t, v t, a t: friction, drag, inertia that change); position and velocity together; the torque so
-//            far
-// Share      energy of the mismatch in the span (beside the model), less what noise alone gives, over the excess
-// Why        when a smooth function holds most of what the named effects leave, something is there that has no name
-//            here
+//            q, a q, s t, v t, a t); position and velocity together; the torque so far
+// Equation   share = (energy of the mismatch in the span beside the model, less that of noise) / excess
 // Shapes     hats over quantiles of the axis, 12 knots; 8 x 8 for two axes
 // Threads    free function
-// Source     LESSONS item 18 of our own prototype
+// Source     METHOD.md, Adequacy of the final model
 
 #include <string>
 #include <vector>

@@ -1,13 +1,11 @@
 #pragma once
-// The shapes of all effects of a model together, by steps along their tangents, twins made anew after each: what a step
-// of one effect's search leaves wrong in another, and the bias that processing puts on shapes, are both taken out.
+// The shapes of all effects of a model together, by steps along their tangents, with new replicates after each.
 //
 // Equation   mismatch of the stage = [model columns | tangents] * step + rest;  shapes <- shapes + their part of the
-//            step, inside the bounds; because the mismatch is counted from the twins' mean, a step of 0 means unbiased
-//            shapes
-// Stop       when every step is below half its standard deviation over twins, or after four rounds
-// Draft      rounds are made with few twins and the levels of the first: what a step in shape changes is no noise
-// Source     LESSONS items 8 and 11 of our own prototype; indirect inference: Gourieroux, Monfort, Renault 1993
+//            step, inside the bounds. The mismatch is counted from the replicates' mean, so a step of 0 means unbiased
+// Stop       when every step is below half its standard deviation over replicates, or after four rounds
+// Draft      rounds are made with few replicates and the levels of the first: a step in shape is no noise
+// Source     indirect inference: Gourieroux, Monfort, Renault 1993, doi:10.1002/jae.3950080507
 
 #include <optional>
 #include <vector>

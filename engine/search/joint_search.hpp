@@ -1,9 +1,9 @@
 #pragma once
-// The whole search on one recording: names among the rows that move one way, the torque channel's time within a sample,
-// and the reversals.
+// The whole search on one recording: rows that move one way, time of the torque channel within a sample, reversals.
 //
 // Threads    as the stages
 // Errors     as select_effects
+// Source     METHOD.md, The search
 
 #include "engine/search/abstention.hpp"
 #include "engine/search/forward_selection.hpp"
@@ -17,16 +17,15 @@ namespace torquescope {
 Selection search_in_time(StageSetting& setting, Recording& recording, SelectionOptions const& options,
                          StageSink const& progress, double& late_s);
 
-// What has no name may be noise: what acts from outside with a memory, or comes through a loop that is faster than its
-// log, is louder at a few hertz than the law tells. Where nothing is missing among twins whose noise is read from what
-// the model leaves (torque_colour.hpp), noise of that colour has such a spectrum, and what is left does not follow the
-// motion (motion_echo.hpp), these are the selection; the setting's reads_colour says so
+// Before "unexplained": the search among replicates whose torque noise is read from the residual (torque_colour.hpp).
+// It replaces the selection, and sets reads_colour, when nothing is missing there, the spectrum fits, and the residual
+// does not follow the motion (METHOD.md, Noise read from the residual)
 Selection doubt_noise(StageSetting& setting, SelectionOptions const& options, Selection selection,
                       StageSink const& progress);
 
-// What the names leave; where that has no structure of its own, the reversals are looked at as well
-// (friction_buildup.hpp). What these say must not cost the names that hold without them. The setting and the selection
-// are those of the rows in the end
+// What the accepted effects leave; where that has no structure of its own, reversals are looked at as well
+// (friction_buildup.hpp), which must not cost effects that hold without them. Setting and selection become those of the
+// final rows
 Remainder judge_with_reversals(StageSetting& setting, SelectionOptions const& options, Selection& selection,
                                StageSink const& progress);
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a torque channel that was read somewhere within its sample would explain by itself, beside a stage's model.
 //
-// Span       that of a row: a longer one is another law, which a torque that wanders can make use of
+// Span       that of a row: a longer one is another law, which a drifting torque could exploit
 // Threads    free functions
 // Units      s; energies as MismatchEnergy
 

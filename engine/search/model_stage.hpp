@@ -1,9 +1,9 @@
 #pragma once
-// One model on one recording, with its clean twins: what a step of the search begins with. Every accepted effect makes
-// a new stage, twins included, for a mismatch means nothing against twins of another model.
+// One model on one recording with its replicates: where a step of the search begins. Every accepted effect makes a new
+// stage with new replicates, since a mismatch means nothing against replicates of another model.
 //
-// Threads    spreads twins over `threads`; same bits for any number; a stage is a plain record
-// Source     LESSONS items 5, 8, 13 of our own prototype
+// Threads    spreads replicates over `threads`; same bits for any number; a stage is a plain record
+// Source     METHOD.md, Replicates
 
 #include <cstdint>
 #include <memory>
@@ -35,7 +35,7 @@ struct StageSetting {
   bool reads_colour = false;         // noise as the model leaves it, whatever the law says (torque_colour.hpp)
   bool keeps_reversals = false;      // rows at reversals count (friction_buildup.hpp)
   double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
-  TwinExchange* exchange = nullptr;  // who shares the twins; nobody
+  TwinExchange* exchange = nullptr;  // processes that share the replicates; none by default
 
   TwinWorkers workers() const { return {threads, exchange}; }
 };
@@ -53,7 +53,7 @@ struct ModelStage {
   // corrected for the bias of processing
   Eigen::VectorXd const& parameters() const { return twin->baseline.parameters; }
   Eigen::VectorXd mismatch() const { return comparison.rows.residual - comparison.rows.twin_mean; }
-  // what candidates are told of the baseline: this stage's own parameters
+  // what candidates need to know of the baseline: this stage's own parameters
   BaselineReference reference() const;
 };
 
@@ -69,7 +69,7 @@ std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel mod
 std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStage const& stage);
 
 // Whether the last effect of the stage, as corrected by its own twins, is more than twice as large as it can be: a
-// bound on a linear parameter is told in sizes of the joint, by this stage or by the one before, whichever says more.
+// bound on a linear parameter is given in sizes of the joint, by this stage or by the one before, whichever says more.
 // Least squares on two columns that are nearly the same finds such pairs, and no joint has them
 bool is_far_too_large(ModelStage const& stage, JointScales const& before);
 

@@ -1,11 +1,11 @@
 #pragma once
-// Whether what a model leaves follows the motion: as any linear answer to the acceleration that has a memory.
+// Whether what a model leaves follows the motion: as any linear response to the acceleration with a memory.
 //
 // Statistic  energy of the mismatch in the span of the acceleration as it was 1, 2 ... 24 steps ago, beside the model;
-//            a step is half a period of the filter's cut-off
-// Why        noise of whatever colour knows nothing of the motion; a mass that swings behind the joint does
+//            a step is half a period of the filter's cut-off. Null: its replicates
+// Why        noise of any spectrum is independent of the motion; a mass that swings behind the joint is not
 // Threads    free function
-// Source     finite impulse response (Ljung 1999, System Identification, 10.1); its null as everywhere: the twins
+// Source     finite impulse response: Ljung 1999, System Identification, 10.1
 
 #include "engine/search/model_stage.hpp"
 

@@ -1,11 +1,8 @@
 #pragma once
-// The shape of a law as the recording's own motion tells it.
+// The shape of a law on the recorded motion, where candidate_columns.hpp uses that of a replicate without the law.
 //
-// Why        candidate columns are computed from the motion of a twin without the law (candidate_columns.hpp). A law
-//            that shapes the motion itself looks different there: a load that rings behind a spring takes out of the
-//            motor's motion the very frequency that drives it, one behind a gap knocks the motor at other instants. The
-//            recording's own motion has all that, and noise of its encoder, which biases a shape a little: good enough
-//            to make twins with, no statistic
+// Why        a load that rings behind a spring, or knocks behind a gap, changes the motion that drives it; the recorded
+//            motion has that, and encoder noise, which biases a shape a little: good for replicates, no statistic
 // Threads    spreads grid and populations over `threads`; same bits for any number
 
 #include <cstdint>

@@ -1,16 +1,14 @@
 #pragma once
-// The forward search, followed to its end; and once more from where something else was nearly as good, when what was
-// taken leaves something.
+// The forward search to its end, and once more from where another effect was nearly as good.
 //
-// Why        two laws may explain the same at one step and not at the next: friction that waves along the travel and
-//            torque ripple are one where the torque is friction, but only the right one's second wave fits as well
-// When       the end leaves something, even if less than chance may: two models compared with each other show what
-//            either alone does not; and a round could have taken an effect of another family. At most two of them, the
-//            first round's first. Within a family backward_selection.hpp swaps
-// Wins       a line that leaves less than half of what the first one leaves, with as many effects at most, when the
-//            difference is beyond five standard deviations of a single parameter
+// Why        two laws may explain the same at one step and not at the next, for example friction that waves along the
+//            travel and torque ripple
+// When       the end leaves something, and a round could have accepted an effect of another family. At most two such
+//            rounds, the first one first. Within a family backward_selection.hpp swaps
+// Wins       a line that leaves less than half, with at most as many effects, by five standard deviations of a
+//            parameter
 // Threads    as the stages
-// Source     beam search, Lowerre 1976, of width two, and only in doubt
+// Source     beam search of width two, Lowerre 1976, The HARPY speech recognition system (thesis)
 
 #include "engine/search/effect_search.hpp"
 

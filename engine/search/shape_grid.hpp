@@ -1,18 +1,12 @@
 #pragma once
 // The points at which an effect's shape is tried, and the box round one of them in which it is refined.
 //
-// Points     waves (orders, time frequencies): 0.7 of the resolution that the range or the duration gives, so that no
-//            peak falls between two points, most_waves at most: the upper bound comes down to that (5 Hz are reached in
-//            a recording of ten minutes, 14 orders in one of 200 turns); instants and places: 24; everything else: 10
-//            for one parameter, 6 each for two, 4 each for three, or a factor of 2.5 apart where they are logarithmic
-//            (3 to 10); of four, one that is linear, or that is
-//            absent at its lower bound, is left to the refinement: one point, that bound; spaced as the parameter says,
-//            both bounds included
-// Resonance  a fifth from one to the next, and four points of each other parameter: a motor that does not ring itself
-//            drives a load over a wide band. Where the recording's own motion rings, what a resonance explains is gone
-//            a few percent beside it: 2 %
+// Points     waves (orders, frequencies): 0.7 of the resolution of range or duration, most_waves at most; instants and
+//            places: 24; else 10 for one parameter, 6 each for two, 4 each for three; logarithmic ones a factor of 2.5
+//            apart (3 to 10). Of four, one that is linear or absent at its lower bound stays at that bound
+// Resonance  a fifth from one to the next, four points of each other parameter; 2 % where the recorded motion rings
 // Box        one point to both sides, within the bounds
-// Units      SI of the parameter; box in a scale from 0 to 1 over the whole bounds (logarithmic where the parameter is)
+// Units      SI of the parameter; box in a scale from 0 to 1 over the bounds (logarithmic where the parameter is)
 // Threads    free functions
 
 #include <cstddef>
@@ -38,7 +32,7 @@ struct ShapeGrid {
 
 ShapeGrid shape_grid(Effect const& effect, JointScales const& scales);
 
-// on the recording's own motion; nothing for an effect without a resonance
+// on the recorded motion; nothing for an effect without a resonance
 std::optional<ShapeGrid> resonance_grid(Effect const& effect, JointScales const& scales);
 
 // unit scale <-> parameter

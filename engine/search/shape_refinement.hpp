@@ -1,15 +1,13 @@
 #pragma once
-// The shape of one effect that explains most of the mismatch: a population search in the shapes alone, the linear
-// parameters solved inside (variable projection), then Levenberg-Marquardt from the best.
+// The shape of one effect that explains most of the mismatch: a population search in the shapes, the linear parameters
+// solved inside (variable projection), then Levenberg-Marquardt from the best.
 //
-// Search     any optimiser of the registry in a box of the grid round the best grid points; with one shape parameter
-//            too. Where parts ring, the grid is too coarse to point anywhere, and the whole of the bounds is searched
-//            (ShapeSearch::everywhere)
+// Search     any optimiser of the registry in a box of the grid round the best grid points; over all bounds for parts
+//            that ring, where the grid is too coarse (ShapeSearch::everywhere)
 // Polish     steps of the mismatch on [columns | tangents of the shapes], damped, inside the bounds of the effect
 // Evaluation one evaluation = columns of the effect at one shape through the filter
-// Same bits  for any number of threads: members of a population are independent, random numbers addressed
-// Threads    spreads the members of a generation over `threads`
-// Source     Golub, Pereyra 1973; LESSONS item 11 of our own prototype; Levenberg 1944, Marquardt 1963
+// Threads    spreads the members of a generation over `threads`; same bits for any number
+// Source     Golub, Pereyra 1973, doi:10.1137/0710036; Levenberg 1944; Marquardt 1963, doi:10.1137/0111030
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,7 @@
 #pragma once
-// Energies in the torque itself: rows that are weighed by their noise make little of what goes with dry friction, whose
-// level may wander, and a change of it over time can be large and count for nothing there.
+// Energies in the unweighted torque: weighted rows hide what goes with dry friction, whose level may walk, however
+// large
+// its change over time is (METHOD.md, Weights of rows).
 //
 // Beside     of an effect: what the model's own columns cannot take up
 // Units      (N m)^2 or N^2, summed over rows

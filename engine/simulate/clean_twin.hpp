@@ -1,15 +1,14 @@
 #pragma once
-// Clean twins of a recording: the fitted joint in the recording's own loop, following the recording's reference, with
-// its encoder and its noise. What the pipeline finds in them is what it finds when nothing is missing.
+// Replicates of a recording: the fitted joint in the recording's own loop, with its reference, encoder and noise.
 //
-// At a tick  (one sample) the encoder reads position + position noise; the law answers and holds its torque until the
-//            next tick; torque noise is added to what is logged, disturbance to what acts; dry friction may wander
+// Tick       the encoder reads position + position noise; the law answers and holds its torque until the next tick;
+//            torque noise is added to the log, disturbance to the joint; the dry friction level may walk
 // Start      at the recording's first velocity, anywhere within the encoder step of its first position
-// Encoder    where its steps lie is drawn anew for every twin: with the steps in one place all twins of an undisturbed
-//            joint share nearly every reading, and the recording's own rounding passes for physics
-// Groups     twin_lanes twins are simulated side by side; twin i is lane i % twin_lanes of group i / twin_lanes
-// Random     addressed by (seed, recording, set, stream, twin, draw): the same twin has the same bits whatever was
-//            simulated before, on any number of threads and any instruction set; sets are independent of each other
+// Encoder    where its steps lie is drawn for every replicate: else all share the recording's own rounding
+// Groups     twin_lanes replicates are simulated side by side; replicate i is lane i % twin_lanes of group i /
+//            twin_lanes
+// Random     addressed by (seed, recording, set, stream, replicate, draw): same bits on any number of threads and any
+//            instruction set, whatever was simulated before; sets are independent
 // Accuracy   second order in step_s, stops and reversals included (twin_lanes.hpp)
 // Units      SI
 // Threads    const object, any number of threads, each with its own TwinGroup
@@ -34,7 +33,7 @@ struct TwinLoop {
   // standard error of both their variances, as a share: every twin draws a level of its own
   double torque_noise_variance_error = 0.0;
   double disturbance_std = 0.0;  // N m or N, white from tick to tick, acting on the joint
-  // standard error of its square: every twin draws a level of its own, so that the null knows what is not known
+  // standard error of its square: every replicate draws its own level, so that the null holds this uncertainty
   double disturbance_variance_error = 0.0;
   double position_noise_std = 0.0;  // rad or m, before the encoder
   // the level of dry friction as a random walk: standard deviation of its change in one second, as a share of it; every

@@ -1,15 +1,13 @@
 #pragma once
-// A torque beside the baseline joint, for all lanes of a group of twins at once: how an accepted effect enters the
-// twin.
+// A torque beside the baseline joint, for all lanes of a group of replicates: how an accepted effect is simulated.
 //
 // Joint      add(): the joint needs smooth + inertia ddq + (forward while dq > 0, backward while dq < 0, anything
-//            between them at rest); called once per integration step or tick, in the order of time, so that a memory
-//            can advance by step_s
-// Channels   shift_position() and shift_torque(): what a faulty sensor adds, to the position before the encoder (the
-//            controller sees it) and to the torque that is logged (nobody else does); called once per tick
+//            between them at rest); called once per integration step or tick, in the order of time
+// Channels   shift_position(): added before the encoder, so the controller sees it; shift_torque(): added to the logged
+//            torque, which nobody else sees; called once per tick
 // Shapes     twin_lanes numbers each; every function adds to what is there
 // Units      SI
-// Threads    one object per group of twins, used by one thread; a LaneEffectMaker is called from any number of threads
+// Threads    one object per group of replicates, used by one thread; a LaneEffectMaker is called from any number
 
 #include <functional>
 #include <memory>

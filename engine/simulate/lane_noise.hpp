@@ -1,5 +1,5 @@
 #pragma once
-// What is random in a group of twins, lane by lane: noises, how strong each lane's are, and friction that wanders.
+// What is random in a group of twins, lane by lane: noises, their levels, and the friction random walk.
 //
 // Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its
 //            neighbours

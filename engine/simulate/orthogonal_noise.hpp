@@ -3,7 +3,7 @@
 //
 // Equation   e = s (I - Q Q') g,  Q = orthonormal basis of span(phi),  g standard normal,  s such that e'e / n = mse
 // Property   phi' e = 0, so the least-squares fit of phi a + e is a, with residual e
-// Why        the only kind of data set on which a published OLS row holds to the last digit (FADE.md section 3)
+// Why        only such data give back a published least-squares row (seed paper, CITATION.cff) to the last digit
 // Shapes     phi: n x p with n > p; result: n
 
 #include <Eigen/Core>

@@ -1,16 +1,14 @@
 #pragma once
-// The equation of motion of a joint for many twins at once, side by side in vector registers: the inner loop of every
-// clean twin.
+// The equation of motion of a joint for many replicates at once, side by side in vector registers.
 //
 // Equation   (inertia + added) ddq = held - viscous dq - (g_sin sin q + g_cos cos q) - dry,
 //              dry = forward while dq > 0, backward while dq < 0, anything in [backward, forward] at rest
-// Steps      second-order Taylor while sliding; where a velocity meets zero the step is cut, the velocity set to zero,
-//            and the rest of the step begins with the question whether friction holds (set-valued, no smoothing)
-// Gravity    third-order Taylor about the position at the call: error (q - q0)^4 / 24 of the weight, 3e-12 at 3 rad/s
-//            and 1 kHz
-// Shapes     twin_lanes twins, one lane each; unused lanes may hold anything finite
+// Steps      second-order Taylor while sliding; where a velocity meets zero the step is cut, and its rest begins with
+//            the question whether friction holds (set-valued, no smoothing). Gravity: third-order Taylor, error (q -
+//            q0)^4 / 24 of the weight, 3e-12 at 3 rad/s and 1 kHz
+// Shapes     twin_lanes replicates, one lane each; unused lanes may hold anything finite
 // Units      SI; held, forward, backward in N m or N
-// Bits       the same on every instruction set: additions and multiplications only, one rounding each, no fused ones
+// Bits       the same on every instruction set: additions and multiplications only, no fused ones
 // Requires   inertia + added > 0, backward <= forward, viscous step / (inertia + added) < 1
 // Threads    any number, each with its own state; does not allocate
 

@@ -1,16 +1,14 @@
 #pragma once
-// How far least-squares coefficients move when a tenth of the record is left out: what an interval must cover when the
-// law is not quite that of the joint. Chance over twins knows only the noise; a law that fits one part of the motion
-// with one number and another part with another shows here.
+// How far least-squares coefficients move when a tenth of the record is left out: what an interval must cover when a
+// law fits one part of the motion with one number and another part with another.
 //
 // Equation   std^2 = (B - 1) / B sum_b (theta_b - mean theta)^2, theta_b without block b of B = 10 blocks of
 //            consecutive rows
-// Left out   for a coefficient: blocks that hold more than half of its column's energy (what happens once cannot be
-//            asked twice); 0 when fewer than half of the blocks remain
-// Shapes     signal: n rows, columns: n x k; result: k, in the units of the coefficients
-// Requires   n >= 10
+// Left out   for a coefficient: blocks that hold more than half of its column's energy (an event occurs in
+//            one block only); 0 when fewer than half of the blocks remain
+// Shapes     signal: n rows, columns: n x k; result: k, in the units of the coefficients; n >= 10
 // Threads    free function
-// Source     delete-a-group jackknife: Shao, Tu 1995, The Jackknife and Bootstrap, section 2.3
+// Source     delete-a-group jackknife: Shao, Tu 1995, section 2.3, doi:10.1007/978-1-4612-0795-5
 
 #include <Eigen/Core>
 

@@ -8,7 +8,7 @@
 // Shapes     mismatch: n; model: n x k; effect: n x L
 // Requires   n >= fewest_rows
 // Threads    free function
-// Source     PHYSICS.md section 2 step 9; blocked cross-validation: Burman, Chow, Nolan 1994
+// Source     Burman, Chow, Nolan 1994, doi:10.1093/biomet/81.2.351
 
 #include <Eigen/Core>
 #include <vector>

@@ -4,12 +4,11 @@
 // q          the smallest level at which the test would still be rejected by Benjamini-Hochberg: q_(i) = min_{j >= i}
 //            p_(j) m / j
 // Families   first which families (Simes p of each, BH over families at level q), then which members of the selected
-//            ones (BH at level q * selected / families): the expected average of false discoveries over selected
-//            families is at most q. The hierarchical q of a member is the smallest level at which both steps find it
-// Requires   p in (0, 1]; independence or positive dependence, which statistics of one residual have in good
-//            approximation
+//            ones (BH at level q * selected / families). Hierarchical q: the smallest level at which both steps find it
+// Requires   p in (0, 1]; independence or positive dependence
 // Threads    free functions
-// Source     Benjamini, Hochberg 1995; Simes 1986; Benjamini, Bogomolov 2014 (JRSS B 76) section 3
+// Source     Benjamini, Hochberg 1995, doi:10.1111/j.2517-6161.1995.tb02031.x; Simes 1986, doi:10.1093/biomet/73.3.751;
+//            Benjamini, Bogomolov 2014, section 3, doi:10.1111/rssb.12028
 
 #include <cstddef>
 #include <span>

@@ -1,16 +1,12 @@
 #pragma once
-// How far an instant or a place can be moved before the fit notices: the interval of a parameter that no tangent
-// describes.
+// The interval of an instant or a place, which no tangent describes: how far it can move before the fit notices.
 //
-// Equation   from s_0 to both sides as far as gain(s_0) - gain(s) <= 1.96^2 noise + hidden; gain(s): energy that is
-//            explained with the parameter at s, all others solved for; noise: energy of a row's own noise; hidden:
-//            energy that a law which is not quite the joint's may have wrong here
-// Why        a load that is picked up while the joint rests, or moves at one speed, was picked up at any instant of
-//            that; what is explained changes by nothing or by a jump there, and the derivative at one instant knows
-//            neither
+// Equation   from s_0 to both sides as far as gain(s_0) - gain(s) <= 1.96^2 noise + hidden; gain(s): energy explained
+//            with the parameter at s, all others solved for; noise: energy of a row's own noise; hidden: energy that a
+//            slightly wrong law may have wrong here
 // Search     outwards in doubling steps, then by halves; never outside the bounds
 // Threads    free function
-// Source     profile likelihood: Venzon, Moolgavkar 1988
+// Source     profile likelihood: Venzon, Moolgavkar 1988, doi:10.2307/2347496
 
 #include <functional>
 #include <utility>

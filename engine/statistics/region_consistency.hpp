@@ -1,16 +1,12 @@
 #pragma once
-// Does an effect help where it acts? A term that is there lowers the mismatch on the rows on which its own torque is
-// large; one that fits by luck, or stands in for another, lowers it elsewhere.
+// Does an effect help where it acts? A right law lowers the mismatch where its own torque is large.
 //
-// Region     the rows with the largest torque of the effect (less what the model explains already) that hold 90 % of
-//            its energy: where it predicts to be seen
-// Share      of the energy that the effect takes from the mismatch, how much it takes inside its region. An effect that
-//            is there takes 90 % on average; another form of the same physics, less
-// Asked for  70 %; less when noise alone takes less in one of twenty clean twins with that effect in them: a weak
-//            effect is not refused for the noise it lies in
-// Shapes     n rows, M twins
+// Region     the rows with the largest torque of the effect (beside the model) that hold 90 % of its energy
+// Share      of the energy that the effect takes from the mismatch, how much it takes inside its region
+// Asked for  70 %; less when noise alone takes less in one of twenty replicates with that effect in them
+// Shapes     n rows, M replicates
 // Threads    free function
-// Source     PHYSICS.md section 2 step 7
+// Source     METHOD.md, Conditions of acceptance
 
 #include <Eigen/Core>
 

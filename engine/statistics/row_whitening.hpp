@@ -1,18 +1,14 @@
 #pragma once
-// Makes rows whose noise is not white count for what they know: the noise of inverse dynamics grows with the fourth
-// power of frequency (an encoder's steps, differentiated twice), and least squares on such rows looks at the noise
-// alone.
+// Weights of rows whose noise is not white: encoder noise, differentiated twice, grows with the fourth power of
+//            frequency.
 //
-// Noise      stationary along an unbroken stretch of rows; every stretch begins anew, so nothing crosses a masked
-//            reversal
-// Equation   row k of a stretch: gain_m (x_k - sum_i a_mi x_(k-i)), m = min(k, order): the inverse Cholesky factor of
-//            the stretch's covariance; the same on torque and columns, so that torque = columns * parameters goes on
-//            holding
-// Gain       the quietest frequency below the cut-off keeps its size, louder ones shrink: results stay in torque units.
-//            Nothing is enlarged, whatever the filter left of it
+// Equation   row k of an unbroken stretch: gain_m (x_k - sum_i a_mi x_(k-i)), m = min(k, order): the inverse Cholesky
+//            factor of its covariance; the same on torque and columns, so that torque = columns * parameters still
+//            holds. Every stretch begins anew: nothing crosses a masked reversal
+// Gain       the quietest frequency below the cut-off keeps its size, louder ones shrink; results stay in torque units
 // Shapes     signals: rows x any number, in time order; kept_rows: of each row, consecutive numbers are neighbours
 // Threads    const object, any number of threads
-// Source     generalised least squares: Aitken 1935; Levinson, Durbin as in Brockwell, Davis 1991, section 5.2
+// Source     Aitken 1935; Levinson, Durbin as in Brockwell, Davis 1991, section 5.2, doi:10.1007/978-1-4419-0320-4
 
 #include <Eigen/Core>
 #include <span>

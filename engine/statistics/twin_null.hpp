@@ -1,15 +1,14 @@
 #pragma once
-// How unusual a statistic of the data is among the same statistic of clean twins: the null of every claim.
+// How unusual a statistic of the data is among the same statistic of its replicates: the null of every claim.
 //
-// Shapes     twins: one value per twin, M of them
-// p          empirical: (1 + number of twins at or above) / (M + 1), never below 1 / (M + 1), valid for any M;
-//            tail: beyond the twins' upper quartile an exponential continues their empirical tail, so that a multiple
-//            test over many candidates can fire; only for M >= 200, below that the empirical p is returned
-// z          (data - mean) / (spread * sqrt(1 + 1/M)): the data is one more draw, not part of the mean
+// Shapes     twins: one value per replicate, M of them
+// p          empirical: (1 + number of replicates at or above) / (M + 1), valid for any M; tail: from M = 200 on an
+//            exponential beyond the upper quartile, so that a test over many candidates can reject
+// z          (data - mean) / (spread * sqrt(1 + 1/M)); a replicate's own z is made without it, standardised_twins()
 // Requires   larger is more unusual; M >= 2; finite values
 // Threads    free functions
-// Source     Davison, Hinkley: Bootstrap Methods (1997) section 4.2; Pickands 1975 for the exponential tail;
-//            leave-one-out scaling: a twin's own z must be made without it, see standardised_twins()
+// Source     Davison, Hinkley 1997, section 4.2, doi:10.1017/CBO9780511802843; tail: Pickands 1975,
+//            doi:10.1214/aos/1176343003
 
 #include <cstddef>
 #include <span>

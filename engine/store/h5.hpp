@@ -4,8 +4,7 @@
 // Files      superblock 3 and version 2 object headers (their metadata is checksummed), no times, no file locks
 // Datasets   double, int64 or text of fixed length; rows = first dimension; one number alone has shape {}
 // Texts      of fixed length everywhere: HDF5 1.10 keeps variable ones in a heap without a checksum, and one flipped
-// bit
-//            there ends the reading process (a segmentation fault in H5HG_read)
+//            bit there ends the reading process (a segmentation fault in H5HG_read)
 // Links      hard links only: a soft or external link is refused before it is followed
 // Errors     Failure with HDF5's own reason; the callers know the file and the object and make an Error of it.
 //            HDF5 prints nothing. Closing never throws.

@@ -1,15 +1,11 @@
 #pragma once
-// Reads a result file (RESULT_FORMAT.md) and believes nothing that it has not checked.
+// Reads a result file (RESULT_FORMAT.md) and trusts nothing that it has not checked.
 //
 // Checked    at opening: regular file, HDF5, ours, complete, format not newer; at each object: the checksum of its
-// header,
-//            and of each chunk of values; type; size against that of the file, before memory is taken. Links to
-//            elsewhere are refused. verify_result() reads everything and compares content_sha256: it also notices what
-//            another program changed on purpose.
-// Errors     Error with exit code 66 when there is no such file; 74 when the disk cannot read it; 65 when anything
-//            above does not hold (the message
-// names
-//            the dataset); asking for what is not there is 65 too: the file lacks what its format promises
+//            header and of each chunk; type; size against that of the file, before memory is taken. Links to elsewhere
+//            are refused. verify_result() reads everything and compares content_sha256
+// Errors     Error 66 when there is no such file; 74 when the disk cannot read it; 65 when anything above does not hold
+//            (the message names the dataset), or what the format promises is missing
 // Threads    one at a time, and nothing else in the process may use HDF5 meanwhile
 
 #include <cstdint>

@@ -2,18 +2,13 @@
 // A file that gets its name only when it is whole: written beside its final name, then fsync, rename, fsync of the
 // folder.
 //
-// Of all the ways to write a file that were killed, cut off from power or left without space, only this one (and an
-// append-only journal) lost nothing.
-//
-// Speed      what is written at the end collects in blocks of 512 KiB, which another thread (disk_writer.hpp) writes
-//            past the page cache where the file system lets it: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6. The first
-//            block waits until publish(): HDF5 comes back to it again and again
-// Memory     seven blocks
+// Speed      data written at the end collects in blocks of 512 KiB, which another thread (disk_writer.hpp) writes past
+//            the page cache: 2.5 GB cost 0.2 s of CPU instead of 1.4 to 6. The first block waits until publish(), since
+//            HDF5 comes back to it. Memory: seven blocks
 // Lock       a temporary file is locked (flock) as long as its writer lives: one that is not may be removed
-// Signals    a call that one interrupts is made again
-// Errors     write_at() and resize() never fail loudly: the first failure is remembered, what follows is dropped, and
-//            check() or publish() tell (exit code 74). HDF5 writes through them and must not see a failing disk:
-//            closing a file after a failed write ends the process inside HDF5's exit handler.
+// Signals    an interrupted call is made again
+// Errors     write_at() and resize() remember the first failure and drop what follows; check() and publish() report it
+//            (exit code 74). HDF5 must not see a failing disk: closing a file after a failed write ends the process
 // Threads    one at a time; its own thread sees nothing but whole blocks
 
 #include <cstddef>

@@ -1,15 +1,13 @@
 #pragma once
-// The baseline's parameters without the bias of differentiation, encoder, filter and loop: those whose twins, sent
-// through the same pipeline, give on average what the recording gives.
+// The baseline's parameters without the bias of differentiation, encoder, filter and loop: those whose replicates give
+// on average the fit that the recording gives.
 //
-// Equation   find a with mean over twins of fit(twin(a)) = fit(recording):  a <- a + g (fit(recording) - mean
-//            fit(twin(a))), g = 1 in the first two rounds, then 1/2, 1/3 ... (Robbins, Monro)
-// Stop       every |fit(recording) - mean fit(twin(a))| below 0.2 of the standard deviation of that parameter over
-//            twins, or 6 rounds
-// Twins      the same noise in every round, so that rounds differ by a alone
+// Equation   a <- a + g (fit(recording) - mean fit(replicate(a))), g = 1 in the first two rounds, then 1/2, 1/3 ...
+// Stop       every difference below 0.2 of that parameter's standard deviation over replicates, or 6 rounds
+// Replicates the same noise in every round, so that rounds differ by a alone
 // Errors     Error 65 as make_twin_joint and the pipeline
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
-// Source     Gourieroux, Monfort, Renault 1993, Indirect inference; LESSONS item 8 of our own prototype
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     Gourieroux, Monfort, Renault 1993, doi:10.1002/jae.3950080507; gains: Robbins, Monro 1951
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -93,7 +93,7 @@ TrackedJoint fitted_joint(JointModel const& model, Eigen::VectorXd const& parame
 }
 
 // As its controller knows it: without what effects of the torque channel add, for it never saw a fault of the
-// measurement (LESSONS item 16)
+// measurement
 struct InLoop {
   Recording recording;
   NeededTorque needed_torque;
@@ -156,7 +156,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
   TrackedJoint const joint = fitted_joint(pipeline.model(), without_negatives(record.parameters, pipeline.model()));
   InLoop const in_loop = in_loop_of(recording, record, pipeline);
   bool const decides = options.loop == nullptr;
-  // a controller that is known tells what is noise, even where its law is too poor to be simulated
+  // a known controller separates the noise, even where its law is too poor to be simulated
   bool const reads_colour = options.reads_colour || recording.reference.size() != recording.position.size();
   auto const attempt_in = [&](RecordedLoop const& loop) {
     Attempt tried = attempt(loop, reads_colour, record, pipeline, options, workers);

@@ -1,21 +1,15 @@
 #pragma once
-// The clean twin of a recording, ready to be multiplied: loop found, baseline corrected, noise and disturbance
-// levelled.
+// The simulated copy of a recording from which replicates are drawn: loop found, baseline corrected, noise levelled.
 //
-// Steps      least squares on the recording's rows; loop (recorded_loop.hpp); parameters by indirect inference; level
-//            of the disturbance and of what dry friction wanders, and when there is one of them the parameters again
-//            under it. A loop that runs away is replaced by the tracking loop
-// Loop       decided once: later models of the same recording are told the first one's, or unlike twins would be
-//            compared. Effects of the torque channel ask for another look at it: a controller never saw what they add
-// Colour     of the torque noise: an identified loop has it from its own remainder; in a tracking loop
-//            torque_colour.hpp reads it from what the model leaves, anew with every model, where there is no reference
-//            or twins would be louder than the recording
-// Sets       twin sets 0 to 2 of (seed, recording) are used up here; a null distribution takes another set
-// Errors     Error 65 as the parts; also when twins run away in the tracking loop too
-// Units      SI
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number; result is a plain
-//            record
-// Source     LESSONS items 1 to 8 of our own prototype
+// Steps      least squares on the rows; loop (recorded_loop.hpp); parameters by indirect inference; levels of
+//            disturbance and of the friction random walk, then the parameters again. A loop that diverges becomes a
+//            tracking loop
+// Loop       decided once per recording. Effects of the torque channel ask for it again: no controller saw them
+// Colour     torque noise of a tracking loop is read by torque_colour.hpp, anew with every model
+// Sets       sets 0 to 2 of (seed, recording) are used here; a null distribution takes another set
+// Errors     Error 65 as the parts; also when replicates diverge in the tracking loop too
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     METHOD.md, Replicates
 
 #include <cstdint>
 #include <memory>
@@ -36,7 +30,7 @@ struct TwinLevels {
   Eigen::VectorXd parameters;  // to begin the correction with
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
-  std::optional<TorqueColour> colour{};  // where no controller tells it
+  std::optional<TorqueColour> colour{};  // where no controller separates it
 };
 
 struct TwinOptions {
@@ -56,7 +50,7 @@ struct BaselineTwin {
   BaselineCorrection baseline;
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
-  std::optional<TorqueColour> colour;  // of the torque noise, where no controller tells it
+  std::optional<TorqueColour> colour;  // spectrum of the torque noise, where no controller separates it
   CleanTwin twin;
 };
 
@@ -64,7 +58,7 @@ inline constexpr std::uint32_t first_free_twin_set = 3;
 
 TwinLevels levels_of(BaselineTwin const& made);
 
-// the wander of dry friction once more, under the weights that the pipeline has now
+// the friction random walk once more, under the weights that the pipeline has now
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,
                            TwinOptions const& options, TwinWorkers const& workers);
 

@@ -1,17 +1,12 @@
 #pragma once
-// The torque that acts on the joint and that the controller never tells: its level, where no missing physics can pose
-// as it.
+// The level of the torque that acts on the joint and that the controller regression cannot see.
 //
-// Statistic  energy of the residual's second differences over rows 0.4 periods of the filter's cut-off apart: the top
-//            of the band that the regression filter leaves, where effects of position, velocity and load have little to
-//            say; the median over blocks of eight of these steps, because a disturbance is there all the time and an
-//            impact of lost motion is not
-// Limits     one level, white from tick to tick. Fit it again after an effect was accepted: what the effect left in the
-//            band is counted here
+// Statistic  median over blocks of the energy of the residual's second differences over rows 0.4 periods of the cut-off
+//            apart: the top of the band, where position, velocity and load say little; the median spares impacts
+// Limits     one level, white from tick to tick. Fit it again after an effect was accepted
 // Units      N m or N
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
-// Level      noise_level.hpp
-// Source     LESSONS item 5 of our own prototype
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     METHOD.md, Replicates; level: noise_level.hpp
 
 #include <cstddef>
 

@@ -1,24 +1,14 @@
 #pragma once
-// How much dry friction wanders by itself: no joint keeps its level to the last per mille, and a slow wander passes for
-// any effect of time, and for a little of everything, when the twins have none.
+// The random walk of the dry friction level: how much of it a joint has without any missing physics.
 //
-// Statistic  the residual, less every smooth function of position, velocity and acceleration that it holds and a
-//            parabola of the level over time, read as a change of the level of dry friction, block by block (24, of 2 s
-//            at least); mean square over the blocks, the largest fifth left out: a drift that goes on is no wander, nor
-//            is an event
-// By itself  the same with nothing but the parabola taken out: more, when something else is missing, seldom less. Where
-//            a motion takes its speeds one after the other, functions of the motion can pose as any wander; whoever
-//            names a drift must do so against this reading
-// Rows       whitened as the pipeline whitens: the noise of the encoder hides slow changes, and an uncertain level
-//            makes twins that differ by it
-// Model      a random walk: from what the level does beside its parabola follows what chance may do to the parabola, so
-//            that a drift is named only where it is more than that
-// At most    3 % in a minute as an estimate (twins draw about a lower one, not about this): friction that changes by
-//            more does so for a reason, which is for the search to find
+// Equation   mean square over blocks (24, of 2 s at least) of the level read from the residual, beside smooth functions
+//            of position, velocity, acceleration and a parabola over time; the largest fifth of the blocks is left out
+// By itself  the same beside the parabola alone: the reading that a change over time must stand against
+// At most    3 % of the level in a minute; more is a drift, for the search to find (METHOD.md, Replicates)
 // Unit       share of the level per square root of a second (TwinLoop::friction_wander)
 // None       no dry friction, or a recording too short for eight blocks
-// Level      noise_level.hpp
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     METHOD.md, Replicates; modes of a walk about its mean: Watson 1961, doi:10.1093/biomet/48.1-2.109
 
 #include <cstddef>
 #include <vector>
@@ -53,7 +43,7 @@ class FrictionWander {
   Eigen::VectorXd friction_;  // kept samples: torque of dry friction
 };
 
-// the wander that the twin has already is not used
+// a random walk that the twin has already is not used
 NoiseLevel friction_wander(ProcessedRecord const& recording, CleanTwin const& twin, RecordPipeline const& pipeline,
                            WanderReading reading, TwinAddress const& address, std::size_t twins,
                            TwinWorkers const& workers);

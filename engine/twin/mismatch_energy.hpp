@@ -1,12 +1,12 @@
 #pragma once
-// How much of the residual the twins do not have: the omnibus test, and the measure that every gain is a share of.
+// How much of the residual the replicates do not have: the overall test, and the measure that every gain is a share of.
 //
-// Mismatch   d = residual - mean residual of the twins
-// Excess     ||d||^2 / (1 + 1/M) - sum over rows of the twins' variance: energy beyond what noise leaves, 0 on average
-//            when nothing is missing
-// z, p       of ||d||^2 among the same of each twin against the others (leave-one-out, both with their own scaling)
+// Equation   d = residual - mean residual of the replicates
+//            excess = ||d||^2 / (1 + 1/M) - sum over rows of the replicates' variance: 0 on average when nothing is
+//            missing
+// z, p       of ||d||^2 among the same of each replicate against the others (leave-one-out, each with its own scaling)
 // Threads    free function
-// Source     LESSONS items 7, 9, 12 of our own prototype
+// Source     METHOD.md, The null distribution
 
 #include "engine/twin/mismatch_rows.hpp"
 

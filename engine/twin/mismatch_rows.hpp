@@ -1,15 +1,13 @@
 #pragma once
-// The recording and its clean twins on the same rows: what every statistic of a diagnosis is computed from.
+// The recording and its replicates on the same rows: what every statistic of a diagnosis is computed from.
 //
-// Common motion  of a twin without noise and encoder: candidate columns and axes are computed from it, once, for data
-//                and twins alike. Columns of each one's own measured motion would carry its own noise into the
-//                statistic
-// Rows           kept samples at which the recording, the common motion and the pilot twins all surely move one way;
-//                with reversals (friction_buildup.hpp): all but rests
-// Residual       torque - own columns * own least squares, everything filtered and whitened alike; data and twins in
-//                the same way. The plain ones are the same before whitening, empty where nothing was whitened
-// Shapes         n rows in time order, M twins
-// Memory         8 n M bytes; nothing at the full rate but the common motion
+// Common motion  of a replicate without noise and encoder: candidate columns and axes are computed from it, once, so
+// that no noise of a measured motion enters the statistic
+// Rows           kept samples at which the recording, the common motion and the pilot replicates all surely move one
+// way; with reversals (friction_buildup.hpp): all but rests
+// Residual       torque - own columns * own least squares, filtered and whitened alike. The plain ones are the same
+// before whitening, empty where nothing was whitened
+// Shapes         n rows in time order, M replicates: 8 n M bytes
 // Units          SI
 // Threads        plain record
 

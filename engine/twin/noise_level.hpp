@@ -1,13 +1,13 @@
 #pragma once
-// How strong a noise must be in the twins so that one statistic of theirs is what the recording has.
+// How strong a noise must be in the replicates so that one statistic of theirs is what the recording has.
 //
-// Equation   mean of statistic(twins with variance s^2) = statistic(recording); a statistic of squares grows nearly
-//            linearly with s^2: secant, never beyond the most that is plausible
-// Zero       when the recording's statistic is less than `least_z` standard deviations above that of twins without the
-//            noise: a level too low makes false names, so the doubt goes to the noise (1.64: one-sided 5 %)
-// Error      with least_z below 0 also a level of 0 has its error: the twins then draw about 0
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
-// Source     LESSONS item 5 of our own prototype
+// Equation   mean of statistic(replicates with variance s^2) = statistic(recording), by the secant method in s^2; never
+//            beyond the most that is plausible
+// Zero       when the recording's statistic is less than `least_z` standard deviations above that of replicates without
+//            the noise. A level too low makes false names (1.64: one-sided 5 %)
+// Error      with least_z below 0 also a level of 0 has its error: replicates then draw about 0
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     METHOD.md, Replicates
 
 #include <cstddef>
 #include <functional>

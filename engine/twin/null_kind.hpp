@@ -1,18 +1,16 @@
 #pragma once
-// What chance is taken for: clean twins, or for the ablations one of the textbook nulls, made of the residual itself.
+// What chance is taken for: replicates, or for ablations one of the textbook nulls, made of the residual itself.
 //
 // Twins      the method (twin_batch.hpp)
 // iid        white normal noise of the residual's variance: the null of an F-test
 // hac        residual times a moving average of independent normal numbers, so that the covariance of any statistic
-//            over draws is its Newey-West estimate, Bartlett weights, lags by Andrews' rule: the null of a HAC test
-// surrogate  the residual's amplitude spectrum with random phases: the null of a surrogate test
-// Draws      stand where the residuals of twins stand, less what the model's columns fit in them; so all that follows
-//            (search over shapes, largest statistic, multiple testing) is the same. What processing does to a perfect
-//            joint is in none of them: that is what they are here to show
-// Rows       counted as if no reversal were left out between them
+//            over draws is its Newey-West estimate, Bartlett weights, lags by Andrews' rule
+// surrogate  the residual's amplitude spectrum with random phases
+// Draws      stand where residuals of replicates stand, less what the model fits in them; rows counted without gaps
 // Random     addressed by (seed, null, draw): same bits for any number of threads
-// Source     Newey, West 1987; Andrews 1991; Shao 2010 (dependent wild bootstrap, whose Bartlett form is this); Theiler
-//            et al. 1992 (phase-randomised surrogates)
+// Source     Newey, West 1987, doi:10.2307/1913610; Andrews 1991, doi:10.2307/2938229; Shao 2010,
+//            doi:10.1198/jasa.2009.tm08744 (dependent wild bootstrap); Theiler et al. 1992,
+//            doi:10.1016/0167-2789(92)90102-S (surrogates)
 
 #include <cstdint>
 #include <string>

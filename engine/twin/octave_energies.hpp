@@ -1,12 +1,10 @@
 #pragma once
 // What a record has in each octave below the filter's cut-off, where no missing physics can pose as noise.
 //
-// Statistic  energy of second differences over rows 0.4, 0.8, 1.6 ... periods of the cut-off apart, as long as eight
-//            blocks of eight such steps are left: one per octave. Differences of means over half a step either side
-//            (Hann): an encoder's noise, differentiated twice, is a hundred times louder at the cut-off than what may
-//            be slow, and bare differences hear it in every octave. Median over the blocks; every smooth function of
-//            position, velocity, acceleration and jerk that the signal holds is taken out first, with and without the
-//            motion's sign, and a parabola of dry friction's level: what is missing lives there, noise does not
+// Statistic  per octave the median over blocks of the energy of second differences over rows 0.4, 0.8, 1.6 ... periods
+//            of the cut-off apart, of Hann means over half a step, which hide the encoder's louder noise
+// Taken out  smooth functions of position, velocity, acceleration and jerk, with and without the motion's sign, and a
+//            parabola of the friction level: missing physics lives there, noise does not
 // Shapes     smooth functions are those of the recording's motion; a record's own columns go out beside them
 // Units      squares of the signal's
 // Threads    const object, any number of threads

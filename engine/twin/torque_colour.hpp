@@ -1,21 +1,14 @@
 #pragma once
-// The noise of the torque where no controller tells it: how much of it is white, how much slow, and how slow.
+// The spectrum of the torque noise where no controller separates it: a white part and a slow part with its corner.
 //
-// Without a reference nobody knows what the motor was told, so noise can only be read from what the model leaves; nor
-// does a law tell it that is only a rougher copy of a controller (a drive that is faster than its log), nor what acts
-// on the joint from outside and has a memory. A torque channel whose noise has one (amplifiers, filters, friction of
-// bearings) is louder at a few hertz than its white part lets expect, and twins with white noise alone would take all
-// of that for missing physics.
-//
-// Model      white noise plus white noise through one pole (corner_hz), both only logged
-// Statistic  energies in the octaves below the filter's cut-off (octave_energies.hpp)
-// Fit        energies of the recording = those of twins without torque noise + of the two noises through the same
-//            filter and projection; gamma likelihood, its degrees of freedom from the noise's own draws; the slow part
-//            is taken in when Akaike's criterion asks for it. Non-negative
-// Corner     from the cut-off to an octave below the lowest one, in steps of half an octave
+// Model      white noise plus white noise through one pole (corner_hz), both added to the recorded torque only
+// Equation   octave energies (octave_energies.hpp) of the recording = those of replicates without torque noise + those
+//            of the two noises through the same filter and projection; non-negative; gamma likelihood, degrees of
+//            freedom from draws of the noise; the slow part by Akaike's criterion
+// Corner     from the cut-off to an octave below the lowest octave, in steps of half an octave
 // Units      N m or N; Hz
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
-// Source     McCullagh, Nelder 1989, 8.3 (gamma likelihood of spectral estimates: Whittle 1953)
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     McCullagh, Nelder 1989, Generalized Linear Models, 8.3; Whittle 1953, doi:10.1007/BF02590998
 
 #include <cstddef>
 #include <string>
@@ -29,7 +22,7 @@ struct TorqueColour {
   double white_std = 0.0;
   double slow_std = 0.0, corner_hz = 0.0;  // 0: no slow part
   double variance_error = 0.0;             // standard error of both variances, as a share: of the octave known worst
-  // chance that noise of this colour has energies so unlike its own (deviance, chi squared): a line or a hump in the
+  // p-value of energies as far from this spectrum (deviance, chi squared): a line or a hump in the
   // spectrum is no memory of an amplifier
   double misfit_p = 1.0;
   bool ran_away = false;

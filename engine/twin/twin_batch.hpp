@@ -1,13 +1,12 @@
 #pragma once
-// Many twins through the pipeline, one after the other on every thread: what a statistic's null distribution is made
-// from.
+// Many replicates through the pipeline, one after the other on every thread: how a null distribution is made.
 //
-// visit      is called once per twin, from any thread, in no order: write to the twin's own place
-// Sharing    gather_twins() visits only the twins that are computed here, others bring their numbers: what a visit
-//            writes must stand in `places`, all of it
-// Memory     one group of twins per thread at the full rate, whatever the count
-// Bits       what visit() gets depends on the address and the twin alone
-// Errors     whatever the pipeline or visit() throws; a twin that ran away is visited with ran_away = true and an empty
+// visit      is called once per replicate, from any thread, in no order: write to the replicate's own place
+// Sharing    gather_twins() visits only replicates computed here, others bring their numbers: what a visit writes must
+//            stand in `places`, all of it
+// Memory     one group of replicates per thread at the full rate, whatever the count
+// Bits       what visit() gets depends on the address and the replicate alone
+// Errors     whatever the pipeline or visit() throws; a diverged replicate is visited with ran_away = true and an empty
 //            record
 // Threads    `threads` of base/parallel
 

@@ -1,10 +1,11 @@
 #pragma once
-// The noise of a recording's rows, as its clean twins show it, made into weights of rows.
+// The noise of a recording's rows, as its replicates show it, made into weights of rows.
 //
-// Noise      residuals of twins less their mean, on rows that all of them keep; twins whose friction does not wander,
-//            for that is no stationary noise. Wander: at the level the baseline found, its doubt included
-// Result     equal weights where twins do not differ or run away
-// Threads    spreads twins over the threads and processes of `workers`; same bits for any number
+// Noise      residuals of replicates less their mean, on rows that all of them keep, without the friction random walk,
+//            which is no stationary noise. Walk: at the level the baseline found, its doubt included
+// Result     equal weights where replicates do not differ or diverge
+// Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
+// Source     METHOD.md, Weights of rows
 
 #include <cstddef>
 #include <memory>

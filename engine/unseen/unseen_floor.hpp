@@ -1,19 +1,14 @@
 #pragma once
-// What a complete model would leave of an unseen recording: the relative errors of twins of it.
+// What a complete model would leave of a validation recording: the relative errors of its replicates.
 //
-// Twins      16 of the final model, predicted by the same parameters as the recording; disturbance and wander as in
-//            training
-// Loop       the one found in that recording; what a law does not explain there is noise of its twins, and a law that
-//            lacks something makes them louder than the recording. Then the law of training follows this recording's
-//            reference, with the noise it had there
-// No floor   a recording that leaves less than every one of its twins does not have their noise (one in 17 by chance):
-//            with neither law a floor is known
-// Reversals  where rows at reversals stay in, the filtered velocity misplaces the sign of friction by a few samples,
-//            and what that makes of a complete model outweighs what a law of sticking explains. It is the same in
-//            twins, which reverse where the recording does: their mean residual is the artefact, taken out of the
-//            recording's residual and of their own
+// Replicates 16 of the final model, predicted by the same parameters as the recording; noise levels as in training
+// Loop       the one found in that recording; when its replicates are louder than the recording, the law of training
+//            with the noise it had there
+// No floor   a recording that leaves less than every replicate has not their noise (one in 17 by chance)
+// Reversals  where their rows stay in, the replicates' mean residual is an artefact of processing; it is subtracted
+//            from the recording's residual and from theirs
 // Units      1; artefact: N m or N
-// Threads    spreads twins over `threads`; same bits for any number
+// Threads    spreads replicates over `threads`; same bits for any number
 
 #include <functional>
 #include <vector>

@@ -3,7 +3,7 @@
 // its first 5 %.
 //
 // Refits     only beyond three standard errors, neighbours of a row repeating each other (autoregression of order 1)
-// Shapes     residuals, columns: rows of the unseen recording; parameters: of the whole model
+// Shapes     residuals, columns: rows of the validation recording; parameters: of the whole model
 // Units      SI
 // Threads    free functions
 
@@ -18,11 +18,11 @@ namespace torquescope {
 // said in `nuisances`
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances);
 
-// phases of waves, and how far what runs with the clock had gone; record: unseen, prepared for that model
+// phases of waves, and how far what runs with the clock had gone; record: of validation, for that model
 void refit_on_head(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
                    std::vector<std::string>& nuisances);
 
-// mean residual of the head when it is beyond chance and moves both ways, else 0
+// mean residual of the first 5 % when it is beyond chance and the joint moves both ways, else 0
 double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& velocity);
 
 }  // namespace torquescope

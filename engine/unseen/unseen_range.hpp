@@ -1,14 +1,12 @@
 #pragma once
-// Names that unseen recordings speak against, asked again where those recordings stay within the motion of training.
+// Refuted effects, asked again where validation recordings stay within the motion of training.
 //
-// Why        a motion that keeps to a few degrees cannot tell a spring from a cable; on one that goes through a turn
-//            the wrong one of them predicts nonsense. That says nothing against what was found, and much against the
-//            motion it was found on
-// Rule       a twentieth of the rows lie beyond, and on the others (motion_range.hpp) the names pass the test that they
-//            fail on all of them (unseen_refutation.hpp); where fewer than 100 are within, nothing speaks against them
-//            there
-// Not asked  where the training recording says itself that the names are a part of something else
-// Threads    spreads twins over `threads`; same bits for any number
+// Why        a motion of a few degrees cannot tell a spring from a cable; a full turn then predicts nonsense with one
+//            of them, which speaks against the training motion
+// Rule       a twentieth of the rows lie beyond, and on the others (motion_range.hpp) the effects pass the test that
+//            they fail on all of them (unseen_refutation.hpp); with fewer than 100 rows within they pass
+// Not asked  where the training recording says itself that the effects are a part of something else
+// Threads    spreads replicates over `threads`; same bits for any number
 
 #include <optional>
 #include <span>
@@ -19,11 +17,11 @@
 
 namespace torquescope {
 
-// where the names' training motion kept to, when only what is beyond speaks against them
+// the range of the training motion, when only rows beyond it refute the accepted effects
 std::optional<MotionRange> spoils_only_beyond(StageSetting const& setting, std::span<Recording const> unseen,
                                               Selection const& selection);
 
-// the verdict then; joint: with the names and the relative errors of the unseen recordings
+// the verdict then; joint: with the accepted effects and the relative errors of the validation recordings
 Hopeless too_narrow(JointDiagnosis const& joint, MotionRange const& trained);
 
 }  // namespace torquescope

@@ -1,26 +1,14 @@
 #pragma once
-// A recording that no fit and no choice has seen: how well the model predicts its torque, before and after.
+// Prediction of a validation recording by the baseline and by the final model (METHOD.md, Validation recordings).
 //
-// Parameters least squares of the training rows for both models (columns of measured motion are predicted best by
-//            parameters that carry the same attenuation)
-// Rows       those of the baseline's mask, for both; of these the ones within a range, when one is given
-// Offset     a nuisance of each recording: refitted on its first 5 % when these move both ways (a fifth of them each:
-//            else an offset is friction's) and their mean residual is beyond three standard errors, and said so; the
-//            baseline takes its own, or none where that is better for it; where nothing was named both are one and take
-//            none
-// Phase      of a single wave of the position or of time: turned to what fits the first 5 % best when that is beyond
-//            three standard deviations, size and order kept, and said so
-// Clock      what runs down with the time of a recording (warming up) may have gone further when another one began: its
-//            share is refitted in the same way, between none and all
-// Events     effects that begin at an instant of the training recording are left out: that instant is none of this one;
-//            and so is what the zero of a channel does with time
-// Reversals  where their rows stay in and the recording's loop is known, residuals are those beyond the artefact of
-//            processing (unseen_floor.hpp), for both models
-// Promised   relerr of 16 twins of this recording under the final model, with the same parameters
-// Floor      the same where it is one (unseen_floor.hpp)
+// Parameters least squares of the training rows, for both models: measured columns are attenuated alike
+// Rows       those of the baseline's mask, for both models; of these the ones within a range, when one is given
+// Nuisances  offset, phase of a single wave and share of a warm-up are refitted on the first 5 % of the recording when
+//            beyond three standard errors, and reported. Events and drifts of a channel's zero are left out
+// Promised   relative error of 16 replicates of this recording under the final model; floor: unseen_floor.hpp
 // Units      SI
-// Threads    spreads twins over `threads`; same bits for any number
-// Source     PHYSICS.md section 2 steps 9, 12
+// Threads    spreads replicates over `threads`; same bits for any number
+// Source     METHOD.md, Validation recordings
 
 #include "engine/pipeline/motion_range.hpp"
 #include "engine/search/forward_selection.hpp"

@@ -1,15 +1,13 @@
 #pragma once
-// Whether an unseen recording agrees with a model in which the training recording misses nothing.
+// Whether a validation recording agrees with a model in which the training recording misses nothing.
 //
-// Why        a motion shows only what it excites: a pendulum that swings fast says little of its load's friction, and
-//            twins of it say "nothing is missing" while a slow one is predicted with four times the error its twins
-//            have
-// Null       twins of the unseen recording, each predicted by the parameters that each twin of the training recording
-//            is fitted with: what noise does in both, and how uncertain parameters are where the motion is another one
-// Rule       a quarter more than the worst of them (3200 where there are 200 twins, of 16 records), and more than their
-//            mean by a hundredth of the torque
+// Why        a motion shows only what it excites: a fast pendulum says little of its load's friction
+// Null       replicates of the validation recording, each predicted by the parameters fitted to each training replicate
+// Rule       a quarter more than the worst of them (3200 where there are 200 replicates, of 16 records), and more than
+//            their mean by a hundredth of the torque
 // Units      relerr: 1
 // Threads    free functions
+// Source     METHOD.md, Validation recordings
 
 #include <Eigen/Core>
 #include <optional>

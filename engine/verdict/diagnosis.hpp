@@ -2,11 +2,11 @@
 // What a diagnosis found about one joint: everything the verdict, the page and the result file are written from.
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
-// Unknown    NaN: not measured (no unseen recording, no repeated laps, no reference to simulate with)
+// Unknown    NaN: not measured (no validation recording, no repeated laps, no reference to simulate with)
 // relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all
 //            but rests where `rows` says so
 // Threads    plain records
-// Source     DESIGN.md section 1 (verdict JSON); PHYSICS.md section 2 (abstention ladder)
+// Source     diagnose/METHOD.md, Verdict; as JSON: run/diagnosis_json.hpp; as HDF5: store/RESULT_FORMAT.md
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -52,7 +52,7 @@ struct MapCell {
   double twin_mean = 0.0;      // the same of the twins, averaged
   double twin_std = 0.0;       // spread of one twin's mean residual
   double z = 0.0;              // (mean_residual - twin_mean) over its spread; of a spectrum: of the log power
-  double after_z = unknown;    // the same with everything named in the model
+  double after_z = unknown;    // the same with the accepted effects in the model
   double after_residual = unknown;
   double torque_share = unknown;  // of a spectrum: of the torque's own energy about its mean; not stored
 };
@@ -71,7 +71,7 @@ struct MapAxis {
 enum class Decision { named, equivalent, measurement, rejected, not_tested };
 std::string word(Decision decision);  // "named", "class", "measurement", "no", "not tested"
 
-// one line of the candidate table, at the step at which nothing was named yet
+// one line of the candidate table, at the first step
 struct Candidate {
   std::string name;
   std::string family;
@@ -81,7 +81,7 @@ struct Candidate {
       unknown;  // of the mismatch on blocks of time that nothing was fitted to; below 0 where it makes them worse
   double chance_z = unknown;  // the largest z that 95 % of the twins stay below
   Decision decision = Decision::rejected;
-  std::string reason{};  // one clause: why this decision; "" for what is named
+  std::string reason{};  // one clause: why this decision; "" for accepted effects
 };
 
 struct EffectGain {
@@ -152,7 +152,7 @@ struct ForwardSimulation {
   double encoder_step = 0.0;
 };
 
-// An unseen recording that is predicted worse than any twin of it, although its model explains the training recording
+// A validation recording predicted worse than any replicate of it, although its model explains the training recording
 // (unseen_transfer.hpp)
 struct UnseenBeyond {
   std::string recording;
@@ -173,16 +173,16 @@ struct JointDiagnosis {
   double train_floor_relerr = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
-  std::string refutation{};  // of names that unseen recordings spoke against: a clause; told in the reason, not stored
-  std::vector<UnseenBeyond> unseen_beyond{};  // where training shows nothing; told in the reason, not stored
+  std::string refutation{};  // why validation refuted the effects: a clause of the reason, not stored
+  std::vector<UnseenBeyond> unseen_beyond{};  // where training shows nothing; in the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
-  std::vector<std::string> nuisances{};  // what was refitted on the head of the unseen recording
-  std::vector<TorqueTrace> traces{};     // the unseen recordings, else the training ones
+  std::vector<std::string> nuisances{};  // what was refitted on the first 5 % of a validation recording
+  std::vector<TorqueTrace> traces{};     // the validation recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
   std::string rows = "moving one way";  // or "with reversals" (friction_buildup.hpp): what errors and pictures are of
-  std::string timing_sentence{};        // what was done to the torque channel's time; told in the reason, not stored
-  bool differs_at_reversals = false;    // rows that are left out; told in the reason of none, not stored
+  std::string timing_sentence{};        // what was done to the torque channel's time; in the reason, not stored
+  bool differs_at_reversals = false;    // on rows that are left out; in the reason of none, not stored
   std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
@@ -190,10 +190,10 @@ struct JointDiagnosis {
       unknown;  // share of the level of dry friction per square root of a second (friction_wander.hpp)
   std::int64_t shape_evaluations = 0;  // spent on shapes, over all steps of the selection
   std::size_t twins = 0;
-  double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, before anything was named
+  double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, at the first step
   double mismatch_rms = 0.0;                // torque beyond the twins
-  double mismatch_share = unknown;    // the same over the torque's rms, rows weighed; told in the reason, not stored
-  double left_rms = 0.0;              // the same with everything named in the model
+  double mismatch_share = unknown;    // the same over the torque's rms, rows weighed; in the reason, not stored
+  double left_rms = 0.0;              // the same with the accepted effects in the model
   std::vector<double> twin_energy{};  // residual energy of each twin over that of the recording
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown

@@ -1,11 +1,9 @@
 #pragma once
 // Which motion would tell apart what this recording cannot.
 //
-// For        every named effect with equivalent ones: the experiment that separates it, as its own file says
-//            (EffectDescription::separated_by), and theirs. Where nothing may be named: for what came closest, one name
-//            each
+// For        every accepted effect with equivalent ones: the experiment that separates it, as its own file says
+//            (EffectDescription::separated_by), and theirs. Where nothing may be named: for what came closest
 // Threads    free function
-// Source     PHYSICS.md section 1, column "Sep."
 
 #include <string>
 #include <vector>

@@ -3,10 +3,9 @@
 //
 // Wording    follows what kind of thing an effect is (where it acts, parity, units, axis of its region), not its name;
 //            an effect that the catalogue does not know is worded by what the record says of it
-// Never      "significant", "likely", a p-value of more than two digits or of zero (UX.md section 3)
+// Never      "significant", "likely", a p-value of more than two digits or of zero
 // Signs      ASCII minus
 // Threads    pure functions
-// Source     UX.md section 3, verdict table
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 // Hidden effects under the names the engine should find them by, sized as shares of the joint they are put into.
 //
-// Names      PHYSICS.md section 1; "" for what that catalogue does not hold. catalogue_words.py holds effects,
-//            families, parameters and units against what the engine says of itself
+// Names      those of engine/effects/README.md; "" for what that catalogue does not hold. catalogue_words.py holds
+//            effects, families, parameters and units against what the engine says of itself
 // Units      shares of the joint's Coulomb friction, peak speed, range or inertia, unless a unit is in the name
 
 #include <functional>

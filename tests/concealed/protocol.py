@@ -1,4 +1,4 @@
-"""The table of PHYSICS.md section 4: what is measured, its pass and stretch level, and whether they hold.
+"""The protocol's table: what is measured, its pass and stretch level, and whether they hold.
 
 A level holds or not as soon as the one-sided 95 % bounds say so; before, there are too few cases to say. From `enough`
 cases on (what the whole suite has) a level is decided by what was measured, or, where the protocol states a bound, by

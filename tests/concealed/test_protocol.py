@@ -21,7 +21,7 @@ class Bounds(unittest.TestCase):
         self.assertEqual(binomial.lower(0, 5), 0.0)
 
     def test_sample_sizes_of_the_protocol(self):
-        # PHYSICS.md section 4: 16 of 500 stays below 5 %, 371 of 400 above 90 %; one more or less does not
+        # the levels of protocol.py: 16 of 500 stays below 5 %, 371 of 400 above 90 %; one more or less does not
         self.assertLess(binomial.upper(16, 500), 0.05)
         self.assertGreater(binomial.upper(17, 500), 0.05)
         self.assertGreater(binomial.lower(371, 400), 0.90)

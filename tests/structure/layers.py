@@ -1,6 +1,7 @@
 """Includes only point downwards: engine/layers.txt is the law, this test reads it and every #include of ours.
 
 A folder under engine/ (and kernels/) is a layer; a file may include its own layer and those after its layer's colon.
+The picture in engine/README.md is made from the same file:  layers.py ROOT --write  rewrites it.
 """
 import pathlib
 import re
@@ -41,6 +42,22 @@ def violations(sources, allowed):
     return found
 
 
+def picture(allowed):
+    """A mermaid graph of the layers; an arrow that follows from other arrows is left out."""
+    lines = ["```mermaid", "flowchart TD"]
+    for layer, uses in reversed(allowed.items()):
+        near = [one for one in allowed if one in uses and not any(one in allowed[other] for other in uses)]
+        lines += [f"  {layer} --> {one}" for one in near] or [f"  {layer}"]
+    return "\n".join([*lines, "```"])
+
+
+def with_picture(text, allowed):
+    """The document with the picture between its two marks."""
+    pattern = re.compile(r"(<!-- layers: [^\n]*-->\n).*?(<!-- end -->)", re.DOTALL)
+    assert pattern.search(text), "engine/README.md has no place for the picture of the layers"
+    return pattern.sub(lambda found: f"{found[1]}\n{picture(allowed)}\n\n{found[2]}", text)
+
+
 def teeth(allowed):
     """The checker itself: an upward include, a foreign folder and an allowed include."""
     sample = {
@@ -50,9 +67,11 @@ def teeth(allowed):
         "engine/data/d.cpp": '#include "engine/base/error.hpp"\n#include "engine/data/motion.hpp"',
     }
     assert len(violations(sample, allowed)) == 3, "the layer test has lost its teeth"
+    chain = {"a": set(), "b": {"a"}, "c": {"a", "b"}}
+    assert picture(chain).splitlines()[2:-1] == ["  c --> b", "  b --> a", "  a"], "the picture has lost its arrows"
 
 
-def main(root):
+def main(root, *options):
     root = pathlib.Path(root)
     allowed = read_layers((root / "engine" / "layers.txt").read_text())
     for layer, uses in allowed.items():
@@ -62,9 +81,15 @@ def main(root):
     assert len(files) > 50, "too few sources found: is this the source tree?"
     sources = {p.relative_to(root).as_posix(): p.read_text() for p in files}
     found = violations(sources, allowed)
+    document = root / "engine" / "README.md"
+    drawn = with_picture(document.read_text(), allowed)
+    if "--write" in options:
+        document.write_text(drawn)
+    elif drawn != document.read_text():
+        found.append("engine/README.md: the picture is not that of engine/layers.txt; run layers.py . --write")
     print("\n".join(found) or f"{len(sources)} files, {len(allowed)} layers: every include points downwards")
     return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

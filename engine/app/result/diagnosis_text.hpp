@@ -1,6 +1,6 @@
 #pragma once
 // A diagnosis as a page of at most 80 columns: the verdict, where the mismatch is, which effects were weighed, what to
-// record next (UX.md section 4).
+// record next.
 //
 // Marks      one per verdict, a star where the terminal has no UTF-8; the word beside it says the same
 // Sparkline  16 places along an axis, each the strongest |z| of its cells; blank where nothing was recorded

@@ -1,11 +1,9 @@
 // HDF5 and MAT 7.3: every numeric dataset of rank 1 or 2, in any group.
 //
 // Names      the path without its leading slash: "joint_1/q"; a matrix (rows are samples) gives "name[0]", "name[1]",
-// ...
-//            or the names in its attribute `columns`. MATLAB stores transposed: known by the attribute MATLAB_class
-// Refused    numbers that live in another file: external links, external storage, virtual datasets; soft links are not
-//            followed (their target is reached under its own path)
-//            numbers packed by a filter that is not HDF5's own: none is loaded from this machine's folders
+//            ... or the names in its attribute `columns`. MATLAB stores transposed: known by the attribute MATLAB_class
+// Refused    numbers in another file (external links and storage, virtual datasets); soft links are not followed;
+//            filters that are not HDF5's own: none is loaded from this machine's folders
 // Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated; the bytes parsed are
 //            those of the sha256
 // Confined   in a process of its own: of a hundred damaged files two crash HDF5 1.10 or keep it busy for ever

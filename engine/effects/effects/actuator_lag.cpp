@@ -3,12 +3,11 @@
 // Equation   command = true + tau_e d true/dt
 //            columns: the derivative of the baseline's torque (central differences), exact in tau_e
 // Simulation runner(): the part of the command that has not arrived, command - true, with command = state.motor_torque
-// and
-//            d true/dt = (command - true) / tau_e, exact for a command that runs straight over a step
+//            and d true/dt = (command - true) / tau_e, exact for a command that is linear over a step
 // Parameters actuator_lag tau_e >= 0 [s]
 // Signature  acceleration: follows the jerk; the gain falls at high frequency
 // Confused   delay (with the other sign), joint_elasticity
-// Source     definition of a first-order current loop; PHYSICS.md A2
+// Source     definition of a first-order current loop
 
 #include <cmath>
 

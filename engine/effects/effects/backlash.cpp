@@ -1,29 +1,14 @@
-// Backlash: the load hangs behind a gap of 2 b whose flanks give way, and lies on the one or the other only while it is
-// pushed.
+// Backlash: the load hangs behind a gap of 2 b with soft flanks, and lies on one of them only while it is pushed.
 //
-// Equation   tau = J_l (a - a_0), a_0 = ddq + (g + d (Fv dq + Fc sign(dq))) / J: what a load that is fixed to the motor
-//            would need; y'' = a - ddq - (g + d (Fv v + Fc sign(v))) / J, v = dq + y' the load's own speed, a = -(w^2
-//            dz(y, b) + 2 zeta w y'), w = 2 pi f: y is the load relative to the motor, dz its way beyond the gap; a =
-//            -c y' in the gap, which grease fills, and where a flank would pull. The rigid part J_l ddq, the gravity g
-//            and the friction Fv, Fc are the baseline's; the load has the same share of gravity as of the inertia J,
-//            and d times that share of the friction, viscous and dry
-// Memory     y and y', exact on a flank and in the gap for an acceleration that runs straight between two samples; the
-//            instant of contact or release is searched within sub-steps of 1/4 rad of the contact frequency
-// Why        flanks are soft: a rigid load and a plastic impact miss the ringing after contact, which is most of what
-//            shows. The push decides, not the velocity: a joint that gravity holds on one flank has no gap at its
-//            reversals
-// Parameters backlash_load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia (joint_elasticity.cpp);
-// backlash_half_gap b [rad; m];
-//            backlash_frequency f [Hz]: of the load in contact with the motor held; backlash_damping zeta [1];
-//            backlash_film c [1/s]: how fast grease takes the speed of a load that crosses the gap. Without it a film
-//            passes for a wider gap; backlash_load_drag d [1]: a load that is braked by its own bearings turns against
-//            the joint before that turns, or rests in the gap while the joint moves on; 0.001 is none. By decades: of
-//            most gaps it is small
-// Plausible  while b is no less than a tenth of the wind-up a / w^2 that the acceleration a = torque rms / inertia
-//            makes of the flank: below that the gap is not what shows, and the name is joint_elasticity
-// Signature  distance since the reversal of the torque: the load is missing for 2 b, then blows and rings
+// Equation   tau = J_l (a - a_0), a_0 = ddq + (g + d (Fv dq + Fc sign(dq))) / J: the acceleration of a load fixed to
+//            the motor; y'' = a - ddq - (g + d (Fv v + Fc sign(v))) / J, v = dq + y'; y: load relative to the motor;
+//            a = -(w^2 dz(y, b) + 2 zeta w y') on a flank, w = 2 pi f, dz the way beyond the gap; a = -c y' in the gap
+//            and where a flank would pull. J_l ddq, gravity g and friction Fv, Fc are the baseline's
+// Memory     y and y', exact on a flank and in the gap for an acceleration that is linear between two samples; contact
+//            and release are searched within sub-steps of 1/4 rad of the contact frequency
+// Signature  distance since the reversal of the torque: the load is missing for 2 b, then knocks and rings
 // Confused   joint_elasticity (no gap), presliding (reversal of the velocity), delay
-// Source     Nordin, Gutman 2002; LESSONS.md item 10
+// Source     Nordin, Gutman 2002, Controlling mechanical systems with backlash, doi:10.1016/S0005-1098(02)00047-X
 
 #include <numbers>
 
@@ -32,6 +17,11 @@
 namespace torquescope::effects {
 namespace {
 
+// Flanks are soft: a rigid load with a plastic impact misses the ringing after contact, which is most of what shows.
+// The push decides, not the velocity: a joint that gravity holds on one flank has no gap at its reversals. J_l is up to
+// four times the fitted inertia (joint_elasticity.cpp); f is that of the load in contact with the motor held. Without
+// the film c (grease in the gap) a film passes for a wider gap. A drag d of 0.001 is none; a load braked by its own
+// bearings moves against the joint before the joint turns, or rests in the gap while the joint moves on
 class Backlash final : public MemoryEffect {
  public:
   Backlash()
@@ -59,6 +49,7 @@ class Backlash final : public MemoryEffect {
              .has_inertia = true,
              .is_partly_dry = true}) {}
 
+  // below a tenth of the wind-up a / w^2 of the flank the gap is not what shows: the name is joint_elasticity
   bool is_plausible(std::span<double const> shape, JointScales const& scales) const override {
     constexpr double least_share = 0.1;
     double const omega = 2.0 * std::numbers::pi * shape[1];

@@ -3,18 +3,13 @@
 // Equation   tau = s [Fd (1 - exp(-age / tau_d)) + Fa ln(1 + age / tau_d)], d age/dt = 1 / (1 + (dq / v_r)^2) - |dq|
 //            age / D; s = sign(dq) weighted by the Coulomb levels of the baseline
 // Memory     the age of the contact [s], exact for a constant speed over a step
-// Ageing     that needs a standing contact (dwell time: v_r small), or goes on while it creeps, where it makes friction
-//            fall with the speed as well (state and rate: v_r of the fastest motion is that for all that slides slowly
-//            enough to age)
-// Growth     that comes to an end (grease), or with the logarithm of the rest and no end (dry contacts); a drive may
-//            have both
-// Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest; breakaway_ageing Fa >= 0 [N m; N]: for each
-// e-fold of the
-//            rest; dwell_time tau_d [s]; renewal_distance D [rad; m]; rest_speed v_r [rad/s; m/s]: half of the ageing
-//            is left
+// Parameters breakaway_dwell Fd >= 0 [N m; N]: after a very long rest, with an end (grease); breakaway_ageing Fa >= 0
+//            [N m; N]: per e-fold of the rest, without end (dry contacts); dwell_time tau_d [s]; renewal_distance D
+//            [rad; m]; rest_speed v_r [rad/s; m/s]: half of the ageing is left; small: only a standing contact ages
 // Signature  distance since the reversal of the velocity: a spike whose height follows the rest before it
 // Confused   stribeck; rests of different length tell them apart
-// Source     Rabinowicz 1958; Ruina 1983 (law of ageing); Armstrong-Helouvry, Dupont, Canudas de Wit 1994 (dwell time)
+// Source     Rabinowicz 1958; Ruina 1983, doi:10.1029/JB088iB12p10359 (law of ageing); Armstrong-Helouvry, Dupont,
+//            Canudas de Wit 1994, doi:10.1016/0005-1098(94)90209-7 (dwell time)
 
 #include "engine/effects/ageing_contacts.hpp"
 

@@ -1,15 +1,13 @@
 // Cables and hoses that bend with the joint: a hardening spring with a loop.
 //
 // Equation   tau = k1 x + k2 x^2 + k3 x^3 + C z, dz/dx = (1 - z / sign(dx)) / D; x = q - q_c, q_c: the middle of the
-//            travel
+//            travel. The square is there because a hose is straight at another place than q_c
 // Memory     z, carried over the distance by the exact exponential
-// Zero       an encoder reads 0 where somebody put it, and a hose is straight where it is: a cubic law about another
-//            place has a square about this one
 // Parameters cable_stiffness k1 [N m/rad; N/m], cable_quadratic k2 [N m/rad2; N/m2], cable_cubic k3 [N m/rad3; N/m3],
 //            cable_loop C >= 0 [N m; N]; cable_distance D [rad; m]
 // Signature  position, with a loop much wider than pre-sliding
 // Confused   spring, gravity, presliding
-// Source     PHYSICS.md G3; Dahl 1968 (loop)
+// Source     hardening spring: Duffing 1918; loop: Dahl 1968, A solid friction model, Aerospace Corporation
 
 #include <array>
 #include <cmath>

@@ -1,12 +1,11 @@
 // A torque channel that cannot show more than its limit, while the joint gets what it needs.
 //
 // Equation   recorded = true + c (clamp(true, -M, L) - true)
-// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L and clipping_limit_negative M [N m;
-// N]: a
-//            channel with a zero of its own reaches them at torques that differ
+// Parameters clipping c [1] from 0 to 1, 1 when nothing passes; clipping_limit L, clipping_limit_negative M [N m; N]:
+//            they differ for a channel with an offset
 // Signature  load: flat tops
 // Confused   torque_constant
-// Source     definition of saturation; PHYSICS.md A4
+// Source     definition of saturation
 
 #include "engine/effects/instant_effect.hpp"
 

@@ -7,7 +7,7 @@
 // Parameters delay d [s], negative when the position lags; delay_span D [s]
 // Signature  acceleration: follows the jerk, with a spike at each reversal; a phase that grows with the frequency
 // Confused   actuator_lag, friction_lag, joint_elasticity, presliding
-// Source     MuJoCo sysid apply_delay; LESSONS.md item 10
+// Source     definition of a delay; as MuJoCo's system identification toolbox applies it (apply_delay)
 
 #include <array>
 

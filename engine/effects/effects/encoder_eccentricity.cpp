@@ -6,11 +6,10 @@
 //            tau = -(g'(q) e + Fv e' dq + J (e' ddq + e'' dq^2)), g the gravity of the baseline
 // Simulation runner(): what is added to the position [rad]
 // Parameters encoder_eccentricity_sin e_s, _cos e_c, _sin_2 e_s2, _cos_2 e_c2 [rad], either sign; an angle's encoder
-// only
-// Why two    without the second wave what is left of it is named as a fault of the gear
+//            only. Without the second wave, what is left of it passes for a gear error
 // Signature  orders 1 and 2, growing with the square of the speed
 // Confused   transmission_error and gravity; cogging does not grow with the speed
-// Source     first two orders of the reading error; PHYSICS.md S3
+// Source     first two orders of the reading error, by definition
 
 #include <algorithm>
 #include <array>

@@ -1,16 +1,14 @@
 // Elastic end stop, or anything the joint leans on at one end of its travel.
 //
 // Equation   tau = (k x |x / x_r|^(p - 1) + d dq) [q beyond q_c], x = q - q_c, x_r a hundredth of the travel; beyond:
-//            above it when q_c lies in the upper half of the travel, below it in the lower half. Plausible in the outer
-//            fifth of the travel on either side: what begins in the middle is no stop, and would pass for one as a bent
-//            line
+//            above it when q_c lies in the upper half of the travel, below it in the lower half
 // Parameters end_stop k >= 0 [N m/rad; N/m]: torque over depth at x_r; end_stop_damping d >= 0 [N m s/rad; N s/m];
-// end_stop_position
-//            q_c [rad; m]; end_stop_power p [1]: 1 a spring, 1.5 round bodies that touch (Hertz), 2 a cushion. Taken
-//            for 1 the stop is found too late, where it has become as stiff as it is on average
+//            end_stop_position q_c [rad; m]; end_stop_power p [1]: 1 a spring, 1.5 round bodies that touch (Hertz), 2 a
+//            cushion. With p fixed at 1 the stop is found too late
+// Plausible  in the outer fifth of the travel on either side; in the middle a bent line would pass for a stop
 // Signature  position: one end only
 // Confused   cable
-// Source     PHYSICS.md G4; Hunt, Crossley 1975 (power of the depth; damping acts in contact only)
+// Source     Hunt, Crossley 1975, doi:10.1115/1.3423596 (power of the depth; damping acts in contact only)
 
 #include <cmath>
 

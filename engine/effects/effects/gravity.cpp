@@ -2,7 +2,7 @@
 //
 // Equation   tau = g_sin sin(q) + g_cos cos(q)
 // Errors     none here; the regressor refuses it for a prismatic joint, whose weight is a constant (offset)
-// Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots; PHYSICS.md G1
+// Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots
 
 #include "engine/effects/instant_effect.hpp"
 

@@ -3,26 +3,22 @@
 // Equation   tau = J_l y'', y'' + 2 zeta w y' + w^2 y (1 + c (y / y_0)^2) = -ddq: y is the load relative to the motor,
 //            w = 2 pi f; y_0 = a / w^2 is the wind-up that the acceleration a = torque rms / inertia makes of a
 //            straight spring; the rigid part J_l ddq is in the baseline's inertia
-// Memory     y and y', for c = 0 exact for an acceleration that runs straight between two samples; what stiffens is a
-//            kick before and after each step (Strang), of second order
-// Stiffening gears of thin steel are softest when they are not loaded; without c a gap would be the better fit, and its
-// name wrong.
-//            Its bounds are far apart: a soft spring that stiffens much passes for a stiffer one that stiffens little,
-//            and each cycle that both ring alike is a maximum of its own
+// Memory     y and y', for c = 0 exact for an acceleration that is linear between two samples; what stiffens is a
+//            kick before and after each step, of second order (Strang 1968, doi:10.1137/0705041)
 // Why        an operator, not jerk and snap: a series of derivatives fails once the resonance lies in the band
-// Parameters load_inertia J_l >= 0 [kg m2; kg], up to four times the fitted inertia, in which a load that stays behind
-// has little part; elasticity_frequency f [Hz]: of the load with the
-//            motor held (antiresonance of the joint), unloaded; elasticity_damping zeta [1]; elasticity_hardening c
-//            [1]: a load that rings winds the spring up twenty times as far as y_0, so that no number but 0 is none
-// Signature  frequency: a narrow band fixed in time, rung by jerk
+// Signature  frequency: a narrow band fixed in time, excited by jerk
 // Confused   delay, actuator_lag far below f
-// Source     Spong 1987; Wernholt 2007; stiffening: Tuttle, Seering 1996; LESSONS.md item 10; kicks: Strang 1968
+// Source     Spong 1987, doi:10.1115/1.3143860; Wernholt 2007; stiffening: Tuttle, Seering 1996, doi:10.1109/70.499819
 
 #include "engine/effects/loads_on_spring.hpp"
 
 namespace torquescope::effects {
 namespace {
 
+// f is that of the load with the motor held (antiresonance of the joint), unloaded. J_l is up to four times the fitted
+// inertia, in which a load that lags has little part. Thin steel gears are softest unloaded; without the hardening c a
+// gap would fit better, under a wrong name. A ringing load winds the spring up to twenty times y_0, so that only c = 0
+// is none; the bounds of c are wide, since a soft spring that hardens much resembles a stiffer one that hardens little
 class JointElasticity final : public MemoryEffect {
  public:
   JointElasticity()

@@ -2,17 +2,14 @@
 //
 // Equation   tau = s mu (sqrt(l^2 + p^2) - p), l = tau_load - (1 - k) J ddq; tau_load: gravity and inertia of the
 //            baseline; s = sign(dq) weighted by the Coulomb levels of the baseline
-// Why p      a bearing rubs by the resultant of all that presses it: preload, weight or belt at right angles to the
-//            load are there without any, and their friction s mu p is the baseline's. Far below p the load hardly adds
-//            to it, far above it all of it counts
-// Parameters load_dependent_friction mu >= 0 [1], up to 0.3; load_friction_inertia_share k [1]: of the inertia J,
-// behind
-//            the gear; what is before it, a rotor above all, presses no teeth. 1 where inertia is all the load: mu k is
-//            one number load_friction_preload p [N m; N]: as a torque of the load, up to the recording's rms; 0: mu |l|
+// Preload    a bearing rubs by the resultant of load and preload p; friction s mu p at no load is the baseline's
+// Parameters load_dependent_friction mu >= 0 [1], up to 0.3; load_friction_inertia_share k [1]: share of the inertia J
+//            behind the gear (a rotor presses no teeth; 1 where inertia is all the load, since mu k is one number
+//            there); load_friction_preload p [N m; N]: as a torque of the load, up to the recording's rms; 0: mu |l|
 // Signature  load, odd in the velocity
 // Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
-// Source     Hamon, Gautier, Garrec, Janot 2010; BAM model M3; resultant of a bearing's loads: Palmgren 1959, Ball and
-//            Roller Bearing Engineering
+// Source     Hamon, Gautier, Garrec, Janot 2010, IEEE/RSJ IROS; model M3 of BAM (Rhoban, Better Actuator Models);
+//            Palmgren 1959, Ball and Roller Bearing Engineering
 
 #include "engine/effects/instant_effect.hpp"
 

@@ -5,7 +5,7 @@
 //            disturbance_frequency f [Hz]: below three periods a recording cannot tell it from anything smooth
 // Signature  frequency: a narrow line, whatever speed and angle
 // Confused   cogging at a single speed
-// Source     definition; PHYSICS.md D1
+// Source     definition of a sinusoid in time
 
 #include <numbers>
 

@@ -1,13 +1,10 @@
 // Spring or counterbalance across the joint.
 //
 // Equation   tau = k q + k h (q - q_0)^3; the torque at q = 0 is the baseline's offset. As a term of a model: k q
-// Parameters spring k [N m/rad; N/m]: stiffness at rest; negative: a counterbalance past its dead centre
-//            spring_hardening h >= 0 [1/rad2; 1/m2]: at x from rest it is 1 + 3 h x^2 times as stiff; 0: straight, and
-//            then no place is its rest. Seven times at the far end of the travel at most: what is stiffer there is an
-//            end_stop spring_rest q_0 [rad; m]: on the travel
-// Softening  is the sine of `gravity`: a link and a counterbalance soften away from their equilibrium, coils and rubber
-//            harden
-// Why        a straight line through a spring that hardens has another stiffness on every travel
+// Parameters spring k [N m/rad; N/m]: stiffness at rest; negative: a counterbalance past its dead centre;
+//            spring_hardening h >= 0 [1/rad2; 1/m2]: at x from rest it is 1 + 3 h x^2 times as stiff, at most seven
+//            times at the end of the travel (stiffer is an end_stop); spring_rest q_0 [rad; m]: on the travel
+// Softening  is the sine of `gravity`; coils and rubber harden
 // Signature  position: a line, straight or with a cubic, even in the velocity
 // Confused   gravity while the travel is below 60 degrees; cable, which has a loop
 // Source     Khalil, Dombre 2002, Modeling, Identification and Control of Robots; hardening: Duffing 1918; Nayfeh, Mook

@@ -2,13 +2,12 @@
 // larger than the true one. A constant error of the scale cannot be seen: it scales every parameter alike.
 //
 // Equation   tau = beta tau_motor^3; tau_motor: what the motor really gives, the recorded torque less tau
-// Why        of what it gives, not of what is recorded: whatever beta, more current is more torque. A cubic of the
-//            recorded torque turns round at 1 / sqrt(3 beta), and a joint that is simulated with it runs away there
-// Simulation told the recorded torque u: solves tau_motor + beta tau_motor^3 = u
+// Why        a cubic of the recorded torque would turn round at 1 / sqrt(3 beta), and its simulation diverges there
+// Simulation given the recorded torque u: solves tau_motor + beta tau_motor^3 = u
 // Parameters torque_constant beta >= 0 [1/(N m)2; 1/N2]
 // Signature  load: at the peaks of torque, whatever the motion
 // Confused   load_dependent_friction, clipping
-// Source     Gautier, Briot 2014 (drive gains); PHYSICS.md A3
+// Source     Gautier, Briot 2014, Global identification of joint drive gains, doi:10.1115/1.4027506
 
 #include <cmath>
 

@@ -1,20 +1,15 @@
 // CMA-ES in a box: a normal distribution that follows the landscape, sampled anew in every generation.
 //
 // Units      each parameter as a place in the box, 0 .. 1: one step size fits all
-// Start      mean uniform in the box, sigma 0.3 of its width. Not the centre: many boxes are symmetric about what is
-//            sought
-// Bounds     samples are mirrored at the bounds, and the distribution learns from them as they were before: it sees the
-//            objective continued by reflection, in which a minimum on a bound is an ordinary one. Resampling
-//            (Hansen's first choice) needs 2^R samples for one near a corner; a penalty adds to the fitness, and then
-//            not only its order would count
-// Restart    with the same population, from another mean: when the distribution has collapsed, or when
-//            100 + 100 R^1.5 / NP generations found nothing better than this start has. A growing population (IPOP)
-//            would have no end that the result file could make room for
+// Start      mean uniform in the box (many boxes are symmetric about what is sought), sigma 0.3 of its width
+// Bounds     samples are mirrored; the distribution learns from the unmirrored ones. Resampling needs 2^R samples near
+//            a corner; a penalty would change more than the order of fitness
+// Restart    same population, new mean: when the distribution collapsed, or 100 + 100 R^1.5 / NP generations found
+//            nothing better. A growing population (IPOP) has no end that the result file could make room for
 // Cut batch  an evaluation budget ends with it: its best counts, the distribution learns nothing
-// Population the candidates told last; F, CR, PC, FC do not exist: NaN
+// Population the candidates last passed to tell(); F, CR, PC, FC are NaN
 // Random     sample of member i in generation t: stream (key, t, i); a start's mean: the last stream of its generation
-// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016); the stagnation rule: pycma's
-//            tolstagnation
+// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016); restart: pycma's tolstagnation
 
 #include <algorithm>
 #include <cmath>

@@ -4,16 +4,14 @@
 // Equation   v = x + F (x_pbest - x) + F (x_r1 - x_r2); pbest among the best 11 %, at least two; r1 of the population,
 //            r2 of population and archive; the target, r1 and r2 all different
 //            NP = NP_0 + (4 - NP_0) share spent, rounded; the archive shrinks with it
-// Budget     that of the job: `evaluations` as in the paper, or `generations`, whichever is nearer its end. A
-//            population that the job limits by generations thus shrinks by generations. reduction = "none": SHADE with
-//            these settings
-// Fitness    a member that had no finite fitness gives room without an improvement that could be measured: nothing is
-//            learned from it, and it does not go into the archive
+// Budget     the job's: `evaluations` as in the paper, or `generations`, whichever is nearer its end. reduction =
+//            "none": SHADE with these settings
+// Fitness    nothing is learned from a member without finite fitness, and it does not go into the archive
 // Progress   F, CR: mean of the generation's trials. PC, FC: as DE's
-// Random     a trial: controls (success_history.hpp), pbest, r1, r2, j_rand, one per parameter, repairs. The archive: a
-//            stream of its own
-// Source     Tanabe, Fukunaga: Improving the search performance of SHADE using linear population size reduction, CEC
-//            2014; settings as there (NP_0 = 18 R, H = 6, archive 2.6 NP, p = 0.11)
+// Random     a trial: controls (success_history.hpp), pbest, r1, r2, j_rand, parameters, repairs; the archive: own
+//            stream
+// Source     Tanabe, Fukunaga 2014, CEC, doi:10.1109/CEC.2014.6900380; settings as there (NP_0 = 18 R, H = 6, archive
+//            2.6 NP, p = 0.11)
 
 #include <algorithm>
 #include <cmath>
@@ -178,7 +176,7 @@ class Lshade final : public GenerationalSearch {
   RandomKey key_;
   SuccessHistory history_;
   MemberArchive archive_;
-  std::size_t to_keep_;  // of the generation just told
+  std::size_t to_keep_;  // of the last generation passed to tell()
 };
 
 MakeSearch configure_lshade(LshadeOptions const& options, StopRules const& budget) {

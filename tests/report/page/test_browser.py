@@ -1,4 +1,4 @@
-"""The page in a browser, wide and on a phone, light and dark: the laws of UX.md section 2."""
+"""The page in a browser, wide and on a phone, light and dark: nothing overflows, nothing comes from elsewhere."""
 
 import base64
 import itertools

@@ -22,7 +22,7 @@ SEEN_BY = {
         [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
     ),
 }
-LEAST_DISTANCE = 25  # Lab units (UX.md section 2)
+LEAST_DISTANCE = 25  # CIELAB units between two colours that must be told apart
 LEAST_TEXT_CONTRAST = 4.5  # WCAG AA
 LEAST_LINE_CONTRAST = 2.2  # the measured trace is meant to stand back, but not to vanish
 RESERVED = {"baseline": ("#c2500a", "#ff9b57"), "augmented": ("#0067a8", "#63b8f5")}  # before and after, light and dark

@@ -1,7 +1,7 @@
 // DE and FADE on the seed's own problem: what its tables claim and what is so.
 //
 // All medians are of the gap MSE - MSE(least squares), over the number of runs said; all runs have fixed seeds, so
-// these tests give the same numbers every time. Prototype medians (30 runs, another recording) for comparison:
+// these tests give the same numbers every time. Medians of an independent program (30 runs, another recording):
 //                          g10     g20     g50     g100
 //   DE(.5, .9)             2.9e-2  1.8e-3  1.7e-6  8e-12
 //   FADE, F in [0, 2]      4.9e-2  8.6e-3  1.5e-4  1.9e-7

@@ -1,9 +1,8 @@
 // The seed's Tables 3 and 4, taken at their word: what follows from them for any data, and what cannot be.
 //
 // Table 3    parameters of OLS, DE and FADE; Table 4 mean square error and standard deviation of the prediction error
-// Facts      FADE.md section 3: least squares is the in-sample minimum, so a smaller error of DE or FADE on the same
-// data
-//            is impossible; so is a residual spread above the root of the mean square error
+// Facts      least squares is the in-sample minimum, so a smaller error of DE or FADE on the same data is impossible;
+//            so is a residual spread above the root of the mean square error
 
 #include <gmock/gmock.h>
 
@@ -124,7 +123,7 @@ TEST(OlsTrainingResidual, HasMeanZeroWhenTheCoulombColumnsAddUpToOne) {
 }
 
 TEST(ClosedForms, AgreeWithThePapersRowWithinTheirErrors) {
-  // n = 2000 joint-side: standard errors near (.0017, .0089, .014, .014) in FADE.md; same order on our motion
+  // n = 2000 on the joint side gives standard errors near (.0017, .0089, .014, .014); same order on our motion
   auto const fit = test::fit("ols", paper_data(1));
   EXPECT_GT(fit.standard_error_naive[2], 0.005);
   EXPECT_LT(fit.standard_error_naive[2], 0.03);

@@ -63,7 +63,7 @@ TEST_F(CrsStudy, ResidualSpreadNeverExceedsTheRootOfTheMse) {
 }
 
 TEST_F(CrsStudy, FAndCrDecayToTheFixedPointOfTheController) {
-  // FADE.md section 1: at PC = FC = 0 the centroid on [0, 2] gives F = .624, CR = .450
+  // at PC = FC = 0 the centroid on [0, 2] gives F = .624, CR = .450
   auto const F = result.numbers("/runs/fade/F");
   auto const CR = result.numbers("/runs/fade/CR");
   std::size_t const generations = F.shape[1];

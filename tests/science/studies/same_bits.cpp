@@ -1,4 +1,4 @@
-// The promise of DESIGN.md section 6: the same job gives the same content whatever the threads and the instruction set.
+// The same job gives the same content whatever the threads and the instruction set (engine/README.md, Determinism).
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The page of a diagnosis in a terminal: the picture of UX.md section 4, at most 80 columns, also without UTF-8.
+// The page of a diagnosis in a terminal: at most 80 columns, also without UTF-8.
 
 #include "engine/app/result/diagnosis_text.hpp"
 

@@ -46,7 +46,7 @@ Regressor seed_regressor() { return Regressor(test::seed_terms, JointKind::revol
 TEST(RegressionData, GivesTheTruthBackFromPositionAndTorque) {
   auto const data = make_regression_data({logged("a", 20.0, 1000.0, test::seed_ols)}, filter(), seed_regressor(), {});
   auto const fit = test::fit("ols", data);
-  // the filtered velocity changes sign up to a sample early or late (PHYSICS.md section 3): friction within 0.5 %
+  // the filtered velocity changes sign up to a sample early or late: friction within 0.5 %
   for (Eigen::Index r = 0; r < 4; ++r)
     EXPECT_NEAR(fit.parameters[r], test::seed_ols[r], 0.005 * test::seed_ols.cwiseAbs().maxCoeff()) << r;
   EXPECT_LT(fit.metrics.relerr, 0.01);

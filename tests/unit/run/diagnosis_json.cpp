@@ -1,4 +1,4 @@
-// The verdict's JSON has exactly the keys of DESIGN.md section 1, in every verdict, and nothing unknown is a number.
+// The verdict's JSON has exactly the documented keys, in every verdict, and nothing unknown is a number.
 
 #include "engine/run/diagnosis_json.hpp"
 
@@ -16,8 +16,7 @@ namespace diagnosis_json_test {
 
 using Json = nlohmann::json;
 
-// DESIGN.md section 1, word for word but for values, and the candidates with their reasons: a list holds the pattern of
-// its elements
+// all keys, values left out: a list holds the pattern of its elements
 Json const pattern = Json::parse(R"({
   "schema": 1, "verdict": "", "reason": "",
   "joints": [{

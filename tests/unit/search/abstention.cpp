@@ -189,7 +189,7 @@ class LongAbstention : public Abstention {
   LongAbstention() : Abstention(20.0) {}
 };
 
-// fails: "position and velocity" is counted as an axis of velocity, and holds every function of position alone
+// the axis "position and velocity" holds every function of position alone, so an effect of position owns it as well
 TEST_F(LongAbstention, NamesStandWhenTheRestLiesOnTheirOwnAxisOfPosition) {
   name({find_effect("cogging"), {9.0}});
   leave(0.1, of_position());

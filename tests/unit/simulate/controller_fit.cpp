@@ -181,8 +181,8 @@ TEST(ControllerFit, RarelyDoubtsATrueLaw) {
   EXPECT_LT(doubts, 4);
 }
 
-// fails: the law of the first look is undetermined at the one kink of the reference (0.5 s), whose few rows the choice
-// by torque leaves out; what it gets wrong there passes for a limit, and half of all rows for clipped
+// a reference with a single kink (0.5 s) leaves the law of the first look undetermined in a few rows; their errors must
+// not pass for a torque limit
 TEST(ControllerFit, FindsNoLimitBelowTheTorqueThatWasReached) {
   auto plan = loop_plan("pd");
   plan.simulation.duration_s = 8.0;

@@ -119,8 +119,8 @@ TEST(MostInABlock, IsTheLargestShareOfTheEnergy) {
   EXPECT_LT(most_in_a_block(effect.col(0)), 0.2);
 }
 
-// the same event as the search sees it: through the parallel filter (30 Hz of 200 Hz, guard as guard_rows() says)
-// fails: beyond the guard 1e-10 of the event is left, and noise fitted to that predicts 1e9 inside the block
+// the same event as the search sees it: through the parallel filter (30 Hz of 200 Hz, guard as guard_rows() says).
+// Beyond the guard 1e-10 of the event is left; noise fitted to that must not predict 1e9 inside the block
 TEST(BlockedGain, OfAFilteredEventInOneBlockDoesNotBlowUp) {
   auto const [noise, model, effect] = drawn(3);
   Eigen::VectorXd pulse = Eigen::VectorXd::Zero(n);

@@ -178,7 +178,7 @@ TEST(BoundedGain, OfDependentColumnsIsThatOfWhatTheyAddUpTo) {
   }
 }
 
-// fails: r keeps the rounding (1e-16) of a column that was dropped, and alone in a subset it passes for a direction
+// r keeps the rounding (1e-16) of a column that was dropped; alone in a subset it must not pass for a direction
 TEST(BoundedGain, OfASignedColumnThatIsNuisanceIsNothing) {
   for (std::uint32_t set = 0; set < 20; ++set) {
     Problem const problem = deficient_problem(set, true);
