@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -37,7 +39,22 @@ Motion differentiate_smooth(Recording&& recording) {
   motion.ddq =
       recording.acceleration.size() > 0 ? std::move(recording.acceleration) : derivative(motion.dq, motion.rate_hz);
   motion.torque = std::move(recording.torque);
+  motion.left_out = std::move(recording.left_out);
   return motion;
+}
+
+std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz) {
+  auto const n = motion.time_s.size();
+  std::vector<bool> left_out(static_cast<std::size_t>(n), false);
+  // what was filled is smooth: one period of the cut-off around it is enough, where three are at an end
+  double const reach_s = cutoff_hz > 0.0 ? 1.0 / cutoff_hz : 0.0;
+  for (auto const& stretch : motion.left_out) {
+    auto const first = static_cast<Eigen::Index>(std::ceil((stretch.from_s - reach_s) * motion.rate_hz));
+    auto const last = static_cast<Eigen::Index>(std::floor((stretch.until_s + reach_s) * motion.rate_hz));
+    for (Eigen::Index k = std::max<Eigen::Index>(0, first); k <= std::min(n - 1, last); ++k)
+      left_out[static_cast<std::size_t>(k)] = true;
+  }
+  return left_out;
 }
 
 Motion differentiate(Recording&& recording, FilterOptions const& options, Section const& section) {
@@ -57,6 +74,7 @@ Motion differentiate(Recording const& recording, FilterOptions const& options, S
   channels.torque = recording.torque;
   channels.velocity = recording.velocity;
   channels.acceleration = recording.acceleration;
+  channels.left_out = recording.left_out;
   return differentiate(std::move(channels), options, section);
 }
 

@@ -2,8 +2,8 @@
 // Values that are not numbers (NaN, infinite, empty cells) in the channels of a recording.
 //
 // gaps = "error"   Error 65: how many, in which line first, at what time
-// gaps = "fill"    runs of up to 5 between two numbers become a straight line over the rows; a longer run, or one at an
-//                  end of the recording, is Error 65
+// gaps = "fill"    a warning for each channel; what becomes of them is decided with the grid
+//                  (health/make_recording.cpp)
 
 #include <vector>
 
@@ -11,9 +11,9 @@
 
 namespace torquescope {
 
-inline constexpr std::size_t longest_filled_gap = 5;
+inline constexpr double longest_filled_gap = 5;  // samples
 
-// returns what was filled
-std::vector<DataWarning> close_gaps(Channels& channels, RawTable const& table, RecordingOptions const& options);
+// turns infinite values into NaN, and says how many are missing
+std::vector<DataWarning> missing_values(Channels& channels, RawTable const& table, RecordingOptions const& options);
 
 }  // namespace torquescope

@@ -23,7 +23,11 @@ struct Motion {
   Eigen::VectorXd dq;
   Eigen::VectorXd ddq;
   Eigen::VectorXd torque;  // not filtered
+  std::vector<Stretch> left_out{};
 };
+
+// samples that no row may stand for: those of left_out, and as far around them as a filter of this cut-off remembers
+std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz);
 
 struct FilterOptions {
   double cutoff_hz = 0.0;           // low-pass of the position before differentiation; 0: none

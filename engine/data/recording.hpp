@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/data/finding.hpp"
+
 namespace torquescope {
 
 // something a person should know about the data, which does not stop a run
@@ -27,6 +29,11 @@ struct RowFacts {
   double torque_limit_share = 0.0;  // share of time the torque sits exactly at its largest or smallest value
 };
 
+// s since the first sample, both ends known
+struct Stretch {
+  double from_s = 0.0, until_s = 0.0;
+};
+
 struct Recording {
   std::string name;    // file name without its folder, or "simulated"
   std::string sha256;  // of the bytes that were parsed (before decompression), or of the simulated numbers
@@ -39,6 +46,8 @@ struct Recording {
   Eigen::VectorXd acceleration{};      // optional, only together with velocity
   Eigen::VectorXd simulated_torque{};  // optional: the user's own simulator on the same motion
   std::vector<DataWarning> warnings{};
+  std::vector<Finding> findings{};  // of the examination (engine/health)
+  std::vector<Stretch> left_out{};  // no row within them is fitted: what stands there was filled
   RowFacts rows{};
 };
 

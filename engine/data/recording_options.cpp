@@ -13,11 +13,26 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"torque_per_unit", &Options::torque_per_unit, "N m (or N) per unit of the torque column, e.g. N m per A"},
        {"position_per_unit", &Options::position_per_unit,
         "rad (or m) per unit of position, reference, velocity and acceleration columns; 0.0174532925 for degrees"},
+       {"velocity_per_unit", &Options::velocity_per_unit,
+        "rad/s (or m/s) per unit of the velocity column: 0.104719755 for rpm; 0: position_per_unit"},
+       {"time_per_unit", &Options::time_per_unit, "s", 1e-12, 3600.0,
+        "seconds per unit of the time column: 1e-3 for milliseconds; where it is not written the column's name and the "
+        "size of the stamps tell, and what was taken is said"},
+       {"wrap", &Options::wrap, "1", 0.0, 1e12,
+        "the position column counts modulo this (its own unit): 360, 6.283185307, 65536; 0: found from the recording"},
+       {"encoding", &Options::encoding,
+        "channel = \"unsigned16\" (two's complement that was read without its sign), \"sign_magnitude\" or "
+        "\"plain\""},
+       {"leave_out", &Options::leave_out,
+        "stretches nobody should look at: [[from, until], ...] in s on the recording's own clock"},
        {"rate_hz", &Options::rate_hz, "Hz", 0.0, 1e7,
         "sampling rate of a file without time column; 0: columns.time is given"},
        {"delay_s", &Options::delay_s, "s", -10.0, 10.0,
         "added to the torque's time stamps; negative when the torque comes late"},
-       {"gaps", &Options::gaps, {"error", "fill"}, "missing values: refuse them, or fill up to 5 in a row linearly"},
+       {"gaps",
+        &Options::gaps,
+        {"error", "fill"},
+        "missing values: refuse them, or fill up to 5 in a row over time and leave longer stretches out"},
        {"simulated_torque", &Options::simulated_torque,
         "column with the torque (N m or N) of your own simulator on the same motion, neither scaled nor delayed; "
         "diagnose "

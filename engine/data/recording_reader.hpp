@@ -23,10 +23,17 @@ struct RecordingOptions {
       columns{};                   // channel -> column: time, position, torque, reference, velocity, acceleration
   double torque_per_unit = 1.0;    // N m per unit of the torque column (A, V, N)
   double position_per_unit = 1.0;  // rad per unit of position, reference, velocity, acceleration columns
-  double rate_hz = 0.0;            // sampling rate when the file has no time column
-  double delay_s = 0.0;            // added to the torque's time stamps
-  std::string gaps = "error";      // NaN runs up to 5 samples: "error" or "fill"
+  double velocity_per_unit = 0.0;  // rad/s per unit of the velocity column; 0: position_per_unit
+  double time_per_unit = 1.0;      // s per unit of the time column
+  double wrap = 0.0;               // modulus of the position column; 0: found from the recording
+  std::map<std::string, std::string> encoding{};  // channel -> "unsigned16", "sign_magnitude", "plain"
+  std::vector<double> leave_out{};                // s from, until, from, until, ...: on the recording's own clock
+  double rate_hz = 0.0;                           // sampling rate when the file has no time column
+  double delay_s = 0.0;                           // added to the torque's time stamps
+  std::string gaps = "fill";       // missing values: "error", or "fill" short ones and leave out longer ones
   std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
+
+  double velocity_factor() const { return velocity_per_unit != 0.0 ? velocity_per_unit : position_per_unit; }
 
   static OptionTable<RecordingOptions> const& table();
 };
@@ -46,6 +53,8 @@ struct RawTable {
   std::vector<std::vector<double>> columns;  // empty cells and "nan" are NaN
   std::vector<std::int64_t> line_of_row{};   // text formats: line in the file of each row; else empty
   std::vector<UnusableColumn> unusable{};    // an error only if the job names one of them
+  std::vector<std::string> units{};          // as the file writes them, one per column ("rad/s", ""); or none at all
+  std::vector<std::string> remarks{};        // sentences: what the reader did on its own
 };
 
 // one per file in readers/; chosen by content, never by extension
@@ -59,7 +68,5 @@ struct ReaderChoice {
 std::vector<ReaderChoice> const& reader_choices();
 
 RawTable read_table(std::filesystem::path const& path, Section const& section);
-// `section` is the job's [recording]: its places stand in the messages
-Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section);
 
 }  // namespace torquescope

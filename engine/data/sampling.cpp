@@ -13,7 +13,6 @@ namespace {
 
 constexpr double even_within_steps = 0.02;
 constexpr double rate_open_by = 0.005;  // relative, when stamps jitter
-constexpr double slowest_step_s = 0.5;
 
 // stamps as a person would write them: enough digits to see the step
 std::string stamp(double time_s, double step_s) {
@@ -86,25 +85,25 @@ void check_step(double step_s, RawTable const& table) {
     return bad_data(fmt::format("time stands still in {}", table.path), table.path, 0,
                     "name the right time column, or leave columns.time out and write rate_hz");
   });
-  validate(step_s < slowest_step_s, [&] {
-    return bad_data(fmt::format("the time step is {:.6g} s: are the stamps counts or milliseconds?", step_s),
-                    table.path, 0, "give time in seconds, or leave columns.time out and write rate_hz");
-  });
 }
 
-void check_gaps(std::vector<double> const& stamps, Sampling const& sampling, double step, RawTable const& table) {
+// Requires   gaps that are together longer than the rows are refused: a grid over them would be mostly invented
+std::vector<Stretch> find_gaps(Sampling const& sampling, double step, RawTable const& table) {
+  std::vector<Stretch> gaps;
+  double without_rows = 0.0;
   for (std::size_t k = 1; k < sampling.rows.size(); ++k) {
-    std::size_t const row = sampling.rows[k];
-    double const gap = sampling.times[k] - sampling.times[k - 1];
-    validate(gap <= largest_gap_steps * step, [&] {
-      double const before = stamps[sampling.rows[k - 1]];
-      return bad_data(
-          fmt::format("{:.0f} samples are missing before {} ({} -> {} s)", gap / step - 1, row_name(table, row),
-                      stamp(before, step), stamp(stamps[row], step)),
-          table.path, line_of(table, row),
-          fmt::format("cut the recording there; up to {:.0f} missing samples are interpolated", largest_gap_steps - 1));
+    Stretch const between{sampling.times[k - 1], sampling.times[k]};
+    if (between.until_s - between.from_s <= largest_gap_steps * step) continue;
+    gaps.push_back(between);
+    without_rows += between.until_s - between.from_s;
+    validate(without_rows <= step * static_cast<double>(sampling.rows.size()), [&] {
+      return bad_data(fmt::format("{:.0f} samples are missing before {}, more than the recording has",
+                                  without_rows / step - 1, row_name(table, sampling.rows[k])),
+                      table.path, line_of(table, sampling.rows[k]),
+                      "cut the recording there: two recordings stand in one file");
     });
   }
+  return gaps;
 }
 
 void count_missing(Sampling& sampling, std::vector<double> const& steps, double typical) {
@@ -157,6 +156,18 @@ double roundest(double value, double tolerance) {
   return value;
 }
 
+double single_precision_unit(std::vector<double> const& stamps) {
+  constexpr int digits_of_float = 24;
+  double const largest = std::max(std::fabs(stamps.front()), std::fabs(stamps.back()));
+  if (!(largest > 0.0)) return 0.0;
+  double const unit = std::ldexp(1.0, std::ilogb(largest) - digits_of_float + 1);
+  bool const fits = std::all_of(stamps.begin(), stamps.end(), [&](double t) {
+    double const nearest = static_cast<double>(static_cast<float>(t));
+    return std::fabs(t - nearest) <= 1e-3 * unit;
+  });
+  return fits ? unit : 0.0;
+}
+
 Sampling sampling_at(double rate_hz, std::size_t n_rows) {
   Sampling sampling;
   sampling.rate_hz = rate_hz;
@@ -166,7 +177,7 @@ Sampling sampling_at(double rate_hz, std::size_t n_rows) {
   return sampling;
 }
 
-Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table) {
+Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table, double stamp_unit_s) {
   check_forwards(stamps_s, table);
   auto const every_row = first_rows(stamps_s, false), first_of_repeats = first_rows(stamps_s, true);
   auto const all = nearest_grid(times_of(stamps_s, every_row));
@@ -181,7 +192,8 @@ Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& t
 
   // even, or even before the stamps were printed: half of the last digit, and some for the fitted line
   constexpr double rounding = 0.6;
-  if (all.largest_deviation <= std::max(even_within_steps * all.step, rounding * printed_unit(stamps_s)))
+  if (all.largest_deviation <=
+      std::max(even_within_steps * all.step, rounding * std::max(printed_unit(stamps_s), stamp_unit_s)))
     return even_sampling(every_row, all, 0);
 
   Sampling sampling;
@@ -192,7 +204,7 @@ Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& t
   auto const steps = steps_of(sampling.times);
   double const typical = median(steps);
   check_step(typical, table);
-  check_gaps(stamps_s, sampling, typical, table);
+  sampling.gaps = find_gaps(sampling, typical, table);
   count_missing(sampling, steps, typical);
   sampling.rate_hz = roundest(1.0 / typical, rate_open_by);
   return sampling;

@@ -6,8 +6,8 @@
 //            than that is mostly the clock of the log, not of the loop: samples moved by it obey their controller no
 //            more
 // Repeats    a row whose stamp equals the one before is dropped, unless coarse printing of an even clock explains it
-// Errors     Error 65: time runs backwards or stands still, steps of half a second and more (counts or milliseconds),
-//            a gap of more than 10 steps
+// Gaps       more than 10 steps without a row: their ends are in `gaps`, and nobody knows what lies between
+// Errors     Error 65: time runs backwards or stands still, half of the recording's time has no rows
 
 #include <cstddef>
 #include <vector>
@@ -24,9 +24,13 @@ struct Sampling {
   std::vector<double> times;      // s since the first row; of the rows kept; on the grid when even
   std::vector<std::size_t> rows;  // rows kept: all but repeats
   RowFacts facts{};               // jitter, repeated, missing
+  std::vector<Stretch> gaps{};    // s since the first row
 };
 
-Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table);
+// stamp_unit_s: the spacing that the stamps had before they became seconds since the first row, where that is known
+Sampling analyse_sampling(std::vector<double> const& stamps_s, RawTable const& table, double stamp_unit_s = 0.0);
+// the spacing of numbers of single precision as large as the stamps, where all of them are such numbers; else 0
+double single_precision_unit(std::vector<double> const& stamps);
 // a file without time column
 Sampling sampling_at(double rate_hz, std::size_t n_rows);
 

@@ -38,7 +38,8 @@ namespace torquescope {
 namespace {
 
 constexpr int deepest_nesting = 32;
-constexpr std::string_view map_key = "columns";
+// keys whose value is a table of texts, and not a section
+constexpr std::string_view map_keys[] = {"columns", "encoding"};
 
 std::vector<std::string> split_lines(std::string const& text) {
   std::vector<std::string> lines;
@@ -113,7 +114,7 @@ class SectionReader {
     for (auto const& [inner_key, node] : table) {
       std::string const inner_name(inner_key.str());
       auto const* inner = node.as_table();
-      if (inner && inner_name != map_key) {
+      if (inner && std::find(std::begin(map_keys), std::end(map_keys), inner_name) == std::end(map_keys)) {
         read_section(name + "." + inner_name, *inner, place(inner_key.source()));
       } else if (node.is_array_of_tables() && !node.as_array()->empty()) {
         read_section_list(name + "." + inner_name, *node.as_array());
@@ -190,6 +191,7 @@ class SectionReader {
       for (auto const& item : list) texts.push_back(item.as_string()->get());
       return OptionValue(std::move(texts));
     }
+    if (first == "lists") return read_pairs(key, list);
     if (first != "numbers")
       return refuse(key, list, fmt::format("{} is a list of {}", key, first),
                     "lists hold numbers, or texts in quotes, and nothing else");
@@ -203,13 +205,27 @@ class SectionReader {
     return OptionValue(std::move(numbers));
   }
 
+  // [[t0, t1], [t2, t3]] as t0, t1, t2, t3: pairs of numbers
+  std::optional<OptionValue> read_pairs(std::string const& key, toml::array const& list) {
+    std::vector<double> numbers;
+    for (auto const& item : list) {
+      auto const* pair = item.as_array();
+      bool const is_pair = pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number();
+      if (!is_pair)
+        return refuse(key, item, fmt::format("{} holds a list that is no pair of numbers", key),
+                      fmt::format("write {} = [[1.0, 2.5], [7.0, 7.2]]", key.substr(key.find('.') + 1)));
+      for (auto const& number : *pair) numbers.push_back(*number.value<double>());
+    }
+    return OptionValue(std::move(numbers));
+  }
+
   std::optional<OptionValue> read_map(std::string const& key, toml::table const& table) {
     std::map<std::string, std::string> map;
     for (auto const& [name, node] : table) {
       auto const* text = node.as_string();
       if (!text)
         return refuse(key + "." + std::string(name.str()), node, fmt::format("{}.{} is not a text", key, name.str()),
-                      fmt::format("write the column's name in quotes: {} = \"...\"", name.str()));
+                      fmt::format("write a text in quotes: {} = \"...\"", name.str()));
       map[std::string(name.str())] = text->get();
     }
     return OptionValue(std::move(map));

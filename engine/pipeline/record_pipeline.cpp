@@ -22,9 +22,10 @@ std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const
                                       bool with_reversals) {
   auto const moving = with_reversals ? samples_without_rest(motion.dq, motion.rate_hz, cutoff_hz)
                                      : moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
+  auto const left_out = left_out_samples(motion, cutoff_hz);
   Eigen::VectorXd as_numbers = Eigen::VectorXd::Zero(motion.dq.size());
   for (Eigen::Index k = unknown_start(motion.q, motion.dq); k < as_numbers.size(); ++k)
-    if (moving[static_cast<std::size_t>(k)]) as_numbers[k] = 1.0;
+    if (moving[static_cast<std::size_t>(k)] && !left_out[static_cast<std::size_t>(k)]) as_numbers[k] = 1.0;
   Eigen::VectorXd const kept = filter.pick(as_numbers);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < kept.size(); ++i)

@@ -12,6 +12,7 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/huge_pages.hpp"
+#include "engine/data/filter_checks.hpp"
 
 namespace torquescope {
 namespace {
@@ -113,12 +114,28 @@ bool is_told_by_rate(Eigen::VectorXd const& time_s, double rate_hz, Regressor co
   return true;
 }
 
+// the filter's rows outside of what the recording leaves out; empty where that is all of them
+std::vector<Eigen::Index> rows_looked_at(Motion const& motion, FilterOptions const& options,
+                                         ParallelFilter const& filter) {
+  std::vector<Eigen::Index> kept;
+  if (motion.left_out.empty()) return kept;
+  auto const out = left_out_samples(motion, parallel_cutoff_of(options));
+  Eigen::VectorXd as_numbers(static_cast<Eigen::Index>(out.size()));
+  for (std::size_t k = 0; k < out.size(); ++k) as_numbers[static_cast<Eigen::Index>(k)] = out[k] ? 1.0 : 0.0;
+  Eigen::VectorXd const picked = filter.pick(as_numbers);
+  for (Eigen::Index i = 0; i < picked.size(); ++i)
+    if (picked[i] == 0.0) kept.push_back(i);
+  return kept;
+}
+
 // phi and tau of one recording, and what is kept of its motion
 RegressionData rows_of(Motion&& motion, FilterOptions const& options, Regressor const& regressor,
                        Section const& section, RowMotion row_motion) {
   ParallelFilter const filter(options, motion.rate_hz, motion.q.size(), section);
   RegressionData rows;
   rows.kept_rate_hz = filter.kept_rate_hz();
+  auto const kept = rows_looked_at(motion, options, filter);
+  if (!kept.empty()) row_motion = RowMotion::kept;
   if (row_motion != RowMotion::kept && filter.keeps_everything()) {
     if (row_motion == RowMotion::once && is_told_by_rate(motion.time_s, rows.kept_rate_hz, regressor))
       motion.time_s = Eigen::VectorXd();
@@ -127,13 +144,18 @@ RegressionData rows_of(Motion&& motion, FilterOptions const& options, Regressor 
     rows.phi = regressor.columns(motion);
   }
   if (!filter.keeps_everything()) {
-    Eigen::MatrixXd kept(filter.kept_samples(), rows.phi.cols());
-    for (Eigen::Index r = 0; r < kept.cols(); ++r) kept.col(r) = filter.apply(rows.phi.col(r));
-    rows.phi = std::move(kept);
+    Eigen::MatrixXd filtered(filter.kept_samples(), rows.phi.cols());
+    for (Eigen::Index r = 0; r < filtered.cols(); ++r) filtered.col(r) = filter.apply(rows.phi.col(r));
+    rows.phi = std::move(filtered);
     motion.torque = filter.apply(motion.torque);
     for (auto* signal : {&motion.time_s, &motion.q, &motion.dq, &motion.ddq}) *signal = filter.pick(*signal);
   }
   rows.tau = std::move(motion.torque);
+  if (!kept.empty()) {
+    rows.phi = rows.phi(kept, Eigen::all).eval();
+    for (auto* signal : {&rows.tau, &motion.time_s, &motion.q, &motion.dq, &motion.ddq})
+      *signal = (*signal)(kept).eval();
+  }
   rows.time_s = std::move(motion.time_s);
   rows.q = std::move(motion.q);
   rows.dq = std::move(motion.dq);

@@ -7,7 +7,11 @@
 #include <limits>
 #include <utility>
 
+#include "engine/data/change_of_rate.hpp"
+#include "engine/health/finding_text.hpp"
+#include "engine/health/make_recording.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/fit_findings.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_recordings.hpp"
@@ -54,19 +58,47 @@ std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> 
   return recordings;
 }
 
-void check_same_rate(std::vector<Recording> const& recordings, Section const& section) {
-  for (auto const& recording : recordings) {
-    double const first = recordings.front().rate_hz;
-    validate(std::fabs(recording.rate_hz - first) <= 1e-3 * first, [&] {
-      Problem problem =
-          problem_at(section, "train",
-                     fmt::format("{} is sampled at {:.6g} Hz, {} at {:.6g} Hz", recordings.front().name, first,
-                                 recording.name, recording.rate_hz),
-                     "recordings of one job share one sampling rate: resample one of them, or use two jobs");
-      problem.code = ExitCode::bad_data;
-      return problem;
-    });
+// The recordings of a job share one sampling rate: that of the first where all are about the same, else the lowest
+double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate) {
+  constexpr double about_the_same = 0.1;
+  double const first = train.front().rate_hz;
+  double lowest = first, highest = first;
+  for (auto const* recordings : {&train, &validate})
+    for (auto const& recording : *recordings) {
+      lowest = std::min(lowest, recording.rate_hz);
+      highest = std::max(highest, recording.rate_hz);
+    }
+  return highest <= (1.0 + about_the_same) * lowest ? first : lowest;
+}
+
+void bring_to_rate(std::vector<Recording>& recordings, double rate_hz) {
+  for (auto& recording : recordings) {
+    double const own = recording.rate_hz;
+    if (std::fabs(own - rate_hz) <= 1e-6 * rate_hz) continue;
+    recording = at_rate(std::move(recording), rate_hz);
+    recording.warnings.push_back(
+        {"rate", fmt::format("sampled at {:.6g} Hz, resampled to the {:.6g} Hz of the job", own, rate_hz)});
   }
+}
+
+// what cannot be fitted: a joint that stands still tells nothing, in training
+void grade_standstill(std::vector<Recording>& recordings, Grade grade) {
+  for (auto& recording : recordings)
+    for (auto& finding : recording.findings)
+      if (finding.kind == FindingKind::standstill) finding.grade = grade;
+}
+
+// faults end a fit; a check lists them, and a diagnosis has a verdict for them
+void refuse_faults(Experiment::Parts const& parts, Job const& job, RecordingOptions const& options) {
+  std::vector<Problem> problems;
+  auto const add = [&](std::vector<Recording> const& recordings, std::vector<std::string> const& files) {
+    for (std::size_t k = 0; k < recordings.size(); ++k)
+      for (auto const& finding : recordings[k].findings)
+        if (is_fault(finding)) problems.push_back(problem_of(finding, job.resolve(files[k]).string()));
+  };
+  add(parts.train.recordings, options.train);
+  if (parts.validate) add(parts.validate->recordings, options.validate);
+  if (!problems.empty()) throw Error(std::move(problems));
 }
 
 // a diagnosis looks at the channels again, a fit only at its rows
@@ -93,11 +125,12 @@ void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan, Channe
 void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
   Section const section = section_or_empty(parts.job, "recording");
   parts.train.recordings = read_recordings(parts.job, options.train, options, section);
-  check_same_rate(parts.train.recordings, section);
-  if (!options.validate.empty()) {
-    parts.validate = DataSet{read_recordings(parts.job, options.validate, options, section), {}, {}, false};
-    check_same_rate(parts.validate->recordings, section);
-  }
+  std::vector<Recording> unseen = read_recordings(parts.job, options.validate, options, section);
+  double const rate_hz = rate_of_job(parts.train.recordings, unseen);
+  bring_to_rate(parts.train.recordings, rate_hz);
+  bring_to_rate(unseen, rate_hz);
+  grade_standstill(parts.train.recordings, Grade::fault);
+  if (!unseen.empty()) parts.validate = DataSet{std::move(unseen), {}, {}, false};
 }
 
 void forget_channels(Recording& recording) {
@@ -232,6 +265,17 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   auto const& rows = parts->train.regression;
   if (!too_few_rows(rows)) parts->reductions = reductions_of(rows);
   parts->health = regressor_health(rows, parts->reductions);
+  if (!simulates) {
+    auto found = fit_findings(*parts, recording);
+    auto& findings = parts->train.recordings.front().findings;
+    findings.insert(findings.end(), found.begin(), found.end());
+    if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);
+  }
+  if (!simulates) {
+    auto found = fit_findings(*parts, recording);
+    auto& findings = parts->train.recordings.front().findings;
+    findings.insert(findings.end(), found.begin(), found.end());
+  }
   if (purpose != Purpose::identify) parts->reductions = {};
   if (purpose == Purpose::identify && wants_statistics(*parts))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);

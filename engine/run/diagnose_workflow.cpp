@@ -1,14 +1,22 @@
 // `torquescope diagnose`: from a loaded job to a verdict in a result file.
 
+#include <fmt/format.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <system_error>
 
+#include "engine/health/finding_text.hpp"
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/diagnosis_result.hpp"
 #include "engine/run/disk_room.hpp"
 #include "engine/run/twin_folder.hpp"
 #include "engine/store/shard_lock.hpp"
+#include "engine/words/sentences.hpp"
 
 namespace torquescope {
 
@@ -85,6 +93,58 @@ Error stopped(DiagnoseRequest const& request, Shard const* shard) {
   return Error(problem);
 }
 
+// A fault that the examination found is the verdict: physics found in such rows would be the fault's
+Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::data_fault;
+  diagnosis.finding = fmt::format("{}: {}", fault.recording, sentence_of(fault));
+  diagnosis.way_out = cure_of(fault);
+  JointDiagnosis joint;
+  bool const revolute = parts.regressor->joint() == JointKind::revolute;
+  joint.unit_position = revolute ? "rad" : "m";
+  joint.unit_torque = revolute ? "N m" : "N";
+  diagnosis.joints.push_back(std::move(joint));
+  diagnosis.seed = static_cast<std::uint64_t>(parts.experiment.seed);
+  diagnosis.q = parts.diagnose.q;
+  diagnosis.reason = reason_sentence(diagnosis);
+  return diagnosis;
+}
+
+Diagnosis diagnose_examined(Experiment const& experiment, DiagnosisInput const& input, StageSink const& sink) {
+  auto const findings = experiment.findings();
+  auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
+  Diagnosis diagnosis =
+      fault != findings.end() ? verdict_of_fault(*fault, experiment.parts()) : diagnose_joint(input, sink);
+  diagnosis.findings = findings;
+  return diagnosis;
+}
+
+// A fault that the examination found is the verdict: physics found in such rows would be the fault's
+Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::data_fault;
+  diagnosis.finding = fmt::format("{}: {}", fault.recording, sentence_of(fault));
+  diagnosis.way_out = cure_of(fault);
+  JointDiagnosis joint;
+  bool const revolute = parts.regressor->joint() == JointKind::revolute;
+  joint.unit_position = revolute ? "rad" : "m";
+  joint.unit_torque = revolute ? "N m" : "N";
+  diagnosis.joints.push_back(std::move(joint));
+  diagnosis.seed = static_cast<std::uint64_t>(parts.experiment.seed);
+  diagnosis.q = parts.diagnose.q;
+  diagnosis.reason = reason_sentence(diagnosis);
+  return diagnosis;
+}
+
+Diagnosis diagnose_examined(Experiment const& experiment, DiagnosisInput const& input, StageSink const& sink) {
+  auto const findings = experiment.findings();
+  auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
+  Diagnosis diagnosis =
+      fault != findings.end() ? verdict_of_fault(*fault, experiment.parts()) : diagnose_joint(input, sink);
+  diagnosis.findings = findings;
+  return diagnosis;
+}
+
 }  // namespace
 
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress) {
@@ -99,7 +159,7 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   };
   try {
     Diagnosis const diagnosis =
-        diagnose_into_file(experiment, request, [&] { return diagnose_joint(job.input(), sink); });
+        diagnose_into_file(experiment, request, [&] { return diagnose_examined(experiment, job.input(), sink); });
     if (shard && request.tell) request.tell("shard", shard->twins().account());
     // also those of shards that were killed, when one process made it all in the end
     if (shard || twin_parts_in(segment_folder_of(request.output)) > 0) remove_segments(request.output);

@@ -7,6 +7,7 @@
 
 #include "engine/base/digest.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/health/finding_text.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "kernels/dispatch.hpp"
 
@@ -30,6 +31,11 @@ std::string excitation_words(Excitation const& facts, JointKind joint) {
 
 std::size_t samples_of(DataSet const& set) {
   return std::accumulate(set.n_samples.begin(), set.n_samples.end(), std::size_t{0});
+}
+
+CheckLine::Level level_of(Grade grade) {
+  using Level = CheckLine::Level;
+  return grade == Grade::fault ? Level::fault : grade == Grade::warning ? Level::warn : Level::note;
 }
 
 double seconds_of(DataSet const& set) { return static_cast<double>(samples_of(set)) / set.recordings.front().rate_hz; }
@@ -138,6 +144,9 @@ bool Experiment::asks_for_values() const { return !parts_->estimators.empty(); }
 
 std::vector<std::string> Experiment::warnings() const {
   std::vector<std::string> lines;
+  for (auto const& finding : findings())
+    if (finding.grade != Grade::note)
+      lines.push_back(fmt::format("{}: {}", finding.recording, sentence_with_cure(finding)));
   auto const add = [&](DataSet const& set) {
     for (auto const& recording : set.recordings)
       for (auto const& warning : recording.warnings)
@@ -153,11 +162,24 @@ std::vector<std::string> Experiment::warnings() const {
 
 std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
+  for (auto const& finding : findings())
+    if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
   // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what
   // costs an interval nothing but width is in the interval
   std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;
   if (!words.empty()) lines.push_back("regressor: " + words);
   return lines;
+}
+
+std::vector<Finding> Experiment::findings() const {
+  std::vector<Finding> all;
+  auto const add = [&](DataSet const& set) {
+    for (auto const& recording : set.recordings)
+      all.insert(all.end(), recording.findings.begin(), recording.findings.end());
+  };
+  add(parts_->train);
+  if (parts_->validate) add(*parts_->validate);
+  return all;
 }
 
 std::vector<CheckLine> Experiment::check(int threads) const {
@@ -173,6 +195,8 @@ std::vector<CheckLine> Experiment::check(int threads) const {
       lines.push_back(
           {Level::ok, purpose,
            fmt::format("{}: {} samples at {:.6g} Hz", recording.name, set.n_samples[k], recording.rate_hz)});
+      for (auto const& finding : recording.findings)
+        lines.push_back({level_of(finding.grade), code_of(finding.kind), sentence_with_cure(finding)});
       for (auto const& warning : recording.warnings) lines.push_back({Level::warn, warning.topic, warning.text});
     }
   };

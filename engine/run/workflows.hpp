@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/parallel.hpp"
+#include "engine/data/finding.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/written_result.hpp"
 #include "engine/verdict/diagnosis.hpp"
@@ -24,7 +25,7 @@ std::string vector_target();
 
 // one line of `torquescope check`
 struct CheckLine {
-  enum class Level { ok, warn };
+  enum class Level { ok, note, warn, fault };
   Level level = Level::ok;
   std::string topic;  // "recording", "delay", "excitation"
   std::string text;
@@ -52,6 +53,7 @@ class Experiment {
   std::vector<CheckLine> check(int threads) const;
   std::vector<std::string> warnings() const;  // one line each, printed by `run` before it starts
   std::vector<std::string> remarks() const;   // the same of what is healthy
+  std::vector<Finding> findings() const;      // of the examination of every recording
 
   struct Parts;
   Parts const& parts() const { return *parts_; }

@@ -137,9 +137,10 @@ def main(root):
         path = pathlib.PurePosixPath(name)
         if path.suffix not in NO_TEXT | {".md"} and not name.startswith(DEEP_NESTING):
             found += wide_lines(name, (root / name).read_text(encoding="utf-8"))
-        if path.parts[0] in FOLDERS and path.suffix in SOURCES:
+        own = name.startswith("tests/structure/")  # documents that its own checks make up
+        if path.parts[0] in FOLDERS and path.suffix in SOURCES and not own:
             found += complaints(name, (root / name).read_text(errors="replace"), documents, headings)
-    print("\n".join(found) or "sources are listed, pragmas are at home, lines are narrow, documents exist, headers are short")
+    print("\n".join(found) or "sources are listed, lines are narrow, documents exist, leading comments are short")
     return 1 if found else 0
 
 

@@ -18,28 +18,49 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool warns(CheckLine const& line) { return line.level == CheckLine::Level::warn; }
+bool is_fault(CheckLine const& line) { return line.level == CheckLine::Level::fault; }
+
+char const* level_word(CheckLine const& line) {
+  switch (line.level) {
+    case CheckLine::Level::ok:
+      return "ok";
+    case CheckLine::Level::note:
+      return "note";
+    case CheckLine::Level::warn:
+      return "warn";
+    case CheckLine::Level::fault:
+      return "fault";
+  }
+  return "";
+}
 
 std::string check_text(std::vector<CheckLine> const& lines, Ink const& ink) {
   std::size_t topic_width = 13;
   for (auto const& line : lines) topic_width = std::max(topic_width, line.topic.size() + 1);
   std::string text;
   for (auto const& line : lines) {
-    std::string const level = warns(line) ? ink.warning("warn") + "  " : "ok    ";
+    std::string const word = level_word(line);
+    std::string const blanks(6 - word.size(), ' ');
+    std::string const level = (warns(line) || is_fault(line) ? ink.warning(word) : word) + blanks;
     text +=
         hanging(level + pad_right(printable(line.topic), static_cast<int>(topic_width)) + " ", printable(line.text));
   }
   auto const warnings = std::count_if(lines.begin(), lines.end(), warns);
-  return text + fmt::format("{} warning{}, nothing stops a run\n", warnings, warnings == 1 ? "" : "s");
+  auto const faults = std::count_if(lines.begin(), lines.end(), is_fault);
+  text += fmt::format("{} warning{}, ", warnings, warnings == 1 ? "" : "s");
+  if (faults == 0) return text + "nothing stops a run\n";
+  return text + fmt::format("{} fault{} of the recording: `run` refuses it\n", faults, faults == 1 ? "" : "s");
 }
 
 std::string check_json(Experiment const& experiment, std::string const& job, std::vector<CheckLine> const& lines) {
   Json list = Json::array();
   for (auto const& line : lines)
-    list.push_back({{"level", warns(line) ? "warn" : "ok"}, {"topic", line.topic}, {"text", line.text}});
+    list.push_back({{"level", level_word(line)}, {"topic", line.topic}, {"text", line.text}});
   Json const document = {{"schema", 1},
                          {"file", job},
                          {"job", experiment.name()},
                          {"warnings", std::count_if(lines.begin(), lines.end(), warns)},
+                         {"faults", std::count_if(lines.begin(), lines.end(), is_fault)},
                          {"lines", list}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -49,7 +70,7 @@ ExitCode check_job(std::string const& job, Session const& session) {
   auto const lines = experiment.check(choose_threads(0).count);
   session.result(check_text(lines, session.result_ink()));
   session.document(check_json(experiment, job, lines));
-  return ExitCode::ok;
+  return std::any_of(lines.begin(), lines.end(), is_fault) ? ExitCode::bad_data : ExitCode::ok;
 }
 
 }  // namespace

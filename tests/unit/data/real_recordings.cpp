@@ -8,6 +8,7 @@
 #include "engine/data/excitation.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "engine/health/make_recording.hpp"
 #include "support/decompositions.hpp"
 #include "support/recordings_folder.hpp"
 

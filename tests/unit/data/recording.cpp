@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/random_stream.hpp"
+#include "engine/health/make_recording.hpp"
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
@@ -229,38 +230,41 @@ TEST(MakeRecording, LastPartOfAPathServesWhenItIsUnique) {
   EXPECT_EQ(both.help, "write the whole path: left/q");
 }
 
-TEST(MakeRecording, MissingValuesAreRefusedWithCountLineAndTime) {
+TEST(MakeRecording, MissingValuesAreRefusedWhereTheJobAsksForIt) {
   auto table = table_at(even_times());
   for (std::size_t i = 410; i < 427; ++i) table.columns[1][i] = nan;
-  auto const problem = refused(table, options_of());
+  auto options = options_of();
+  options.gaps = "error";
+  auto const problem = refused(table, options);
   EXPECT_EQ(problem.code, ExitCode::bad_data);
   EXPECT_EQ(problem.what, "17 values of \"q_rad\" are not numbers, first in line 412");
   EXPECT_EQ(problem.place.file, "/data/arm.csv");
   EXPECT_EQ(problem.place.line, 412);
   EXPECT_EQ(problem.notes, std::vector<std::string>{"t = 0.410 s"});
-  EXPECT_EQ(problem.help, "cut the recording there, or recording.gaps = \"fill\" (up to 5 samples)");
+  EXPECT_THAT(problem.help, HasSubstr("recording.gaps = \"fill\""));
 }
 
-TEST(MakeRecording, ShortGapsAreFilledByAStraightLine) {
+TEST(MakeRecording, ShortGapsAreFilledOverTime) {
   auto table = table_at(even_times());
   for (std::size_t i = 410; i < 415; ++i) table.columns[1][i] = nan;
   table.columns[1][800] = nan;
-  auto options = options_of();
-  options.gaps = "fill";
-  auto const recording = made(table, options);
-  double const before = table.columns[1][409], after = table.columns[1][415];
-  for (int k = 0; k < 5; ++k) EXPECT_NEAR(recording.position[410 + k], before + (after - before) * (k + 1) / 6, 1e-15);
+  auto const recording = made(table, options_of());
+  EXPECT_TRUE(recording.left_out.empty());
+  EXPECT_LT(largest_error(recording.time_s, recording.position, position_at), 1e-6);
   ASSERT_EQ(recording.warnings.size(), 1u);
-  EXPECT_EQ(recording.warnings[0].text, "6 missing values of \"q_rad\" filled in 2 places, first in line 412");
+  EXPECT_EQ(recording.warnings[0].text, "6 missing values of \"q_rad\" in 2 places, first in line 412");
+}
 
-  table.columns[1][415] = nan;
-  auto const problem = refused(table, options);
-  EXPECT_EQ(problem.what, "6 values in a row of \"q_rad\" are not numbers, from line 412");
-  EXPECT_EQ(problem.help, "cut the recording there: gaps = \"fill\" closes up to 5 samples");
-
-  auto at_end = table_at(even_times());
-  at_end.columns[2].back() = nan;
-  EXPECT_EQ(refused(at_end, options).what, "\"i_A\" ends without a number (line 2001)");
+TEST(MakeRecording, LongGapsAreLeftOut) {
+  auto table = table_at(even_times());
+  for (std::size_t i = 410; i < 450; ++i) table.columns[1][i] = nan;
+  for (std::size_t i = 1990; i < 2000; ++i) table.columns[2][i] = nan;
+  auto const recording = made(table, options_of());
+  EXPECT_EQ(recording.position.size(), 2000);
+  ASSERT_EQ(recording.left_out.size(), 2u);
+  EXPECT_NEAR(recording.left_out[0].from_s, 0.409, 1e-9);
+  EXPECT_NEAR(recording.left_out[0].until_s, 0.450, 1e-9);
+  EXPECT_NEAR(recording.left_out[1].from_s, 1.989, 1e-9);
 }
 
 TEST(MakeRecording, UnusedColumnsMayHoldAnything) {
@@ -282,10 +286,10 @@ TEST(MakeRecording, StillSignalsAndStumpsAreRefused) {
   EXPECT_EQ(refused(table_at(even_times()), far).what, "delay_s = -1.995 leaves 5 of 2000 samples");
 }
 
-TEST(MakeRecording, BackwardsTimeIsRefused) {
+TEST(MakeRecording, TimeThatStartsAnewIsRefused) {
   auto table = table_at(even_times());
-  table.columns[0][809] = 0.8;
-  EXPECT_EQ(refused(table, options_of()).what, "time runs backwards in line 811 (0.808 -> 0.800 s)");
+  for (std::size_t i = 809; i < 2000; ++i) table.columns[0][i] -= 0.808;
+  EXPECT_EQ(refused(table, options_of()).what, "time starts anew in line 811 (0.808 -> 0.001 s)");
 }
 
 TEST(MakeRecording, SaturationIsCountedOnTheRows) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "engine/data/recording_reader.hpp"
+#include "engine/health/make_recording.hpp"
 #include "engine/pipeline/needed_torque.hpp"
 #include "support/recordings_folder.hpp"
 #include "unit/twin/clean_records.hpp"

@@ -1,0 +1,73 @@
+#pragma once
+// What the examination of a recording found: kind, rows, size and grade as numbers; health/finding_text.hpp says it.
+//
+// Rows       of the file's table, counted from 0; `lines` are what a person looks up (line of a text file, else row)
+// Units      of the file's column, unless a kind says otherwise
+// Threads    plain records
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+enum class Grade { note, warning, fault };
+
+enum class FindingKind {
+  // time
+  time_unit,          // size: s per unit of the stamps; detail: the unit's name
+  time_unit_unknown,  // size: the step as it stands
+  rows_out_of_order,  // sorted by time
+  clock_rolls_over,   // size: s by which the stamps fall
+  stamps_of_arrival,  // size: Hz of the even grid that replaced the stamps
+  clock_was_set,      // size: s; position and torque go on as if nothing had happened
+  rows_missing,       // size: s without rows, left out
+  // position
+  position_wraps,     // size: the modulus
+  wraps_by_unknown,   // size: the modulus as far as the rows tell it
+  position_jumps,     // size: the largest jump
+  single_wrong_rows,  // size: the value most of them hold; in `column`
+  rows_repeated,      // the joint moves and the rows do not change
+  rows_interleaved,   // two sources of rows in one file
+  position_in_counts,
+  unit_in_name,         // size: SI value of one unit; detail: the unit's name; other: the key to write
+  unit_of_current,      // detail: the unit's name
+  speed_implausible,    // size: rad/s
+  command_as_position,  // detail: the column that looks measured
+  // torque
+  torque_spikes,      // size: the largest
+  unsigned_register,  // size: bits
+  sign_magnitude,     // size: the bit of the sign
+  torque_without_sign,
+  torque_switched_off,  // size: s
+  // velocity beside position
+  velocity_contradicts,  // size: correlation with the derivative of the position
+  velocity_factor,       // size: velocity over derivative of the position; detail: what it may be
+  velocity_late,         // size: s
+  velocity_constant,
+  // the fit of the job's model
+  less_than_none,  // detail: the parameters and their values
+  wrong_sign,      // as less_than_none, and the torque takes work out of the joint
+  // motion
+  other_joints_move,  // detail: their columns
+  standstill,         // size: the whole range of the motion, SI
+  stretch_left_out,   // size: s, by the job or by missing values
+  reader_remark,      // detail: what the reader of the file did
+};
+
+// what was done about it
+enum class Repair { none, corrected, filled, left_out, channel_unused };
+
+struct Finding {
+  FindingKind kind = FindingKind::reader_remark;
+  Grade grade = Grade::warning;
+  Repair repair = Repair::none;
+  std::string recording{};
+  std::string column{};  // the file's name of it
+  std::int64_t count = 0;
+  std::vector<std::int64_t> lines{};  // the first few
+  double size = 0.0;
+  std::string detail{};
+};
+
+}  // namespace torquescope

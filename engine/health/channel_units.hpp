@@ -1,0 +1,16 @@
+#pragma once
+// Units that a column's name tells and the job does not: degrees, counts, per mille. Other joints that move in the
+// file.
+//
+// Fault      a name that says another unit than SI where the job has no factor; whole numbers that can only be counts
+// Warning    a current or voltage taken for a torque; a position that the file's names call a command
+// Threads    free functions
+
+#include "engine/health/examination.hpp"
+
+namespace torquescope {
+
+void examine_units(Examination& exam);
+void find_other_joints(Examination& exam);
+
+}  // namespace torquescope

@@ -1,0 +1,292 @@
+#include "engine/health/finding_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace torquescope {
+namespace {
+
+std::string rows_words(Finding const& finding) {
+  if (finding.count == 0) return {};
+  if (finding.lines.empty()) return fmt::format("{} rows", finding.count);
+  std::string text = fmt::format("{} row{}", finding.count, finding.count == 1 ? "" : "s");
+  text += finding.count == 1 ? " (line " : " (lines ";
+  for (std::size_t k = 0; k < finding.lines.size(); ++k) text += (k ? ", " : "") + std::to_string(finding.lines[k]);
+  return text + (finding.count > static_cast<std::int64_t>(finding.lines.size()) ? ", ...)" : ")");
+}
+
+std::string done_words(Repair repair) {
+  switch (repair) {
+    case Repair::corrected:
+      return "; corrected";
+    case Repair::filled:
+      return "; treated as missing and filled over time";
+    case Repair::left_out:
+      return "; left out of every fit";
+    case Repair::channel_unused:
+      return "; the column is not used, the velocity is derived from the position";
+    case Repair::none:
+      break;
+  }
+  return {};
+}
+
+std::string what(Finding const& f) {
+  std::string const rows = rows_words(f), column = "\"" + f.column + "\"";
+  using enum FindingKind;
+  switch (f.kind) {
+    case time_unit:
+      return fmt::format("the stamps of {} are taken as {}", column, f.detail);
+    case time_unit_unknown:
+      return fmt::format("the unit of {} is unknown (a step is {:.6g})", column, f.size);
+    case rows_out_of_order:
+      return fmt::format("rows are out of order: {} stand before an earlier stamp; sorted by time", rows);
+    case clock_rolls_over:
+      return fmt::format("the clock rolls over by {:.9g} s at {}", f.size, rows);
+    case stamps_of_arrival:
+      return fmt::format(
+          "{} holds times of arrival: rows come in bursts; they are put evenly at {:g} Hz by their number", column,
+          f.size);
+    case clock_was_set:
+      return fmt::format("the clock was set by {:.4g} s at {}: position and torque go on without a gap", f.size, rows);
+    case rows_missing:
+      return fmt::format("{:.4g} s have no rows", f.size);
+    case position_wraps:
+      return fmt::format("{} wraps at {:.10g} in {}; unwrapped", column, f.size, rows);
+    case wraps_by_unknown:
+      return fmt::format("{} wraps: it jumps by its whole range, about {:.6g}, in {}", column, f.size, rows);
+    case position_jumps:
+      return fmt::format(
+          "{} jumps by up to {:.4g} in {} and goes on from there: the zero was set anew, recordings were "
+          "pasted together, or the column changed to another joint",
+          column, f.size, rows);
+    case single_wrong_rows:
+      return fmt::format("{} holds single wrong rows: {:g} in {}", column, f.size, rows);
+    case rows_repeated:
+      if (!f.detail.empty()) return fmt::format("rows were logged twice ({}): {}", f.detail, rows);
+      return fmt::format("rows repeat while the joint moves (a lost packet, or a slower source): {} in {}", column,
+                         rows);
+    case rows_interleaved:
+      return fmt::format("two sources write into one file: rows of {} alternate between two signals{}", column,
+                         rows.empty() ? "" : " (" + rows + ")");
+    case position_in_counts:
+      return fmt::format("{} holds counts of an encoder, not rad or m", column);
+    case unit_in_name:
+      return fmt::format("the name of {} says {}, and the job gives no factor", column, f.detail);
+    case unit_of_current:
+      return fmt::format("{} is in {}, not N m: every parameter would be in units of that", column, f.detail);
+    case speed_implausible:
+      return fmt::format("the joint would turn at {:.3g} rad/s: is {} in rad?", f.size, column);
+    case command_as_position:
+      return fmt::format("the position column {} is called a command: the measured position is wanted{}", column,
+                         f.detail.empty() ? "" : ", perhaps \"" + f.detail + "\"");
+    case torque_spikes:
+      return fmt::format("{} has spikes of up to {:.4g}, far beyond all other rows, in {}", column, f.size, rows);
+    case unsigned_register:
+      return fmt::format(
+          "{} holds an unsigned register of {:.0f} bits: negative values were read as large ones in {} rows", column,
+          f.size, f.count);
+    case sign_magnitude:
+      return fmt::format("{} holds its sign in bit {:.0f} (sign and magnitude) in {} rows", column, f.size, f.count);
+    case torque_without_sign:
+      return fmt::format(
+          "{} never changes its sign over {:.0f} reversals and comes down to zero between them: a "
+          "magnitude was logged, the sign is lost",
+          column, f.size);
+    case torque_switched_off:
+      return fmt::format("{} reads exactly 0 for {:.3g} s while the joint moves, from {}: the drive was off", column,
+                         f.size, f.lines.empty() ? std::string("some row") : "line " + std::to_string(f.lines.front()));
+    case velocity_contradicts:
+      return fmt::format(
+          "{} contradicts the derivative of the position (correlation {:.2f}): another signal, or without its sign",
+          column, f.size);
+    case velocity_factor:
+      return fmt::format("{} is {:.3g} times the derivative of the position{}", column, f.size,
+                         f.detail.empty() ? "" : ": " + f.detail + "?");
+    case velocity_late:
+      return fmt::format("{} is {:.3g} ms {} the derivative of the position (a filter of the drive?)", column,
+                         1e3 * std::fabs(f.size), f.size > 0.0 ? "behind" : "ahead of");
+    case velocity_constant:
+      return fmt::format("{} never changes: {:g} in every row", column, f.size);
+    case less_than_none:
+      return fmt::format(
+          "least squares gives less than none of what cannot be negative: {}; {} may hold another "
+          "signal, another joint's torque, or come late",
+          f.detail, column);
+    case wrong_sign:
+      return fmt::format("the torque takes work out of the joint ({}): {} has the wrong sign against the position",
+                         f.detail, column);
+    case other_joints_move:
+      return fmt::format(
+          "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
+          "neighbours load it",
+          f.detail);
+    case standstill:
+      return fmt::format("the joint stands still: {} covers {:.3g} in all", column, f.size);
+    case stretch_left_out:
+      return fmt::format("{:.4g} s in {} stretch{} ({}{})", f.size, f.count, f.count == 1 ? "" : "es",
+                         f.count == 1 ? "" : "the first ", f.detail);
+    case reader_remark:
+      return f.detail;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string code_of(FindingKind kind) {
+  using enum FindingKind;
+  switch (kind) {
+    case time_unit:
+      return "time_unit";
+    case time_unit_unknown:
+      return "time_unit_unknown";
+    case rows_out_of_order:
+      return "rows_out_of_order";
+    case clock_rolls_over:
+      return "clock_rolls_over";
+    case stamps_of_arrival:
+      return "stamps_of_arrival";
+    case clock_was_set:
+      return "clock_was_set";
+    case rows_missing:
+      return "rows_missing";
+    case position_wraps:
+      return "position_wraps";
+    case wraps_by_unknown:
+      return "wraps_by_unknown";
+    case position_jumps:
+      return "position_jumps";
+    case single_wrong_rows:
+      return "single_wrong_rows";
+    case rows_repeated:
+      return "rows_repeated";
+    case rows_interleaved:
+      return "rows_interleaved";
+    case position_in_counts:
+      return "position_in_counts";
+    case unit_in_name:
+      return "unit_in_name";
+    case unit_of_current:
+      return "unit_of_current";
+    case speed_implausible:
+      return "speed_implausible";
+    case command_as_position:
+      return "command_as_position";
+    case torque_spikes:
+      return "torque_spikes";
+    case unsigned_register:
+      return "unsigned_register";
+    case sign_magnitude:
+      return "sign_magnitude";
+    case torque_without_sign:
+      return "torque_without_sign";
+    case torque_switched_off:
+      return "torque_switched_off";
+    case velocity_contradicts:
+      return "velocity_contradicts";
+    case velocity_factor:
+      return "velocity_factor";
+    case velocity_late:
+      return "velocity_late";
+    case velocity_constant:
+      return "velocity_constant";
+    case less_than_none:
+      return "less_than_none";
+    case wrong_sign:
+      return "wrong_sign";
+    case other_joints_move:
+      return "other_joints_move";
+    case standstill:
+      return "standstill";
+    case stretch_left_out:
+      return "stretch_left_out";
+    case reader_remark:
+      return "reader_remark";
+  }
+  return {};
+}
+
+std::string grade_word(Grade grade) {
+  return grade == Grade::fault ? "fault" : grade == Grade::warning ? "warning" : "note";
+}
+
+std::string sentence_of(Finding const& finding) {
+  bool const says_so = finding.kind == FindingKind::position_wraps || finding.kind == FindingKind::rows_out_of_order ||
+                       finding.kind == FindingKind::stamps_of_arrival;
+  return what(finding) + (says_so ? "" : done_words(finding.repair));
+}
+
+std::string cure_of(Finding const& f) {
+  using enum FindingKind;
+  switch (f.kind) {
+    case time_unit:
+      return fmt::format("time_per_unit = {:g}", f.size);
+    case wraps_by_unknown:
+      return fmt::format("wrap = {:.6g}      (the exact modulus of the column)", f.size);
+    case position_wraps:
+      return fmt::format("wrap = {:.10g}", f.size);
+    case position_jumps:
+      return f.lines.empty()
+                 ? "cut the recording there"
+                 : fmt::format("cut the file before line {} and name both pieces in train", f.lines.front());
+    case rows_interleaved:
+      return "export the topic of one publisher alone: half of the rows belong to another";
+    case position_in_counts:
+      return "position_per_unit = 6.283185307 / (counts per turn x gear ratio)      (rad per count, as a number)";
+    case unit_in_name:
+      return f.detail.starts_with("N") || f.detail.starts_with("mN")
+                 ? fmt::format("torque_per_unit = {:.10g}", f.size)
+                 : fmt::format("position_per_unit = {:.10g}      (write 1 if the name is wrong)", f.size);
+    case unit_of_current:
+      return f.detail == "per mille" || f.detail == "percent"
+                 ? fmt::format("torque_per_unit = {} x rated torque in N m", f.detail == "percent" ? "0.01" : "0.001")
+                 : fmt::format("torque_per_unit = N m per {} (torque constant x gear ratio); 1 to keep it as it is",
+                               f.detail);
+    case command_as_position:
+      return "columns.position = the measured column; the command belongs to columns.reference";
+    case unsigned_register:
+      return fmt::format("encoding = {{torque = \"unsigned{:.0f}\"}}", f.size);
+    case sign_magnitude:
+      return fmt::format("encoding = {{torque = \"sign_magnitude{:.0f}\"}}", f.size + 1);
+    case torque_without_sign:
+      return "log the signed torque or current; a magnitude cannot be identified";
+    case velocity_factor:
+      if (f.detail == "rpm") return "velocity_per_unit = 0.1047197551";
+      if (f.detail == "deg/s") return "velocity_per_unit = 0.01745329252";
+      return "take velocity out of columns, or give velocity_per_unit";
+    case velocity_contradicts:
+    case velocity_late:
+    case velocity_constant:
+      return "take velocity out of columns";
+    case standstill:
+      return "record a motion";
+    case wrong_sign:
+      return fmt::format("torque_per_unit = {:g}", f.size);
+    case less_than_none:
+      return "check columns.torque, its sign and delay_s";
+    default:
+      return {};
+  }
+}
+
+std::string sentence_with_cure(Finding const& finding) {
+  std::string const cure = cure_of(finding);
+  return sentence_of(finding) + (cure.empty() ? "" : " -> " + cure);
+}
+
+Problem problem_of(Finding const& finding, std::string const& path) {
+  Problem problem;
+  problem.code = ExitCode::bad_data;
+  problem.what = sentence_of(finding);
+  problem.place.file = path;
+  problem.place.line = finding.lines.empty() ? 0 : static_cast<int>(finding.lines.front());
+  problem.key = code_of(finding.kind);
+  problem.help = cure_of(finding);
+  return problem;
+}
+
+bool is_fault(Finding const& finding) { return finding.grade == Grade::fault; }
+
+}  // namespace torquescope

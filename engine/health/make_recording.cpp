@@ -1,0 +1,338 @@
+#include "engine/health/make_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/data/columns.hpp"
+#include "engine/data/data_problem.hpp"
+#include "engine/data/gaps.hpp"
+#include "engine/data/resample.hpp"
+#include "engine/data/sampling.hpp"
+#include "engine/data/signal_facts.hpp"
+#include "engine/health/channel_units.hpp"
+#include "engine/health/clock.hpp"
+#include "engine/health/register_coding.hpp"
+#include "engine/health/repeated_rows.hpp"
+#include "engine/health/standstill.hpp"
+#include "engine/health/torque_signs.hpp"
+#include "engine/health/velocity_channel.hpp"
+#include "engine/health/wrapped_position.hpp"
+#include "engine/health/wrong_rows.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t fewest_rows = 16;
+constexpr double worth_a_warning = 0.001;  // share of time at a torque limit
+
+void check_encoding(RecordingOptions const& options, Section const& section, std::vector<Problem>& problems) {
+  for (auto const& [channel, word] : options.encoding) {
+    bool const is_known = word == "plain" || word == "sign_magnitude" || word == "unsigned8" || word == "unsigned10" ||
+                          word == "unsigned12" || word == "unsigned14" || word == "unsigned16" ||
+                          word == "unsigned24" || word == "unsigned32" || word == "sign_magnitude11" ||
+                          word == "sign_magnitude16" || word == "sign_magnitude32";
+    if (!is_known)
+      problems.push_back(problem_at(section, "encoding",
+                                    fmt::format("encoding.{} = \"{}\" is not known", channel, word),
+                                    "plain, unsigned8, 10, 12, 14, 16, 24 or 32, sign_magnitude, sign_magnitude11, 16 "
+                                    "or 32 (all bits counted)"));
+  }
+}
+
+void check_options(RecordingOptions const& options, Section const& section) {
+  std::vector<Problem> problems;
+  auto const check_unit = [&](char const* key, double value) {
+    if (std::isfinite(value) && value != 0.0) return;
+    problems.push_back(problem_at(section, key, fmt::format("{} = {:g} would erase the signal", key, value),
+                                  "write the SI value of one unit of the column; 1 when it is in SI units already"));
+  };
+  check_unit("torque_per_unit", options.torque_per_unit);
+  check_unit("position_per_unit", options.position_per_unit);
+  check_encoding(options, section, problems);
+  bool const has_pairs = options.leave_out.size() % 2 == 0;
+  for (std::size_t k = 0; has_pairs && k < options.leave_out.size(); k += 2)
+    if (!(options.leave_out[k] < options.leave_out[k + 1]))
+      problems.push_back(problem_at(section, "leave_out", "leave_out holds a stretch that ends before it begins",
+                                    "write [[from, until]] in seconds"));
+  if (!has_pairs)
+    problems.push_back(
+        problem_at(section, "leave_out", "leave_out holds no pairs", "write leave_out = [[1.0, 2.5], [7.0, 7.2]]"));
+  if (!problems.empty()) throw Error(std::move(problems));
+}
+
+void check_rows(RawTable const& table) {
+  std::size_t const n_rows = table.columns.empty() ? 0 : table.columns.front().size();
+  validate(n_rows >= fewest_rows, [&] {
+    return bad_data(fmt::format("{} has {} samples; at least {} are needed", file_name(table), n_rows, fewest_rows),
+                    table.path, 0, "record some seconds, with several reversals and speeds");
+  });
+}
+
+void check_moves(Channels const& channels, RawTable const& table) {
+  std::vector<Problem> problems;
+  for (auto const* name : {"position", "torque", "simulated_torque"}) {
+    auto const channel = channels.find(name);
+    if (channel == channels.end()) continue;
+    auto const& values = channel->second.values;
+    auto const known = known_rows(values);
+    validate(known.size() >= fewest_rows, [&] {
+      return bad_data(fmt::format("\"{}\" has {} values; at least {} are needed", channel->second.column, known.size(),
+                                  fewest_rows),
+                      table.path, 0, "name the right column");
+    });
+    double const first = values[known.front()];
+    if (std::any_of(known.begin(), known.end(), [&](std::size_t row) { return values[row] != first; })) continue;
+    auto problem =
+        bad_data(fmt::format("\"{}\" never changes: {} is {:g} in every row", channel->second.column, name, first),
+                 table.path, 0, "name the right column, or record a motion");
+    problem.key = fmt::format("recording.columns.{}", name);
+    problems.push_back(std::move(problem));
+  }
+  if (!problems.empty()) throw Error(std::move(problems));
+}
+
+double unit_of(std::string const& channel, RecordingOptions const& options) {
+  if (channel == "torque") return options.torque_per_unit;
+  if (channel == "simulated_torque") return 1.0;
+  return channel == "velocity" ? options.velocity_factor() : options.position_per_unit;
+}
+
+// even sample times at which every channel is known: a delayed torque is not known at one end
+std::vector<double> grid_times(Sampling const& sampling, double delay_s) {
+  double const first = sampling.times.front() + std::max(0.0, delay_s);
+  double const last = sampling.times.back() + std::min(0.0, delay_s);
+  constexpr double rounding_steps = 1e-6;
+  double const first_index = std::ceil((first - sampling.times.front()) * sampling.rate_hz - rounding_steps);
+  double const last_index = std::floor((last - sampling.times.front()) * sampling.rate_hz + rounding_steps);
+  std::vector<double> times;
+  for (double i = first_index; i <= last_index; ++i) times.push_back(i / sampling.rate_hz);
+  return times;
+}
+
+// one channel's values where they are known, by time
+struct KnownValues {
+  std::vector<double> times, values;
+  bool is_whole = true;  // no row of the sampling lacks its value
+};
+
+// A channel has its own rows where topics were merged: rows of other channels stand between them
+KnownValues known_values(Examination const& exam, std::vector<double> const& values, Sampling const& sampling,
+                         std::vector<std::size_t> const& sampled) {
+  KnownValues known;
+  known.is_whole = std::all_of(sampling.rows.begin(), sampling.rows.end(),
+                               [&](std::size_t k) { return std::isfinite(values[sampled[k]]); });
+  if (known.is_whole) {
+    known.times = sampling.times;
+    known.values.reserve(sampling.rows.size());
+    for (std::size_t k : sampling.rows) known.values.push_back(values[sampled[k]]);
+    return known;
+  }
+  std::vector<bool> is_sampled(values.size(), false);
+  std::vector<double> time_of(values.size(), 0.0);
+  for (std::size_t k = 0; k < sampling.rows.size(); ++k) {
+    std::size_t const row = sampled[sampling.rows[k]];
+    is_sampled[row] = true;
+    time_of[row] = sampling.times[k];
+  }
+  double const first_s = exam.time_s[sampled[sampling.rows.front()]];
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) continue;
+    double const time = is_sampled[row] ? time_of[row] : exam.time_s[row] - first_s;
+    if (!known.times.empty() && !(time > known.times.back())) continue;
+    known.times.push_back(time);
+    known.values.push_back(values[row]);
+  }
+  return known;
+}
+
+// where the grid has no value near: longer than the longest gap that is filled
+void add_holes(KnownValues const& known, std::vector<double> const& grid, double rate_hz, double delay_s,
+               std::vector<Stretch>& left_out) {
+  double const longest = (longest_filled_gap + 1.5) / rate_hz;
+  auto const add = [&](double from, double until) { left_out.push_back({from + delay_s, until + delay_s}); };
+  if (known.times.front() > grid.front() + longest) add(grid.front(), known.times.front());
+  for (std::size_t k = 1; k < known.times.size(); ++k)
+    if (known.times[k] - known.times[k - 1] > longest) add(known.times[k - 1], known.times[k]);
+  if (known.times.back() < grid.back() - longest) add(known.times.back(), grid.back());
+}
+
+Eigen::VectorXd on_grid(KnownValues const& known, Sampling const& sampling, std::vector<double> const& grid,
+                        double delay_s) {
+  auto const n = static_cast<Eigen::Index>(grid.size());
+  if (sampling.even && known.is_whole && delay_s == 0.0) {
+    // the rows stand on the grid already
+    auto const first = static_cast<std::size_t>(std::llround(grid.front() * sampling.rate_hz));
+    return Eigen::Map<Eigen::VectorXd const>(known.values.data() + first, n);
+  }
+  std::vector<double> queries;
+  queries.reserve(grid.size());
+  for (double time : grid) queries.push_back(std::clamp(time - delay_s, known.times.front(), known.times.back()));
+  auto const found = interpolate(known.times, known.values, queries);
+  return Eigen::Map<Eigen::VectorXd const>(found.data(), n);
+}
+
+Eigen::Index count_resampled(Sampling const& sampling, std::vector<double> const& grid) {
+  if (sampling.even) return 0;
+  constexpr double coincident_steps = 0.005;
+  double const tolerance = coincident_steps / sampling.rate_hz;
+  Eigen::Index count = 0;
+  auto row = sampling.times.begin();
+  for (double time : grid) {
+    while (row != sampling.times.end() && *row < time - tolerance) ++row;
+    count += row == sampling.times.end() || *row > time + tolerance;
+  }
+  return count;
+}
+
+std::vector<DataWarning> warnings_of(RowFacts const& facts, double rate_hz) {
+  std::vector<DataWarning> warnings;
+  auto const counted = [](Eigen::Index count, char const* what) {
+    return count > 0 ? fmt::format(", {} {}", count, what) : std::string();
+  };
+  constexpr double told = 0.0005;  // of a step; below it is how the stamps were printed
+  std::string const unevenness =
+      facts.jitter > told ? fmt::format("uneven by {:.2g} % of a step", 100 * facts.jitter) : std::string("with gaps");
+  if (facts.resampled > 0 || facts.repeated > 0)
+    warnings.push_back({"jitter", fmt::format("time stamps {}, put on an even grid of {:g} Hz{}{}", unevenness, rate_hz,
+                                              counted(facts.repeated, facts.repeated == 1 ? "repeated time stamp"
+                                                                                          : "repeated time stamps"),
+                                              counted(facts.missing, "missing"))});
+  if (facts.torque_limit_share >= worth_a_warning)
+    warnings.push_back(
+        {"saturation", fmt::format("torque sits at its limit {:.2g} % of the time", 100 * facts.torque_limit_share)});
+  return warnings;
+}
+
+// rows that carry the position: those of another topic stand between them, with empty cells
+std::vector<std::size_t> rows_of_position(Examination& exam) {
+  constexpr double another_topic = 0.2;  // of the rows lack it
+  std::vector<std::size_t> all(exam.rows());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  auto const& values = exam.table.columns[static_cast<std::size_t>(
+      std::find(exam.table.names.begin(), exam.table.names.end(), exam.channels.at("position").column) -
+      exam.table.names.begin())];
+  std::vector<std::size_t> carrying;
+  for (std::size_t row : all)
+    if (std::isfinite(values[exam.order[row]])) carrying.push_back(row);
+  bool const is_merged = static_cast<double>(carrying.size()) < (1.0 - another_topic) * static_cast<double>(all.size());
+  return is_merged && exam.has("time") ? carrying : all;
+}
+
+void examine(Examination& exam) {
+  exam.order.resize(exam.table.columns.front().size());
+  std::iota(exam.order.begin(), exam.order.end(), std::size_t{0});
+  for (auto const& remark : exam.table.remarks)
+    exam.add(FindingKind::reader_remark, Grade::note, Repair::none, file_name(exam.table), {}, 0.0, remark);
+  if (exam.has("time")) examine_clock(exam);
+  examine_units(exam);
+  decode_registers(exam);
+  unwrap_position(exam);
+  examine_position_rows(exam);
+  examine_repeated_rows(exam);
+  examine_torque_rows(exam);
+  examine_torque_sign(exam);
+  if (exam.time_s.empty())
+    for (std::size_t i = 0; i < exam.rows(); ++i) exam.time_s.push_back(static_cast<double>(i) / exam.options.rate_hz);
+  leave_out_switched_off(exam);
+  close_set_clock(exam);
+  examine_velocity(exam);
+  find_other_joints(exam);
+  find_standstill(exam);
+}
+
+Sampling sampling_of(Examination const& exam, std::vector<std::size_t> const& sampled) {
+  if (!exam.has("time")) return sampling_at(exam.options.rate_hz, sampled.size());
+  std::vector<double> stamps;
+  stamps.reserve(sampled.size());
+  for (std::size_t row : sampled) stamps.push_back(exam.time_s[row]);
+  return analyse_sampling(stamps, exam.table, exam.stamp_unit_s);
+}
+
+// each stretch once, in order
+std::vector<Stretch> merged(std::vector<Stretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](auto const& a, auto const& b) { return a.from_s < b.from_s; });
+  std::vector<Stretch> whole;
+  for (auto const& stretch : stretches) {
+    if (!whole.empty() && stretch.from_s <= whole.back().until_s)
+      whole.back().until_s = std::max(whole.back().until_s, stretch.until_s);
+    else
+      whole.push_back(stretch);
+  }
+  return whole;
+}
+
+void report_left_out(Examination& exam, std::vector<Stretch> const& stretches) {
+  double sum = 0.0;
+  for (auto const& stretch : stretches) sum += stretch.until_s - stretch.from_s;
+  if (stretches.empty()) return;
+  auto& finding = exam.add(FindingKind::stretch_left_out, Grade::warning, Repair::left_out, "time", {}, sum);
+  finding.count = static_cast<std::int64_t>(stretches.size());
+  finding.detail = fmt::format("{:.4g} to {:.4g} s", stretches.front().from_s + exam.first_stamp_s,
+                               stretches.front().until_s + exam.first_stamp_s);
+}
+
+}  // namespace
+
+Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section) {
+  check_options(options, section);
+  Examination exam{table, options, section, pick_channels(table, options, section)};
+  check_rows(table);
+  auto missing = missing_values(exam.channels, table, options);
+  check_moves(exam.channels, table);
+  examine(exam);
+
+  auto const sampled = rows_of_position(exam);
+  auto const sampling = sampling_of(exam, sampled);
+  auto const grid = grid_times(sampling, options.delay_s);
+  validate(grid.size() >= fewest_rows, [&] {
+    return problem_at(
+        section, "delay_s",
+        fmt::format("delay_s = {:g} leaves {} of {} samples", options.delay_s, grid.size(), sampling.times.size()),
+        "delays of joints are milliseconds: -0.004");
+  });
+
+  Recording recording;
+  recording.name = file_name(table);
+  recording.sha256 = table.sha256;
+  recording.rate_hz = sampling.rate_hz;
+  recording.time_s = Eigen::Map<Eigen::VectorXd const>(grid.data(), static_cast<Eigen::Index>(grid.size())).array() +
+                     exam.first_stamp_s;
+  recording.left_out = sampling.gaps;
+  for (std::size_t k = 0; k < options.leave_out.size(); k += 2)
+    recording.left_out.push_back(
+        {options.leave_out[k] - exam.first_stamp_s, options.leave_out[k + 1] - exam.first_stamp_s});
+  auto const take = [&](char const* name, Eigen::VectorXd& out, double delay_s) {
+    auto const channel = exam.channels.find(name);
+    if (channel == exam.channels.end()) return;
+    auto const known = known_values(exam, channel->second.values, sampling, sampled);
+    add_holes(known, grid, sampling.rate_hz, delay_s, recording.left_out);
+    out = on_grid(known, sampling, grid, delay_s) * unit_of(name, options);
+  };
+  take("position", recording.position, 0.0);
+  take("torque", recording.torque, options.delay_s);
+  take("reference", recording.reference, 0.0);
+  take("velocity", recording.velocity, 0.0);
+  take("acceleration", recording.acceleration, 0.0);
+  take("simulated_torque", recording.simulated_torque, 0.0);
+  recording.left_out = merged(std::move(recording.left_out));
+  report_left_out(exam, recording.left_out);
+
+  recording.rows = sampling.facts;
+  recording.rows.resampled = count_resampled(sampling, grid);
+  auto const known_of = [&](char const* name) {
+    std::vector<double> values = exam.values(name);
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values;
+  };
+  recording.rows.encoder_step = quantisation_step(known_of("position")) * std::fabs(options.position_per_unit);
+  recording.rows.torque_limit_share = limit_share(known_of("torque"));
+  recording.warnings = std::move(missing);
+  for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));
+  recording.findings = std::move(exam.findings);
+  return recording;
+}
+
+}  // namespace torquescope

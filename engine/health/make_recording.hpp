@@ -1,0 +1,19 @@
+#pragma once
+// From the rows of a file to an evenly sampled recording in SI units, examined on the way (the other files of this
+// folder).
+//
+// Corrected  what leaves no doubt; Recording::findings says each, with its rows
+// Left out   stretches without values, and those of recording.leave_out: filled, and not looked at
+//            (Recording::left_out)
+// Faults     are findings as well: who calls decides whether they end the work (health/finding_text.hpp)
+// Errors     Error 78 of the mapping; 65: too few rows, a signal that never changes, a clock that cannot be mended
+// Threads    free function
+
+#include "engine/data/recording_reader.hpp"
+
+namespace torquescope {
+
+// `section` is the job's [recording]: its places stand in the messages
+Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section);
+
+}  // namespace torquescope

@@ -1,0 +1,16 @@
+#pragma once
+// Registers of a drive that were logged without their sign: two's complement read as unsigned, or a sign in a bit of
+// its own.
+//
+// Rule       a decoding is right when the way of the signal from row to row (its total variation) shrinks to a fifth;
+//            between a fifth and a half it is doubted, and the job must say `encoding`
+// Threads    free functions
+
+#include "engine/health/examination.hpp"
+
+namespace torquescope {
+
+// of the torque and position columns; recording.encoding decides where it is written
+void decode_registers(Examination& exam);
+
+}  // namespace torquescope

@@ -1,0 +1,68 @@
+#include "engine/health/repeated_rows.hpp"
+
+#include <algorithm>
+
+#include "engine/data/signal_facts.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+// the typical step of up to three around a stretch on one side; 0 where they turn
+double step_beside(std::vector<double> const& x, std::size_t from, std::size_t until) {
+  double sum = 0.0;
+  std::size_t counted = 0;
+  for (std::size_t i = from; i < until; ++i) {
+    sum += x[i] - x[i - 1];
+    ++counted;
+  }
+  return counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+}
+
+// rows that repeat and are made up for by the row after them
+std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder_step) {
+  constexpr double made_up = 0.6, encoder_steps = 2.0;
+  constexpr std::size_t beside = 3;
+  std::vector<std::size_t> stale;
+  for (std::size_t i = beside + 1; i + 1 < x.size(); ++i) {
+    if (x[i] != x[i - 1]) continue;
+    std::size_t end = i;  // the first row that moves again
+    while (end < x.size() && x[end] == x[i - 1]) ++end;
+    if (end + beside >= x.size()) break;
+    double const before = step_beside(x, i - beside, i), after = step_beside(x, end + 1, end + 1 + beside);
+    std::size_t const steps = end - i + 1;
+    double const expected = static_cast<double>(steps) * (before + after) / 2.0;
+    bool const goes_on = before * after > 0.0;
+    bool const is_fast = std::min(std::fabs(before), std::fabs(after)) > encoder_steps * encoder_step;
+    double const way = x[end] - x[i - 1];
+    if (goes_on && is_fast && way * expected > 0.0 && std::fabs(way) >= made_up * std::fabs(expected))
+      for (std::size_t k = i; k < end; ++k) stale.push_back(k);
+    i = end;
+  }
+  return stale;
+}
+
+}  // namespace
+
+void examine_repeated_rows(Examination& exam) {
+  constexpr double worth_saying = 5e-4;  // of the rows
+  auto& position = exam.values("position");
+  auto const known = known_rows(position);
+  std::vector<double> x;
+  for (std::size_t row : known) x.push_back(position[row]);
+  auto const places = stale_rows(x, quantisation_step(x));
+  if (static_cast<double>(places.size()) < std::max(2.0, worth_saying * static_cast<double>(x.size()))) return;
+  std::vector<std::size_t> rows;
+  for (std::size_t place : places) rows.push_back(known[place]);
+  // from the end, so that the row before is as it was
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    position[*row] = missing;
+    // the other channels of a lost packet repeat as well; one that is logged by itself does not
+    for (auto const* name : {"torque", "velocity", "acceleration"})
+      if (exam.has(name) && exam.values(name)[*row] == exam.values(name)[*row - 1]) exam.values(name)[*row] = missing;
+  }
+  exam.add(FindingKind::rows_repeated, Grade::warning, Repair::filled, "position", rows);
+}
+
+}  // namespace torquescope
