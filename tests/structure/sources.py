@@ -139,7 +139,8 @@ def main(root):
             found += wide_lines(name, (root / name).read_text(encoding="utf-8"))
         if path.parts[0] in FOLDERS and path.suffix in SOURCES:
             found += complaints(name, (root / name).read_text(errors="replace"), documents, headings)
-    print("\n".join(found) or "sources are listed, pragmas are at home, lines are narrow, documents exist, headers are short")
+    print("\n".join(found) or "sources are listed, pragmas are at home, lines are narrow, documents exist, headers are "
+          "short")
     return 1 if found else 0
 
 
