@@ -128,18 +128,18 @@ def width_faults(text):
 
 def teeth():
     """The checker itself: what it must count, find and let pass."""
-    text = "# Head\n\nOne two `x y` three. Four\nfive (e.g. Six)? [Seven](a.md) eight!\n\n- nine ten\n- 11.5 twelve\n" \
-           "\n| a | b |\n\n```sh\nnot. These. Words\n```\n\n    nor. These\n\nLast: one\n"
+    text = "# Head\n\nOne two `x y` three. Four\nfive (e.g. Six)? [Seven](a.txt) eight!\n\n- nine ten\n" \
+           "- 11.5 twelve\n\n| a | b |\n\n```sh\nnot. These. Words\n```\n\n    nor. These\n\nLast: one\n"
     assert [len(words(s)) for s in sentences(text)] == [5, 4, 2, 2, 2, 2], sentences(text)
     assert readme_faults("A b c d e.\n\n" + "w " * 35 + ".\n\nSee 0a1b2c3 of seed 28.\n")[-3:] != []
     assert len(readme_faults("A b c d e.\n\n" + "w " * 35 + ".\n\nSee 0a1b2c3 of seed 28.\n")) == 3
     assert readme_faults("w " * 901)[0] == "901 words, more than 900"
     assert anchors("# The `run` command, 2nd\n# A\n# A\n```\n# no\n```\n") == {"the-run-command-2nd", "a", "a-1"}
     here = pathlib.Path(__file__).resolve()
-    documents = {here.with_name("x.md"): "# A b\n[1](#a-b) [2](#c) [3](no.md) [4](https://no.md) `[5](no)`\n"
+    documents = {here.with_name("x.txt"): "# A b\n[1](#a-b) [2](#c) [3](no.txt) [4](https://no.txt) `[5](no)`\n"
                                          "[6](documents.py)"}
-    assert [f.split(":")[1] for f in link_faults(here.with_name("x.md"), documents)] == [
-        " this document has no heading for #c", " there is no no.md"]
+    assert [f.split(":")[1] for f in link_faults(here.with_name("x.txt"), documents)] == [
+        " this document has no heading for #c", " there is no no.txt"]
     assert width_faults("x" * 121 + "\n|" + "x" * 130 + "\n[a](" + "x" * 130 + ")\n") == [
         "1: 121 characters, more than 120"]
 
