@@ -15,17 +15,6 @@ std::optional<NamedUnit> unit_of(Examination const& exam, std::string const& cha
   return unit_of_name(exam.channels.at(channel).column);
 }
 
-double range_of(std::vector<double> const& values) {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (double value : values)
-    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
-  return most - least;
-}
-
-bool are_whole_numbers(std::vector<double> const& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v) || v == std::round(v); });
-}
-
 void examine_position_unit(Examination& exam) {
   constexpr double fewest_counts = 50;
   if (exam.writes("position_per_unit")) return;
@@ -58,7 +47,8 @@ std::string lowered(std::string text) {
 }
 
 bool is_called_command(std::string const& column) {
-  static std::regex const words("(^|[^a-z])(ref|cmd|command|goal|target|setpoint|des|desired|soll|demand)");
+  static std::regex const words(
+      "^r([_0-9 ]|$)|(^|[^a-z])(ref|cmd|command|goal|target|setpoint|des|desired|soll|demand)");
   return std::regex_search(lowered(column), words);
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <optional>
 
@@ -75,17 +74,18 @@ double seconds_per_unit(Examination& exam, std::vector<double> const& stamps) {
 
 // A counter that starts anew: moduli of registers, and of the parts of a second, in s for stamps of the unit `per_unit`
 std::optional<double> rollover(double fall_s, double step_s, double per_unit) {
-  std::array<double, 12> const in_units{0x1p16, 0x1p24, 0x1p31, 0x1p32, 1e9,     1e6,
-                                        1e3,    1.0,    60.0,   3600.0, 86400.0, 100.0};
-  std::array<double, 3> const in_seconds{0x1p32 * 1e-6, 0x1p32 * 1e-3, 0x1p32 * 1e-9};
   auto const is = [&](double modulus) {
     double const left = modulus - fall_s;  // the ordinary step that remains
     return left >= 0.0 && left <= 3.0 * step_s && modulus > 20.0 * step_s;
   };
-  for (double modulus : in_units)
-    if (is(modulus * per_unit)) return modulus * per_unit;
-  for (double modulus : in_seconds)
-    if (is(modulus)) return modulus;
+  for (double unit : {per_unit, 1e-3, 1e-6, 1e-9}) {
+    for (int bits : {16, 24, 31, 32})
+      if (is(std::ldexp(unit, bits))) return std::ldexp(unit, bits);
+    for (double parts : {1e3, 1e6, 1e9})
+      if (is(parts * unit)) return parts * unit;
+  }
+  for (double seconds : {60.0, 3600.0, 86400.0})
+    if (is(seconds)) return seconds;
   return {};
 }
 
@@ -161,6 +161,7 @@ void drop_repeats(Examination& exam, std::vector<double>& stamps) {
   // stamps that stand still altogether are another matter, and are refused with the words for it
   if (repeated.empty() || kept.size() < 16) return;
   exam.add(FindingKind::rows_repeated, Grade::note, Repair::left_out, "time", repeated, 0.0, "same stamp, same values");
+  exam.repeated = static_cast<Eigen::Index>(repeated.size());
   for (auto& [name, channel] : exam.channels) {
     std::vector<double> values;
     for (std::size_t row : kept) values.push_back(channel.values[row]);

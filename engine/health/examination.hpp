@@ -5,7 +5,10 @@
 // Lines      line(row) is what a person looks up: the line of a text file, else the row counted from 1
 // Threads    one recording, one thread
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@ struct Examination {
   double stamp_unit_s = 0.0;         // the spacing of the stamps in the file, where they are of single precision
   std::vector<std::size_t> order{};  // row of the table that each row is
   std::vector<Finding> findings{};
+  Eigen::Index repeated = 0;  // rows that were logged twice, and dropped
 
   bool has(std::string const& channel) const { return channels.contains(channel); }
   std::vector<double>& values(std::string const& channel) { return channels.at(channel).values; }
@@ -47,6 +51,21 @@ struct Examination {
     return findings.back();
   }
 };
+
+// largest less smallest of the values that are numbers
+inline double range_of(std::vector<double> const& values) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return most - least;
+}
+
+inline bool are_whole_numbers(std::vector<double> const& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v) || v == std::round(v); });
+}
 
 // rows of `values` that hold a number
 inline std::vector<std::size_t> known_rows(std::vector<double> const& values) {

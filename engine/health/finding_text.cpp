@@ -95,8 +95,9 @@ std::string what(Finding const& f) {
           "magnitude was logged, the sign is lost",
           column, f.size);
     case torque_switched_off:
-      return fmt::format("{} reads exactly 0 for {:.3g} s while the joint moves, from {}: the drive was off", column,
-                         f.size, f.lines.empty() ? std::string("some row") : "line " + std::to_string(f.lines.front()));
+      return fmt::format("{} holds nothing but noise for {:.3g} s while the joint moves, from {}: the drive was off",
+                         column, f.size,
+                         f.lines.empty() ? std::string("some row") : "line " + std::to_string(f.lines.front()));
     case velocity_contradicts:
       return fmt::format(
           "{} contradicts the derivative of the position (correlation {:.2f}): another signal, or without its sign",

@@ -230,8 +230,8 @@ void examine(Examination& exam) {
   examine_units(exam);
   decode_registers(exam);
   unwrap_position(exam);
+  examine_repeated_rows(exam);  // or what makes up for them would be jumps
   examine_position_rows(exam);
-  examine_repeated_rows(exam);
   examine_torque_rows(exam);
   examine_torque_sign(exam);
   if (exam.time_s.empty())
@@ -321,6 +321,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   report_left_out(exam, recording.left_out);
 
   recording.rows = sampling.facts;
+  recording.rows.repeated += exam.repeated;
   recording.rows.resampled = count_resampled(sampling, grid);
   auto const known_of = [&](char const* name) {
     std::vector<double> values = exam.values(name);

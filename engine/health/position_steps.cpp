@@ -77,20 +77,24 @@ std::vector<Excursion> excursions_of(std::vector<double> const& values, Roughnes
 std::vector<Jump> jumps_of(std::vector<double> const& values, Roughness const& roughness) {
   auto const [x, rows] = known_of(values);
   double const least = least_size(roughness);
+  // of a row: over a gap the joint goes on
+  auto const speed = [&, &x = x, &rows = rows](std::size_t i) {
+    return step(x, i) / static_cast<double>(rows[i] - rows[i - 1]);
+  };
   std::vector<Jump> found;
   for (std::size_t i = 1; i < x.size(); ++i) {
-    double const size = std::fabs(step(x, i));
-    if (size < least) continue;
+    auto const rows_over = static_cast<double>(rows[i] - rows[i - 1]);
+    if (std::fabs(step(x, i)) < least * rows_over * rows_over) continue;
     double around = 0.0, expected = 0.0;
     int counted = 0;
     for (std::size_t k = i >= 3 ? i - 2 : 1; k <= std::min(i + 2, x.size() - 1); ++k) {
       if (k == i) continue;
-      around = std::max(around, std::fabs(step(x, k)));
-      expected += step(x, k);
+      around = std::max(around, std::fabs(speed(k)));
+      expected += speed(k);
       ++counted;
     }
-    if (counted == 0 || size < times_the_steps_around * around) continue;
-    found.push_back({rows[i], step(x, i), expected / counted});
+    if (counted == 0 || std::fabs(speed(i)) < times_the_steps_around * around) continue;
+    found.push_back({rows[i], step(x, i), expected / counted * rows_over});
   }
   return found;
 }

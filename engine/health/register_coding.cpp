@@ -32,6 +32,22 @@ double total_variation(std::vector<double> const& values, std::function<double(d
   return sum;
 }
 
+// The register jumps by half of its range and more where the sign changes, and the decoded signal never does
+bool is_sure(std::vector<double> const& values, Coding coding) {
+  double const half = std::ldexp(1.0, coding.bits - 1);
+  std::size_t jumps = 0;
+  double largest = 0.0, before = std::numeric_limits<double>::quiet_NaN();
+  for (double value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isfinite(before)) {
+      jumps += std::fabs(value - before) > half;
+      largest = std::max(largest, std::fabs(decoded(value, coding) - decoded(before, coding)));
+    }
+    before = value;
+  }
+  return jumps >= 2 && largest < half;
+}
+
 // whole numbers from 0 upwards, whose largest says how many bits there are at least
 std::optional<double> largest_whole_number(std::vector<double> const& values) {
   double largest = 0.0;
@@ -96,7 +112,7 @@ std::optional<Coding> asked_coding(std::string const& word, std::vector<double> 
 }
 
 void decode_channel(Examination& exam, std::string const& channel, std::vector<FindingKind> const& kinds) {
-  constexpr double surely = 0.2, perhaps = 0.5;
+  constexpr double shorter = 0.9;
   if (!exam.has(channel)) return;
   auto& values = exam.values(channel);
   auto const asked = exam.options.encoding.find(channel);
@@ -108,9 +124,8 @@ void decode_channel(Examination& exam, std::string const& channel, std::vector<F
     return;
   }
   auto const found = best_coding(values, kinds);
-  if (!found || found->ratio > perhaps) return;
-  bool const is_sure = found->ratio <= surely;
-  if (!is_sure) {
+  if (!found || found->ratio > shorter) return;
+  if (!is_sure(values, found->coding)) {
     auto copy = values;
     exam.add(found->coding.kind, Grade::fault, Repair::none, channel, decode(copy, found->coding), found->coding.bits);
     return;

@@ -2,8 +2,8 @@
 // Registers of a drive that were logged without their sign: two's complement read as unsigned, or a sign in a bit of
 // its own.
 //
-// Rule       a decoding is right when the way of the signal from row to row (its total variation) shrinks to a fifth;
-//            between a fifth and a half it is doubted, and the job must say `encoding`
+// Rule       a coding is right when the way of the signal from row to row (its total variation) is shorter decoded, and
+//            steps of half of the range are gone; where some are left the job must say `encoding`
 // Threads    free functions
 
 #include "engine/health/examination.hpp"

@@ -9,6 +9,14 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
+// an encoder's step, or at least the smallest step there is
+double coarseness(std::vector<double> const& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] != x[i - 1]) smallest = std::min(smallest, std::fabs(x[i] - x[i - 1]));
+  return std::isfinite(smallest) ? std::max(smallest, quantisation_step(x)) : 0.0;
+}
+
 // the typical step of up to three around a stretch on one side; 0 where they turn
 double step_beside(std::vector<double> const& x, std::size_t from, std::size_t until) {
   double sum = 0.0;
@@ -18,6 +26,23 @@ double step_beside(std::vector<double> const& x, std::size_t from, std::size_t u
     ++counted;
   }
   return counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+}
+
+// A hold of several rows that ends in one step far longer than those after it, and no longer than the joint moves in
+// that time elsewhere: it moved meanwhile, and perhaps turned
+bool is_way_of_a_hold(std::vector<double> const& x, std::size_t first, std::size_t end, double encoder_step) {
+  constexpr double far_longer = 3.0, encoder_steps = 8.0;
+  constexpr std::size_t fewest = 2, nearby = 50;
+  if (end - first < fewest) return false;
+  double around = 0.0, fastest = 0.0;
+  for (std::size_t i = first > nearby ? first - nearby : 1; i < std::min(x.size(), end + nearby); ++i) {
+    if (i >= first && i <= end) continue;
+    fastest = std::max(fastest, std::fabs(x[i] - x[i - 1]));
+    if (i > end && i <= end + 2) around = std::max(around, std::fabs(x[i] - x[i - 1]));
+  }
+  double const way = std::fabs(x[end] - x[first - 1]);
+  return way > far_longer * around && way > encoder_steps * encoder_step &&
+         way <= 1.5 * static_cast<double>(end - first + 1) * fastest;
 }
 
 // rows that repeat and are made up for by the row after them
@@ -31,12 +56,12 @@ std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder
     while (end < x.size() && x[end] == x[i - 1]) ++end;
     if (end + beside >= x.size()) break;
     double const before = step_beside(x, i - beside, i), after = step_beside(x, end + 1, end + 1 + beside);
-    std::size_t const steps = end - i + 1;
-    double const expected = static_cast<double>(steps) * (before + after) / 2.0;
-    bool const goes_on = before * after > 0.0;
+    auto const steps = static_cast<double>(end - i + 1);
+    double const expected = steps * (before + after) / 2.0, way = x[end] - x[i - 1];
     bool const is_fast = std::min(std::fabs(before), std::fabs(after)) > encoder_steps * encoder_step;
-    double const way = x[end] - x[i - 1];
-    if (goes_on && is_fast && way * expected > 0.0 && std::fabs(way) >= made_up * std::fabs(expected))
+    bool const goes_on = before * after > 0.0 && way * expected > 0.0;
+    bool const made_up_for = goes_on && is_fast && std::fabs(way) >= made_up * std::fabs(expected);
+    if (made_up_for || is_way_of_a_hold(x, i, end, encoder_step))
       for (std::size_t k = i; k < end; ++k) stale.push_back(k);
     i = end;
   }
@@ -46,13 +71,13 @@ std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder
 }  // namespace
 
 void examine_repeated_rows(Examination& exam) {
-  constexpr double worth_saying = 5e-4;  // of the rows
+  constexpr double worth_saying = 1e-3;  // of the rows, and more than two
   auto& position = exam.values("position");
   auto const known = known_rows(position);
   std::vector<double> x;
   for (std::size_t row : known) x.push_back(position[row]);
-  auto const places = stale_rows(x, quantisation_step(x));
-  if (static_cast<double>(places.size()) < std::max(2.0, worth_saying * static_cast<double>(x.size()))) return;
+  auto const places = stale_rows(x, coarseness(x));
+  if (static_cast<double>(places.size()) < std::max(3.0, worth_saying * static_cast<double>(x.size()))) return;
   std::vector<std::size_t> rows;
   for (std::size_t place : places) rows.push_back(known[place]);
   // from the end, so that the row before is as it was

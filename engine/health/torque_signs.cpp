@@ -1,6 +1,9 @@
 #include "engine/health/torque_signs.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
 namespace {
@@ -36,7 +39,7 @@ std::size_t reversals_of(std::vector<double> const& position) {
   return reversals;
 }
 
-// how often the torque comes down to a fiftieth of its largest and goes up again to a fifth
+// how often the torque comes down to a twentieth of its largest and goes up again to a fifth
 std::size_t touches_of_zero(std::vector<double> const& torque) {
   double most = 0.0;
   for (double value : torque)
@@ -45,7 +48,7 @@ std::size_t touches_of_zero(std::vector<double> const& torque) {
   std::size_t touches = 0;
   for (double value : torque) {
     if (!std::isfinite(value)) continue;
-    if (is_up && value <= 0.02 * most) {
+    if (is_up && value <= 0.05 * most) {
       ++touches;
       is_up = false;
     } else if (value >= 0.2 * most) {
@@ -71,30 +74,37 @@ void examine_torque_sign(Examination& exam) {
              static_cast<double>(reversals));
 }
 
+// Nothing but its own noise for half a second and more, where the torque is otherwise far above it; abrupt at one end
+// at least, for a torque that comes down by itself does so over many rows
 void leave_out_switched_off(Examination& exam) {
-  constexpr double shortest_s = 0.1, seldom_still = 0.02;
-  constexpr std::size_t fewest_rows = 10;
+  constexpr double shortest_s = 0.5, within_noise = 4.5, far_above = 10.0, most_of_the_time = 0.5, moves = 0.01;
   auto& torque = exam.values("torque");
+  auto const known = known_rows(torque);
+  if (known.size() < 64) return;
+  Eigen::VectorXd signal(static_cast<Eigen::Index>(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k) signal[static_cast<Eigen::Index>(k)] = torque[known[k]];
+  double const noise = white_noise(signal), rms = std::sqrt(signal.squaredNorm() / static_cast<double>(signal.size()));
+  if (rms < far_above * noise) return;
+  double const quiet = within_noise * noise;
   auto const& position = exam.values("position");
+  double const range = range_of(position);
+
   std::vector<std::size_t> off;
-  std::size_t still_elsewhere = 0, rows_elsewhere = 0;
-  for (std::size_t i = 0; i < torque.size();) {
-    std::size_t end = i;
-    while (end < torque.size() && torque[end] == 0.0) ++end;
-    bool const is_long = end >= i + fewest_rows && exam.time_s[end - 1] - exam.time_s[i] >= shortest_s;
-    if (is_long) {
-      std::size_t moves = 0;
-      for (std::size_t k = i + 1; k < end; ++k) moves += position[k] != position[k - 1];
-      if (moves > (end - i) / 10)
-        for (std::size_t k = i; k < end; ++k) off.push_back(k);
-      i = end;
-      continue;
+  for (std::size_t first = 0; first < known.size();) {
+    std::size_t end = first;
+    while (end < known.size() && std::fabs(torque[known[end]]) <= quiet) ++end;
+    bool const is_long = end > first && exam.time_s[known[end - 1]] - exam.time_s[known[first]] >= shortest_s;
+    double const before = first > 0 ? std::fabs(torque[known[first - 1]]) : 0.0;
+    double const after = end < known.size() ? std::fabs(torque[known[end]]) : 0.0;
+    if (is_long && std::max(before, after) >= far_above * noise + 0.2 * rms) {
+      std::vector<double> path(position.begin() + static_cast<std::ptrdiff_t>(known[first]),
+                               position.begin() + static_cast<std::ptrdiff_t>(known[end - 1]));
+      if (range_of(path) >= moves * range)
+        for (std::size_t k = first; k < end; ++k) off.push_back(known[k]);
     }
-    ++rows_elsewhere;
-    still_elsewhere += i > 0 && torque[i] == torque[i - 1];
-    i = std::max(end, i + 1);
+    first = std::max(end, first + 1);
   }
-  if (off.empty() || static_cast<double>(still_elsewhere) > seldom_still * static_cast<double>(rows_elsewhere)) return;
+  if (off.empty() || static_cast<double>(off.size()) > most_of_the_time * static_cast<double>(known.size())) return;
   for (std::size_t row : off) torque[row] = missing;
   double const step = (exam.time_s.back() - exam.time_s.front()) / static_cast<double>(exam.time_s.size() - 1);
   exam.add(FindingKind::torque_switched_off, Grade::warning, Repair::left_out, "torque", off,

@@ -2,8 +2,8 @@
 // What a torque channel shows by itself beside the motion: no sign, stretches in which the drive was off.
 //
 // Without sign   never below zero, and it turns round at zero as often as a magnitude does
-// Switched off   exactly zero for a tenth of a second and more while the joint moves and the torque is else never
-//                still; the rows become missing, and the stretch is left out
+// Switched off   nothing but noise for half a second and more while the joint moves, where the torque is else far above
+//                it; the rows become missing, and the stretch is left out
 // Threads        free functions
 
 #include "engine/health/examination.hpp"

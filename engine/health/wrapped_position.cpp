@@ -19,26 +19,12 @@ bool is_wrap(Jump const& jump, double modulus, double slack) {
   return std::fabs(left - expected) <= std::max(slack, of_modulus * modulus);
 }
 
-double range_of(std::vector<double> const& values) {
-  double least = std::numeric_limits<double>::infinity(), largest = -least;
-  for (double value : values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    largest = std::max(largest, value);
-  }
-  return largest - least;
-}
-
-bool are_integers(std::vector<double> const& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v) || v == std::round(v); });
-}
-
 // of the column's units
 std::vector<double> known_moduli(Examination& exam) {
   if (exam.options.wrap > 0.0) return {exam.options.wrap};
   double const turn = 2.0 * std::numbers::pi / std::fabs(exam.options.position_per_unit);
   std::vector<double> moduli{turn, 360.0, 2.0 * std::numbers::pi, 400.0, 3600.0, 36000.0, 360000.0};
-  if (are_integers(exam.values("position")))
+  if (are_whole_numbers(exam.values("position")))
     for (int bits = 8; bits <= 32; ++bits) moduli.push_back(std::ldexp(1.0, bits));
   return moduli;
 }

@@ -161,6 +161,11 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   }
 }
 
+bool searches(Experiment::Parts const& parts) {
+  auto const& plans = parts.estimators;
+  return std::any_of(plans.begin(), plans.end(), [](EstimatorPlan const& plan) { return !plan.is_closed_form(); });
+}
+
 bool wants_statistics(Experiment::Parts const& parts) {
   auto const& plans = parts.estimators;
   return std::any_of(plans.begin(), plans.end(), [&](EstimatorPlan const& plan) {
@@ -271,10 +276,9 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
     findings.insert(findings.end(), found.begin(), found.end());
     if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);
   }
-  if (!simulates) {
-    auto found = fit_findings(*parts, recording);
-    auto& findings = parts->train.recordings.front().findings;
-    findings.insert(findings.end(), found.begin(), found.end());
+  if (job.find("model.bounds") == nullptr && searches(*parts)) {
+    parts->box = box_from_recordings(*parts);
+    parts->box_is_default = true;
   }
   if (purpose != Purpose::identify) parts->reductions = {};
   if (purpose == Purpose::identify && wants_statistics(*parts))

@@ -9,6 +9,7 @@
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/search_box.hpp"
 #include "kernels/dispatch.hpp"
 
 namespace torquescope {
@@ -164,6 +165,8 @@ std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
   for (auto const& finding : findings())
     if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
+  if (parts_->box_is_default)
+    lines.push_back("search box (no [model.bounds]): " + box_words(parts_->regressor->names(), parts_->box));
   // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what
   // costs an interval nothing but width is in the interval
   std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;

@@ -49,6 +49,7 @@ struct Experiment::Parts {
   Reductions reductions;  // of the training rows, until the floor of their squared errors is known
   RegressorHealth health;
   Bounds box;
+  bool box_is_default = false;  // the job has no [model.bounds]: search_box.hpp
   Eigen::VectorXd truth;                                 // NaN where unknown
   std::vector<EstimatorPlan> estimators;                 // may be empty unless loaded for identify
   std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator would use them

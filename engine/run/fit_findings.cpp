@@ -3,12 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "engine/pipeline/joint_model.hpp"
 #include "engine/problem/least_squares.hpp"
+#include "engine/run/search_box.hpp"
 
 namespace torquescope {
 namespace {
+
+// 95 % where the work says the same, 3e-5 by itself
+constexpr double two_standard_errors = 2.0, four_standard_errors = 4.0;
+
+// What a passive joint has: 1 of a mass and of a friction whose column goes with the speed, -1 of one that goes against
+// it (friction of the negative direction), 0 of anything else
+Eigen::VectorXd required_signs(Regressor const& regressor) {
+  constexpr std::array unit = {1.0};
+  Eigen::VectorXd signs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressor.size()));
+  Eigen::Index column = 0;
+  for (auto const* term : regressor.terms()) {
+    auto const of = [&](JointState const& state) { return term->torque(state, unit, {}); };
+    auto const size = static_cast<Eigen::Index>(term->n_linear());
+    if (size == 1 && of({}) == 0.0) {
+      double const power = of({.dq = 1.0}) - of({.dq = -1.0}), mass = of({.ddq = 1.0});
+      if (power != 0.0)
+        signs[column] = power > 0.0 ? 1.0 : -1.0;
+      else if (mass != 0.0)
+        signs[column] = mass > 0.0 ? 1.0 : -1.0;
+    }
+    column += size;
+  }
+  return signs;
+}
 
 LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters) {
   LeastSquaresFit fit;
@@ -22,26 +47,30 @@ LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd para
   return fit;
 }
 
+// What goes into the joint over the recording (up to the time step); less than none of a passive one
+double work(RegressionData const& rows) {
+  auto const velocity = rows.velocity();
+  if (static_cast<Eigen::Index>(velocity.size()) != rows.rows()) return 0.0;
+  return rows.tau.dot(Eigen::Map<Eigen::VectorXd const>(velocity.data(), rows.rows()));
+}
+
 }  // namespace
 
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
-  constexpr double surely = 4.0;
   auto const& rows = parts.train.regression;
   if (too_few_rows(rows) || !parts.health.identifiable) return {};
   Eigen::VectorXd const parameters = solve_reduced(rows, parts.reductions);
-  auto const cannot_be_negative = JointModel(*parts.regressor).non_negative();
-  bool any = false;
-  for (std::size_t k = 0; k < cannot_be_negative.size(); ++k)
-    any = any || (cannot_be_negative[k] && parameters[static_cast<Eigen::Index>(k)] < 0.0);
-  if (!any) return {};
+  Eigen::VectorXd const signs = required_signs(*parts.regressor);
+  if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
 
+  bool const takes_work_out = work(rows) < 0.0;
+  double const surely = takes_work_out ? two_standard_errors : four_standard_errors;
   auto const fit = fit_with_errors(rows, parameters);
-  Finding finding{FindingKind::less_than_none, Grade::warning};
-  std::int64_t possible = 0;
-  for (std::size_t k = 0; k < cannot_be_negative.size(); ++k) {
-    auto const i = static_cast<Eigen::Index>(k);
-    possible += cannot_be_negative[k];
-    if (!cannot_be_negative[k] || !(parameters[i] < -surely * fit.standard_error[i])) continue;
+  Finding finding{FindingKind::less_than_none, takes_work_out ? Grade::fault : Grade::warning};
+  std::int64_t const possible = (signs.array() != 0.0).count();
+  for (Eigen::Index i = 0; i < signs.size(); ++i) {
+    auto const k = static_cast<std::size_t>(i);
+    if (signs[i] == 0.0 || !(signs[i] * parameters[i] < -surely * fit.standard_error[i])) continue;
     ++finding.count;
     finding.detail += fmt::format("{}{} = {:.3g} {}", finding.detail.empty() ? "" : ", ", rows.columns[k].name,
                                   parameters[i], rows.columns[k].unit);
@@ -50,12 +79,21 @@ std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptio
   finding.recording = parts.train.recordings.front().name;
   if (auto const torque = options.columns.find("torque"); torque != options.columns.end())
     finding.column = torque->second;
-  if (finding.count >= 2) finding.grade = Grade::fault;
-  if (finding.count == possible && possible >= 2) {
+  if (takes_work_out && finding.count == possible && possible >= 2) {
     finding.kind = FindingKind::wrong_sign;
     finding.size = -options.torque_per_unit;
   }
   return {finding};
+}
+
+Bounds box_from_recordings(Experiment::Parts const& parts) {
+  auto const& rows = parts.train.regression;
+  if (too_few_rows(rows) || !parts.health.identifiable) return parts.box;
+  Eigen::VectorXd const values = solve_reduced(rows, parts.reductions);
+  auto const freedom = static_cast<double>(rows.rows() - rows.parameters());
+  double const variance = (rows.tau - rows.phi * values).squaredNorm() / freedom;
+  Eigen::VectorXd const errors = (variance * inverse_information(rows, {}).diagonal()).cwiseSqrt();
+  return default_box(values, errors);
 }
 
 }  // namespace torquescope

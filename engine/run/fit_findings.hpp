@@ -1,8 +1,8 @@
 #pragma once
 // What the least squares fit of a job's model says of its recordings: masses and frictions that are surely negative.
 //
-// Surely     more than four HAC standard errors below zero (problem/hac.hpp): 3e-5 by chance
-// Fault      two and more of them are: no relation of this torque with this motion is a joint's; one is a warning
+// Surely     more than four HAC standard errors below zero (problem/hac.hpp); two where the torque also takes work out of
+//            the joint, which no passive joint allows: that is a fault, the other a warning
 // Threads    free function
 
 #include <vector>
@@ -13,5 +13,8 @@ namespace torquescope {
 
 // of recordings from files; needs parts.reductions
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options);
+
+// the box of a job without [model.bounds] (search_box.hpp); needs parts.reductions
+Bounds box_from_recordings(Experiment::Parts const& parts);
 
 }  // namespace torquescope

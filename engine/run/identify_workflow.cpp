@@ -11,6 +11,7 @@
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/run/search_box.hpp"
 #include "engine/run/stage_progress.hpp"
 #include "engine/run/study_writer.hpp"
 #include "engine/store/shard_lock.hpp"
@@ -103,6 +104,19 @@ void tell(IdentifyOptions const& options, std::string const& topic, std::string 
   if (options.tell) options.tell(topic, text);
 }
 
+// a best that lies on the box is where the box ends, not where the data say
+void warn_of_bounds(Study const& study, EstimatorPlan const& plan, RunResults const& results) {
+  auto const present = results.present();
+  if (present.empty()) return;
+  auto const best = *std::min_element(present.begin(), present.end(),
+                                      [&](std::size_t a, std::size_t b) { return results.gap[a] < results.gap[b]; });
+  auto const names = on_bounds(study.parts.regressor->names(), study.parts.box, results.parameters[best]);
+  if (names.empty()) return;
+  tell(study.attempt.options, "warning",
+       fmt::format("{} ends on the bound of {}: the best may lie outside; widen [model.bounds]", plan.label,
+                   fmt::join(names, ", ")));
+}
+
 void tell_what_was_done(Attempt const& attempt) {
   for (auto const& warning : attempt.saved.warnings()) tell(attempt.options, "warning", warning);
   if (attempt.saved.mixed())
@@ -133,6 +147,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
     write_results(writer, plan, results, study.torque_unit);
+    if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     order.push_back(plan.label);
     report.runs += static_cast<std::int64_t>(results.runs());
     for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;

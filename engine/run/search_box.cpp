@@ -55,4 +55,34 @@ Bounds read_search_box(std::vector<std::string> const& parameter_names, Section 
   return box;
 }
 
+Bounds default_box(Eigen::VectorXd const& values, Eigen::VectorXd const& errors) {
+  constexpr double wide = 3.0;
+  Bounds box;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    double const size = wide * (std::fabs(values[i]) + errors[i]);
+    double const bound = size > 0.0 && std::isfinite(size) ? std::pow(10.0, std::ceil(std::log10(size))) : 1.0;
+    box.lower.push_back(-bound);
+    box.upper.push_back(bound);
+  }
+  return box;
+}
+
+std::string box_words(std::vector<std::string> const& parameter_names, Bounds const& box) {
+  std::string text;
+  for (std::size_t i = 0; i < parameter_names.size(); ++i)
+    text += fmt::format("{}{} {:g} to {:g}", i ? ", " : "", parameter_names[i], box.lower[i], box.upper[i]);
+  return text;
+}
+
+std::vector<std::string> on_bounds(std::vector<std::string> const& parameter_names, Bounds const& box,
+                                   Eigen::VectorXd const& parameters) {
+  constexpr double at = 1e-6;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < parameter_names.size(); ++i) {
+    double const value = parameters[static_cast<Eigen::Index>(i)], reach = at * (box.upper[i] - box.lower[i]);
+    if (value <= box.lower[i] + reach || value >= box.upper[i] - reach) names.push_back(parameter_names[i]);
+  }
+  return names;
+}
+
 }  // namespace torquescope

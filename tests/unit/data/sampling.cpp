@@ -106,19 +106,35 @@ TEST(Sampling, BackwardsTimeNamesTheLineAndTheCut) {
   EXPECT_EQ(problem.help, "two recordings in one file? split it at line 811");
 }
 
-TEST(Sampling, LargeGapNamesItsPlace) {
+TEST(Sampling, LargeGapsAreKeptWithTheirEnds) {
   auto stamps = even_stamps(100, 500);
   for (std::size_t i = 200; i < 500; ++i) stamps[i] += 0.35;
-  auto const problem = refused(stamps);
-  EXPECT_EQ(problem.what, "35 samples are missing before line 202 (1.990 -> 2.350 s)");
-  EXPECT_EQ(problem.help, "cut the recording there; up to 9 missing samples are interpolated");
+  auto const sampling = analyse_sampling(stamps, table_of(stamps.size()));
+  ASSERT_EQ(sampling.gaps.size(), 1u);
+  EXPECT_NEAR(sampling.gaps[0].from_s, 1.99, 1e-9);
+  EXPECT_NEAR(sampling.gaps[0].until_s, 2.35, 1e-9);
+}
+
+TEST(Sampling, GapsLongerThanTheRowsAreRefused) {
+  auto stamps = even_stamps(100, 500);
+  for (std::size_t i = 200; i < 500; ++i) stamps[i] += 60.0;
+  EXPECT_EQ(refused(stamps).what, "6000 samples are missing before line 202, more than the recording has");
 }
 
 TEST(Sampling, ClocksThatAreNoneAreRefused) {
   EXPECT_EQ(refused(std::vector<double>(50, 3.0)).what, "time stands still in arm.csv");
-  auto const counts = refused(even_stamps(1, 100));
-  EXPECT_EQ(counts.what, "the time step is 1 s: are the stamps counts or milliseconds?");
-  EXPECT_NE(counts.help.find("write rate_hz"), std::string::npos);
+}
+
+// stamps of 5000 s and more in single precision are half a millisecond apart
+TEST(Sampling, StampsOfSinglePrecisionAreEven) {
+  auto stamps = even_stamps(500, 5000);
+  for (double& stamp : stamps) stamp = static_cast<double>(static_cast<float>(stamp + 5000.0));
+  double const unit = single_precision_unit(stamps);
+  EXPECT_DOUBLE_EQ(unit, 0x1p-11);
+  for (double& stamp : stamps) stamp -= 5000.0;
+  auto const sampling = analyse_sampling(stamps, table_of(stamps.size()), unit);
+  EXPECT_TRUE(sampling.even);
+  EXPECT_NEAR(sampling.rate_hz, 500.0, 0.01);
 }
 
 }  // namespace sampling_test
