@@ -5,6 +5,7 @@
 #include "engine/data/confined_reader.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/file_bytes.hpp"
+#include "engine/data/foreign_file.hpp"
 #include "engine/data/ros_stamp.hpp"
 #include "engine/data/unwritten_tail.hpp"
 
@@ -61,7 +62,9 @@ RawTable mended(RawTable table) {
 RawTable read_table(std::filesystem::path const& path, Section const& section) {
   constexpr std::size_t enough_for_signatures = 4096;
   try {
+    if (auto const folder = foreign_folder(path)) throw Error(*folder);
     auto const first_bytes = read_first_bytes(path, enough_for_signatures);
+    if (auto const foreign = foreign_file(path, first_bytes)) throw Error(*foreign);
     for (auto const& reader : reader_choices())
       if (reader.accepts(path, first_bytes)) return mended(read_with(reader, path));
     auto problem = bad_data(fmt::format("{} is in no format known here", path.string()), path.string(), 0,
