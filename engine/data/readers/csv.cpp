@@ -1,12 +1,9 @@
 // Delimited text, plain or gzip: `#` comment lines, one line of column names, then numbers.
 //
-// Names      the line right above the rows of numbers (table_layout.hpp): lines of a logger's program above it are
-//            skipped, a line of units below it is kept apart. Without such rows the first line that is no comment; if
-//            that is numbers already, the comment line right before it (numpy.savetxt writes them so)
-// Rows       as many cells as names; one trailing separator is allowed; empty lines do not count; a last line that was
-//            cut short and rows without any cell at the end are left out
-// Cells      text_column.hpp: numbers, times; a column with text in some cell becomes unusable, with its first line; a
-//            line of text only (a repeated header) is an error
+// Names      the line right above the rows (table_layout.hpp), a preamble and a line of units apart; else the first
+//            line that is no comment, or the comment right above numbers (numpy.savetxt)
+// Rows       as many cells as names, and one trailing separator; a last line that was cut short is left out
+// Cells      text_column.hpp; a column with text in some cell is unusable, a line of text alone is an error
 // Bounds     a line 1 MiB, columns 4096; of gzip see gunzip.hpp
 // Errors     Error 65 with file:line
 

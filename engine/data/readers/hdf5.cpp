@@ -1,7 +1,7 @@
 // HDF5 and MAT 7.3: every numeric dataset of rank 1 or 2, structures of numbers and pandas frames, in any group.
 //
-// Names      the path without its leading slash: "joint_1/q"; "name[0]", ... of a matrix (rows are samples), or the names
-//            in its attribute `columns`; "name/field"; a pandas table numbers its columns (their names are a pickle)
+// Names      the path without its leading slash: "joint_1/q"; "name[0]", ... of a matrix (rows are samples), or the
+//            names in its attribute `columns`; "name/field"; a pandas table numbers its columns (a pickle names them)
 // Refused    numbers in another file (external links and storage, virtual datasets); soft links are not followed;
 //            filters that are not HDF5's own: none is loaded from this machine's folders
 // Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated
