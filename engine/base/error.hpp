@@ -39,7 +39,7 @@ struct Problem {
   std::string what;                  // one line: the problem and the value
   SourcePlace place{};               // empty file: nowhere in particular
   std::string key{};                 // job key, "recording.torque_per_unit"
-  std::vector<std::string> notes{};  // facts: "the file has: t_s, q_rad, i_A"
+  std::vector<std::string> notes{};  // facts: "the file has: t_s, q_rad, i_A"; "    line" is to be copied
   std::string caret_note{};          // stands behind the caret: "did you mean ..."
   std::string help{};                // what to write or do instead
 };

@@ -15,6 +15,7 @@ std::string packed(RawTable const& table) {
   for (auto const& column : table.columns) out.numbers(column);
   out.whole(static_cast<std::int64_t>(table.unusable.size()));
   for (auto const& column : table.unusable) out.text(column.name).text(column.reason).whole(column.line);
+  out.texts(table.units).texts(table.remarks);
   return std::move(out).take();
 }
 
@@ -30,6 +31,8 @@ RawTable unpacked(std::string_view bytes) {
     column.line = in.whole();
     table.unusable.push_back(std::move(column));
   }
+  table.units = in.texts();
+  table.remarks = in.texts();
   return table;
 }
 

@@ -36,6 +36,28 @@ double beyond_double(std::string_view digits) {
   return tiny ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+// words that stand for a number; those of the C library of Microsoft have as many digits as were asked for
+CellKind read_word(std::string_view word, double& value) {
+  static constexpr std::array<std::string_view, 14> missing{"na",  "n/a",  "#n/a", "<na>", "null", "none", "nan",
+                                                            "nat", "#nan", "#nv",  "-",    "--",   "---",  "n.a."};
+  constexpr std::size_t longest = 12;
+  if (word.size() > longest) return CellKind::text;
+  std::array<char, longest> letters{};
+  std::transform(word.begin(), word.end(), letters.begin(),
+                 [](char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter; });
+  std::string_view const lower(letters.data(), word.size());
+  if (std::find(missing.begin(), missing.end(), lower) != missing.end()) return CellKind::missing;
+  bool const negative = lower.front() == '-';
+  std::string_view const rest = lower.substr(negative ? 1 : 0);
+  if (rest.starts_with("1.#ind") || rest.starts_with("1.#qnan") || rest.starts_with("1.#snan"))
+    return CellKind::missing;
+  if (!rest.starts_with("1.#inf")) return CellKind::text;
+  value = negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  return CellKind::number;
+}
+
 }  // namespace
 
 bool LineReader::next(std::string_view& line) {
@@ -44,10 +66,13 @@ bool LineReader::next(std::string_view& line) {
   line = rest_.substr(0, end);
   std::size_t used = end == std::string_view::npos ? rest_.size() : end + 1;
   if (end != std::string_view::npos && rest_[end] == '\r' && used < rest_.size() && rest_[used] == '\n') ++used;
+  line_ended_ = end != std::string_view::npos;
   rest_.remove_prefix(used);
   ++line_number_;
   return true;
 }
+
+bool LineReader::at_end() const { return rest_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
 
 char separator_of(std::string_view header) {
   std::array<char, 3> const candidates{',', ';', '\t'};
@@ -83,15 +108,35 @@ std::string unquoted(std::string_view cell) {
 }
 
 CellKind read_cell(std::string_view cell, double& value) {
-  value = std::numeric_limits<double>::quiet_NaN();
+  value = no_number;
   std::string_view digits = without_quotes(cell);
-  if (digits.empty() || digits == "NA" || digits == "null") return CellKind::missing;
+  if (digits.empty()) return CellKind::missing;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   double number = 0.0;
   auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return CellKind::text;
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return read_word(digits, value);
   value = error == std::errc::result_out_of_range ? beyond_double(digits) : number;
   return value != value ? CellKind::missing : CellKind::number;
+}
+
+CellKind read_comma_cell(std::string_view cell, double& value) {
+  value = no_number;
+  std::array<char, 40> digits{};
+  std::string_view const given = without_quotes(cell);
+  auto const comma = given.find(',');
+  bool const one_mark =
+      comma != std::string_view::npos && given.find_first_of(",.", comma + 1) == std::string_view::npos;
+  if (!one_mark || given.size() > digits.size() || given.find('.') < comma) return CellKind::text;
+  std::copy(given.begin(), given.end(), digits.begin());
+  digits[comma] = '.';
+  return read_cell({digits.data(), given.size()}, value);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter; });
+  return lower;
 }
 
 std::string shown(std::string_view cell) {

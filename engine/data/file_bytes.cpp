@@ -47,6 +47,13 @@ Problem cannot_open(std::filesystem::path const& path, int error) {
                   fmt::format("cannot open {}: {}", path.string(), std::strerror(error))};
   if (error != ENOENT) return problem;
   problem.what = fmt::format("no file {}", path.string());
+  auto const name = path.string();
+  bool const has_control =
+      std::any_of(name.begin(), name.end(), [](char letter) { return letter >= 0 && letter < ' '; });
+  if (has_control) {
+    problem.help = "a path of Windows? in double quotes \\t and \\n are escapes: write it in single quotes, or with /";
+    return problem;
+  }
   auto const similar = closest_file(path);
   problem.help = similar.empty() ? "paths are relative to the job file" : fmt::format("did you mean \"{}\"?", similar);
   return problem;
@@ -67,7 +74,7 @@ int open_regular(std::filesystem::path const& path) {
   if (known && S_ISREG(status.st_mode)) return descriptor;
   ::close(descriptor);
   Problem problem{ExitCode::no_input, fmt::format("{} is {}, not a recording", path.string(), kind_of(status.st_mode))};
-  problem.help = "name a regular file (.csv, .csv.gz, .h5, .mat)";
+  problem.help = "name a regular file (.csv, .csv.gz, .h5, .mat, .npz)";
   throw Error(std::move(problem));
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/data/data_problem.hpp"
+#include "engine/data/text_encoding.hpp"
 
 namespace torquescope {
 namespace {
@@ -67,7 +68,8 @@ std::string gunzip_text(std::string_view bytes, std::string const& path, std::ui
     if (text.size() + fresh.size() > largest_unasked && text.size() / most_times > bytes.size())
       damaged(path, fmt::format("unpacks to more than {} times its size, as no recording does", most_times),
               "a bomb? if you trust it: unpack it (gunzip) and name the text in the job");
-    if (fresh.find('\0') != std::string_view::npos)
+    bool const wide = looks_like_utf16(text.empty() ? fresh : std::string_view(text));
+    if (!wide && fresh.find('\0') != std::string_view::npos)
       damaged(path, "is gzip, but what it holds is not text", "unpack .mat and .h5 files first (gunzip)");
     text.append(fresh);
     if (state == Z_STREAM_END) {

@@ -5,6 +5,9 @@
 #include "engine/data/confined_reader.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/file_bytes.hpp"
+#include "engine/data/foreign_file.hpp"
+#include "engine/data/ros_stamp.hpp"
+#include "engine/data/unwritten_tail.hpp"
 
 namespace torquescope {
 
@@ -43,15 +46,27 @@ SourcePlace place_of_path(std::filesystem::path const& path, Section const& sect
   throw Error(std::move(problems));
 }
 
+RawTable read_with(ReaderChoice const& reader, std::filesystem::path const& path) {
+  return reader.library.empty() ? reader.read(path) : read_confined(path, reader.read, reader.library);
+}
+
+// what tables of every format need
+RawTable mended(RawTable table) {
+  drop_unwritten_tail(table);
+  add_ros_stamps(table);
+  return table;
+}
+
 }  // namespace
 
 RawTable read_table(std::filesystem::path const& path, Section const& section) {
   constexpr std::size_t enough_for_signatures = 4096;
   try {
+    if (auto const folder = foreign_folder(path)) throw Error(*folder);
     auto const first_bytes = read_first_bytes(path, enough_for_signatures);
+    if (auto const foreign = foreign_file(path, first_bytes)) throw Error(*foreign);
     for (auto const& reader : reader_choices())
-      if (reader.accepts(path, first_bytes))
-        return reader.library.empty() ? reader.read(path) : read_confined(path, reader.read, reader.library);
+      if (reader.accepts(path, first_bytes)) return mended(read_with(reader, path));
     auto problem = bad_data(fmt::format("{} is in no format known here", path.string()), path.string(), 0,
                             "export the recording as CSV");
     for (auto const& reader : reader_choices()) problem.notes.push_back(reader.name + ": " + reader.meaning);

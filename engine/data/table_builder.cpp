@@ -56,6 +56,8 @@ void TableBuilder::cannot_use(std::string name, std::string reason) {
   table_.unusable.push_back({std::move(name), std::move(reason)});
 }
 
+void TableBuilder::remark(std::string sentence) { table_.remarks.push_back(std::move(sentence)); }
+
 std::size_t TableBuilder::common_length() const {
   std::map<std::size_t, int> count_of_length;
   for (auto const& column : table_.columns) ++count_of_length[column.size()];
@@ -75,6 +77,7 @@ RawTable TableBuilder::finish() && {
   });
   std::size_t const length = common_length();
   RawTable result{table_.path, table_.sha256, {}, {}, {}, std::move(table_.unusable)};
+  result.remarks = std::move(table_.remarks);
   for (std::size_t c = 0; c < table_.columns.size(); ++c) {
     if (table_.columns[c].size() == length) {
       result.names.push_back(std::move(table_.names[c]));

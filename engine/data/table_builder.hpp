@@ -28,6 +28,7 @@ class TableBuilder {
   void add_matrix(std::string const& name, std::span<double const> values, std::size_t n_rows, std::size_t n_columns,
                   bool column_major, std::vector<std::string> const& names = {});
   void cannot_use(std::string name, std::string reason);
+  void remark(std::string sentence);
   RawTable finish() &&;
 
  private:

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/job/job_nesting.hpp"
+#include "engine/job/not_a_job.hpp"
 
 #define TOML_EXCEPTIONS 0
 #define TOML_UNRELEASED_FEATURES 0
@@ -255,6 +256,10 @@ std::string quoted_piece(std::string const& words) {
 }
 
 std::string syntax_help(std::string const& message) {
+  if (message.find("escape sequence") != std::string::npos || message.find("hex digit") != std::string::npos)
+    return "a path of Windows? in double quotes a backslash begins an escape: write 'C:\\data\\x.csv' in single "
+           "quotes, "
+           "or \"C:/data/x.csv\"";
   if (message.find("boolean") != std::string::npos)
     return "texts stand in quotes: key = \"text\"; true and false do not";
   if (message.find("utf-8") != std::string::npos) return "save the job file as UTF-8";
@@ -310,9 +315,10 @@ Problem nesting_problem(std::string const& text, std::size_t offset, SectionRead
 
 std::vector<Section> parse_sections(std::string const& text, std::string const& file) {
   SectionReader reader(text, file);
-  if (auto const offset = first_too_deep(text, deepest_nesting)) throw Error(nesting_problem(text, *offset, reader));
+  auto const refuse = [&](Problem problem) { throw Error(not_a_job(text, file).value_or(std::move(problem))); };
+  if (auto const offset = first_too_deep(text, deepest_nesting)) refuse(nesting_problem(text, *offset, reader));
   toml::parse_result const result = toml::parse(text, file);
-  if (!result) throw Error(syntax_problem(result.error(), reader));
+  if (!result) refuse(syntax_problem(result.error(), reader));
   return reader.read(result.table());
 }
 

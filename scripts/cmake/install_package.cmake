@@ -9,7 +9,7 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base)
 # the Python page builder, where the installed program looks for it
 install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope FILES_MATCHING
-        PATTERN "*.py" PATTERN "page.*")
+        PATTERN "*.py" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)

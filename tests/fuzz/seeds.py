@@ -56,6 +56,12 @@ def csvs(folder):
     yield "packed", gzip.compress(text.encode(), mtime=0)
     yield "two_members", gzip.compress(text[:900].encode(), mtime=0) + gzip.compress(text[900:].encode(), mtime=0)
     yield "utf16", text.encode("utf-16")
+    commas = text.replace(",", ";").replace(".", ",").split("\n", 1)
+    yield "decimal_commas", f"Scope;run\nRate;200\n\n{commas[0]}\n[s];[rad];[Nm]\n{commas[1]}".encode("latin-1")
+    yield "stamps", "".join(
+        f"2024-05-01T12:00:{k:02},{-k}:00,-1.#IND\n" if k else "t,q,tau\n" for k in range(30)
+    ).encode()
+    yield "clocks", ("t\tq\n" + "".join(f"23:59:{k}.5\t{k}\n" for k in range(50, 60)) + "00:00:00.5\t").encode()
 
 
 def hdf5s(folder):
@@ -72,6 +78,16 @@ def hdf5s(folder):
             file["joints/fixed"].attrs["columns"] = np.array([b"a"], dtype="S4")
             file["joints/text"], file["joints/deep"] = "no number", h5py.SoftLink("/t_s")
             file["joints/up"], file["elsewhere"] = file["/"], h5py.ExternalLink("other.h5", "/x")
+    return ()
+
+
+def npzs(folder):
+    values = dict(zip(NAMES, DATA[:9].T))
+    kinds = np.zeros(9, dtype=[("t_s", "<f8"), ("q", ">f4", (2,)), ("n", "u1"), ("at", "M8[ns]"), ("w", "U3")])
+    np.savez(os.path.join(folder, "plain.npz"), **values, f=np.asfortranarray(DATA[:9]))
+    np.savez_compressed(os.path.join(folder, "packed.npz"), **values, h=DATA[:9].astype("f2"), text=np.array("abc"))
+    np.save(os.path.join(folder, "matrix.npy"), DATA[:9])
+    np.save(os.path.join(folder, "structured.npy"), kinds)
     return ()
 
 
@@ -152,7 +168,7 @@ def lying_segments(home):
     return folder
 
 
-MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "mat5": mat5s, "segment": segments}
+MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "mat5": mat5s, "npz": npzs, "segment": segments}
 
 
 def make(home):

@@ -32,6 +32,7 @@ std::map<std::string, HostileReader const*> const readers{{"job", &hostile_job},
                                                           {"csv", &hostile_csv},
                                                           {"hdf5", &hostile_hdf5},
                                                           {"mat5", &hostile_mat5},
+                                                          {"npz", &hostile_npz},
                                                           {"segment", &hostile_segment}};
 
 std::vector<std::string> contents_of(std::filesystem::path const& folder) {

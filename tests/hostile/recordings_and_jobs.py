@@ -209,7 +209,7 @@ class TextRecordings(Folder):
             (TEXT + b"1" * (3 << 20) + b"\n", "bytes; a line may have 1048576"),
             (b"#" + b"x" * (3 << 20) + b"\n" + TEXT, "bytes; a line may have 1048576"),
             (b",".join(b"c%d" % k for k in range(100000)) + b"\n", "100000 columns; a recording may have 4096"),
-            (TEXT + b"\0\0", "it holds zero bytes"),
+            (TEXT + b"\0\0,1\n", "it holds zero bytes"),
             (TEXT[:50] + b"\0" + TEXT[50:], "is in no format known here"),
             (random.Random(SEED).randbytes(100000), "is in no format known here"),
             (b"\n" * (4 << 20), "is empty"),

@@ -17,5 +17,12 @@ step(${WORK_DIR}/build/sphere)
 if(NOT output MATCHES "best fitness below 1e-6")
   message(FATAL_ERROR "the outside program said: ${output}")
 endif()
-# the installed program finds its own share folder
+# the installed program finds its own share folder: a page of a run, from a place outside of the sources
 step(${prefix}/bin/torquescope --version)
+file(MAKE_DIRECTORY ${WORK_DIR}/page)
+step(${prefix}/bin/torquescope run ${SOURCE_DIR}/../../../jobs/smoke.toml --out ${WORK_DIR}/page/smoke.h5)
+step(${prefix}/bin/torquescope report ${WORK_DIR}/page/smoke.h5)
+file(READ ${WORK_DIR}/page/smoke.html page)
+if(NOT page MATCHES "</html>")
+  message(FATAL_ERROR "the page of the installed program is not whole")
+endif()

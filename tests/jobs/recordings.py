@@ -63,7 +63,7 @@ def write_recordings(folder):
     good = texts["good.csv"].encode()
     packed = gzip.compress(good, mtime=0)
     contents = {
-        "utf16.csv": texts["good.csv"].encode("utf-16"),
+        "utf16.csv": texts["good.csv"].encode("utf-16")[:-1],
         "zero_bytes.csv": good[:2000] + b"\0" * 200 + good[2200:],
         "broken.h5": b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 8,
         "cut.csv.gz": packed[: len(packed) // 2],

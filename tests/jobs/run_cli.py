@@ -145,7 +145,7 @@ class BadJobFiles(Folder):
         self.assert_refused(self.run_here("check", "job.toml"), 78, ["control character"])
 
     def test_a_recording_in_place_of_the_job(self):
-        self.assert_refused(self.run_here("check", "good.csv"), 78, ["this is not TOML"])
+        self.assert_refused(self.run_here("check", "good.csv"), 78, ["good.csv is a table of numbers, not a job"])
 
     def test_twenty_problems_are_shown_and_all_are_counted(self):
         self.write("job.toml", "[experiment]\n" + "".join(f"key_{i} = {i}\n" for i in range(25)))
@@ -262,7 +262,6 @@ class GoodRun(Folder):
             r"^job +good",
             r"\ndata ",
             r"\nthreads +2 \(OMP_NUM_THREADS\), \w+, seed 11",
-            r"\nprogress stage=de runs=3/3",
             r"\nwrote  good.h5  [0-9.]+ [kM]B\n",
             r"\nlook   torquescope report good.h5\n$",
         ]:
@@ -364,7 +363,7 @@ class GoodRun(Folder):
         _, lines = program.run_on_terminal(
             "run", "good.toml", "--out", "b.h5", folder=self.folder, changes={"SLURM_JOB_ID": "1"}
         )
-        self.assertIn("progress stage=", lines)
+        self.assertNotIn("\rde ", lines)
 
     def test_ascii_locale_gets_ascii(self):
         _, text = program.run_on_terminal("run", "good.toml", folder=self.folder, changes={"LC_ALL": "C"})

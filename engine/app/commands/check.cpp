@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/commands/notes.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/run/workflows.hpp"
 
@@ -66,7 +67,7 @@ std::string check_json(Experiment const& experiment, std::string const& job, std
 }
 
 ExitCode check_job(std::string const& job, Session const& session) {
-  Experiment const experiment = Experiment::load(job, Experiment::Purpose::check);
+  Experiment const experiment = load_with_bar(session, job, Experiment::Purpose::check);
   auto const lines = experiment.check(choose_threads(0).count);
   session.result(check_text(lines, session.result_ink()));
   session.document(check_json(experiment, job, lines));

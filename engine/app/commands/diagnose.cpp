@@ -102,7 +102,7 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
   PhaseTimes phases(progress_settings(session).clock);
   ShardChoice const shard = choose_shard(arguments.shard, environment);
-  Experiment const experiment = Experiment::load(arguments.job, Experiment::Purpose::diagnose);
+  Experiment const experiment = load_with_bar(session, arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
@@ -134,7 +134,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
                              shard.count, shard.reason, segment_folder_of(output).string())));
   Diagnosis diagnosis;
   try {
-    ProgressPrinter print_progress(progress_settings(session));
+    SessionProgress print_progress(session);
     diagnosis = diagnose_work(experiment, request, [&](ProgressUpdate const& update) {
       phases.note(update);
       print_progress(update);

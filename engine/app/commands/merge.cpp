@@ -54,7 +54,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
   }
   IdentifyReport report;
   {
-    ProgressPrinter print_progress(progress_settings(session));
+    SessionProgress print_progress(session);
     report = merge(std::move(experiment), options, arguments.partial ? Completeness::partial : Completeness::whole,
                    [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 
 namespace torquescope {
+
+Experiment load_with_bar(Session const& session, std::filesystem::path const& job, Experiment::Purpose purpose) {
+  SessionProgress const bar(session, "read");
+  return Experiment::load(job, purpose);
+}
 
 void note_start(Session const& session, std::string const& job_line, Experiment const& experiment,
                 ThreadChoice const& threads) {

@@ -9,6 +9,9 @@
 
 namespace torquescope {
 
+// reads the job and its recordings; a bar stands there when that takes longer than a second
+Experiment load_with_bar(Session const& session, std::filesystem::path const& job, Experiment::Purpose purpose);
+
 // job, data, threads and warnings, before anything runs; job_line is the command's own line of the experiment
 void note_start(Session const& session, std::string const& job_line, Experiment const& experiment,
                 ThreadChoice const& threads);

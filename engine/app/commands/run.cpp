@@ -36,7 +36,7 @@ ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::s
                    Session const& session) {
   ShardReport report;
   {
-    ProgressPrinter print_progress(progress_settings(session));
+    SessionProgress print_progress(session);
     report = run_shard(std::move(experiment), options,
                        [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
@@ -54,7 +54,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken);
   if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);
-  Experiment experiment = Experiment::load(arguments.job);
+  Experiment experiment = load_with_bar(session, arguments.job, Experiment::Purpose::identify);
   give_back_holes();
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
@@ -96,7 +96,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   }
   IdentifyReport report;
   {
-    ProgressPrinter print_progress(progress_settings(session));
+    SessionProgress print_progress(session);
     report = identify(std::move(experiment), options,
                       [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }

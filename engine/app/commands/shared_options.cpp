@@ -71,7 +71,14 @@ void add_json_option(CLI::App& command, ChosenCommand& chosen) {
 }
 
 void add_result_option(CLI::App& command, std::string& out) {
-  command.add_option("--out", out, "result file, HDF5 [NAME.h5 in this folder]")->type_name("R.h5")->group("results");
+  command.add_option("--out", out, "result file, HDF5 [NAME.h5 in this folder]")
+      ->type_name("R.h5")
+      ->check([](std::string const& name) {
+        return name == "-"
+                   ? "a result is a file of HDF5, which cannot go through a pipe; --json - writes the same as data"
+                   : "";
+      })
+      ->group("results");
 }
 
 void add_threads_option(CLI::App& command, int& threads) {

@@ -84,8 +84,13 @@ std::string problem_text(Problem const& problem, Ink const& ink) {
   bool const has_line = problem.place.line > 0 && problem.place.column > 0 && !problem.place.line_text.empty();
   if (has_line) text += source_excerpt(problem, ink);
   if (!has_line && !problem.caret_note.empty()) text += hanging("  ", printable(problem.caret_note));
-  for (auto const& note : problem.notes) text += hanging("  ", printable(note));
+  // what is to be copied stands below the help, in one line however long
+  auto const to_copy = [](std::string const& note) { return note.starts_with("    "); };
+  for (auto const& note : problem.notes)
+    if (!to_copy(note)) text += hanging("  ", printable(note));
   if (!problem.help.empty()) text += hanging("  help: ", printable(problem.help));
+  for (auto const& note : problem.notes)
+    if (to_copy(note)) text += printable(note) + "\n";
   return text;
 }
 

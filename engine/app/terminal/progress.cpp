@@ -16,6 +16,8 @@ namespace {
 constexpr double redraw_seconds = 0.1;
 constexpr double line_seconds = 60.0;
 constexpr double estimate_after_seconds = 2.0;
+constexpr double patient_seconds = 2.0, patient_stage_seconds = 10.0;
+constexpr double beat_seconds = 0.4;
 
 bool is_done(ProgressUpdate const& update) { return update.runs_total > 0 && update.runs_done >= update.runs_total; }
 
@@ -95,14 +97,41 @@ std::string progress_bar(ProgressUpdate const& update, int width, bool utf8) {
   return columns_of(text) > width - 1 ? "" : text;
 }
 
+std::string waiting_bar(ProgressUpdate const& update, double seconds_in_all, int width, bool utf8) {
+  constexpr double columns_per_second = 4.0, worth_saying = 1.0;
+  constexpr int block = 4;
+  std::string const lead = pad_right(printable(update.stage), 8) + " ";
+  std::string tail = update.runs_total > 0 ? fmt::format("  {} {}", update.runs_total, update.counted) : std::string();
+  tail += "   " + clock_text(std::floor(update.seconds));
+  if (seconds_in_all > update.seconds + worth_saying)
+    tail += fmt::format(", {} in all", clock_text(std::floor(seconds_in_all)));
+  int const cells = std::clamp(width - 1 - columns_of(lead) - columns_of(tail), 0, 32);
+  int const turn = std::max(1, 2 * (cells - block));
+  int const step = static_cast<int>(std::fmod(update.seconds * columns_per_second, turn));
+  int const first = std::min(step, turn - step);  // to the right and back
+  std::string bar;
+  for (int i = 0; i < cells; ++i) bar += i >= first && i < first + block ? (utf8 ? "█" : "#") : (utf8 ? "░" : "-");
+  std::string text = lead + bar + tail;
+  if (columns_of(text) > width - 1) text = wrap(text, width - 1, width - 1).front();
+  return columns_of(text) > width - 1 ? "" : text;
+}
+
+ProgressPrinter::ProgressPrinter(Settings settings) : settings_(std::move(settings)) {
+  began_ = told_ = settings_.clock ? settings_.clock() : 0.0;
+  last_time_ = began_;
+}
+
 void ProgressPrinter::operator()(ProgressUpdate const& update) {
   if (settings_.style == ProgressStyle::none) return;
+  std::lock_guard const lock(guard_);
   if (update.stage != stage_) {
-    erase();
+    erase_bar();
     stage_ = update.stage;
     last_tenth_ = -1;
-    last_time_ = -line_seconds;
+    if (!settings_.patient || settings_.style == ProgressStyle::bar) last_time_ = -line_seconds;
   }
+  last_ = update;
+  told_ = settings_.clock();
   if (settings_.style == ProgressStyle::lines) {
     print_line(update);
   } else {
@@ -110,9 +139,42 @@ void ProgressPrinter::operator()(ProgressUpdate const& update) {
   }
 }
 
+void ProgressPrinter::wait_for(std::string const& stage) {
+  constexpr double before_a_bar = 1.0;
+  if (settings_.style == ProgressStyle::none) return;
+  std::lock_guard const lock(guard_);
+  erase_bar();
+  stage_ = stage;
+  last_ = {};
+  last_.stage = stage;
+  last_.seconds = before_a_bar - beat_seconds;
+  began_ = settings_.clock();
+  last_time_ = began_;
+  told_ = began_ + before_a_bar - beat_seconds;
+}
+
+void ProgressPrinter::beat() {
+  if (settings_.style == ProgressStyle::none) return;
+  std::lock_guard const lock(guard_);
+  double const now = settings_.clock();
+  if (stage_.empty() || now - told_ < beat_seconds) return;
+  ProgressUpdate update = last_;
+  update.seconds = std::max(0.0, update.seconds + now - told_);
+  if (settings_.style == ProgressStyle::lines) {
+    if (now - last_time_ >= line_seconds) print_line(update);
+    return;
+  }
+  bool const counts = update.evaluations_done > 0 || (update.runs_done > 0 && !is_done(update));
+  draw(counts ? progress_bar(update, settings_.width(), settings_.utf8)
+              : waiting_bar(update, now - began_, settings_.width(), settings_.utf8));
+}
+
 void ProgressPrinter::print_line(ProgressUpdate const& update) {
   int const tenth = static_cast<int>(share_done(update) * 10.0);
   double const now = settings_.clock();
+  if (settings_.patient && update.seconds < patient_seconds &&
+      !(is_done(update) && now - last_time_ >= patient_stage_seconds))
+    return;
   if (tenth <= last_tenth_ && now - last_time_ < line_seconds) return;
   last_tenth_ = std::max(tenth, last_tenth_);
   last_time_ = now;
@@ -120,17 +182,25 @@ void ProgressPrinter::print_line(ProgressUpdate const& update) {
 }
 
 void ProgressPrinter::draw_bar(ProgressUpdate const& update) {
-  if (is_done(update)) return erase();
+  if (is_done(update)) return erase_bar();
   double const now = settings_.clock();
   if (now - last_time_ < redraw_seconds) return;
   last_time_ = now;
-  std::string const bar = progress_bar(update, settings_.width(), settings_.utf8);
+  draw(progress_bar(update, settings_.width(), settings_.utf8));
+}
+
+void ProgressPrinter::draw(std::string const& bar) {
   // spaces instead of an escape sequence wipe what a longer bar left behind
   settings_.write("\r" + pad_right(bar, std::min(drawn_columns_, settings_.width() - 1)));
   drawn_columns_ = columns_of(bar);
 }
 
 void ProgressPrinter::erase() {
+  std::lock_guard const lock(guard_);
+  erase_bar();
+}
+
+void ProgressPrinter::erase_bar() {
   if (drawn_columns_ == 0) return;
   int const columns = std::min(drawn_columns_, settings_.width() - 1);
   settings_.write("\r" + std::string(static_cast<std::size_t>(columns), ' ') + "\r");

@@ -1,16 +1,16 @@
 // Delimited text, plain or gzip: `#` comment lines, one line of column names, then numbers.
 //
-// Names      the first line that is no comment; if that is numbers already, the comment line right before it
-//            (numpy.savetxt writes them so)
-// Rows       as many cells as names; one trailing separator is allowed; empty lines do not count
-// Text       a column with text in some cell becomes unusable, with its first line; a line of text only (a repeated
-//            header) is an error
+// Names      the line right above the rows (table_layout.hpp), a preamble and a line of units apart; else the first
+//            line that is no comment, or the comment right above numbers (numpy.savetxt)
+// Rows       as many cells as names, and one trailing separator; a last line that was cut short is left out
+// Cells      text_column.hpp; a column with text in some cell is unusable, a line of text alone is an error
 // Bounds     a line 1 MiB, columns 4096; of gzip see gunzip.hpp
 // Errors     Error 65 with file:line
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/digest.hpp"
 #include "engine/base/error.hpp"
@@ -19,6 +19,9 @@
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/gunzip.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/table_layout.hpp"
+#include "engine/data/text_column.hpp"
+#include "engine/data/text_encoding.hpp"
 
 namespace torquescope {
 namespace {
@@ -27,21 +30,40 @@ constexpr std::size_t most_columns = 4096;
 constexpr std::size_t longest_line = std::size_t{1} << 20;
 
 bool accepts(std::filesystem::path const&, std::string const& first_bytes) {
-  bool const utf16 = first_bytes.starts_with("\xff\xfe") || first_bytes.starts_with("\xfe\xff");  // said in read()
-  return is_gzip(first_bytes) || utf16 || first_bytes.find('\0') == std::string::npos;
+  if (is_gzip(first_bytes) || looks_like_utf16(first_bytes)) return true;
+  // zeros at the end: a disk that lost power
+  std::size_t const end = first_bytes.find_last_not_of('\0') + 1;
+  return first_bytes.empty() || (end > 0 && first_bytes.find('\0') >= end);
+}
+
+// trailing separators
+void drop_empty_end(std::vector<std::string_view>& cells) {
+  while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
+}
+
+std::vector<std::string> names_of(std::vector<std::string_view> cells) {
+  drop_empty_end(cells);
+  std::vector<std::string> names;
+  for (auto cell : cells) names.push_back(utf8_or_latin1(unquoted(cell)));
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (names[c].empty()) names[c] = fmt::format("column {}", c + 1);  // pandas leaves its index without a name
+  return names;
 }
 
 class CsvText {
  public:
-  CsvText(std::string_view text, RawTable& table) : lines_(text), table_(table) {}
+  CsvText(std::string_view text, RawTable& table) : lines_(text), table_(table), layout_(layout_of(text)) {}
 
   void read() {
     read_names();
+    if (layout_) skip_to_rows();
     while (next_line()) add_row();
+    drop_empty_rows();
     validate(!table_.line_of_row.empty(), [&] {
       return problem(fmt::format("{} has column names but no rows", table_.path), "was the recording stopped at once?");
     });
-    move_text_columns();
+    check_marks();
+    move_columns();
   }
 
  private:
@@ -66,7 +88,9 @@ class CsvText {
       return bad_data(fmt::format("{} is empty", table_.path), table_.path, 0,
                       "it needs a line of column names, then numbers");
     });
-    separator_ = separator_of(line_);
+    if (layout_) skip_preamble();
+    separator_ = layout_ ? layout_->separator : separator_of(line_);
+    marks_.comma_may_be = separator_ != ',';
     split_cells(line_, separator_, cells_);
     bool const names_in_comment = is_numbers() && !comment_names().empty();
     validate(names_in_comment || !is_numbers(), [&] {
@@ -79,18 +103,36 @@ class CsvText {
       return problem(fmt::format("{} columns; a recording may have {}", table_.names.size(), most_columns),
                      "keep the columns that recording.columns names");
     });
-    table_.columns.resize(table_.names.size());
-    first_text_.resize(table_.names.size());
+    columns_.resize(table_.names.size());
     if (names_in_comment) add_row();
   }
 
-  static std::vector<std::string> names_of(std::vector<std::string_view> cells) {
-    while (cells.size() > 1 && cells.back().empty()) cells.pop_back();  // trailing separators
-    std::vector<std::string> names;
-    for (auto cell : cells) names.push_back(unquoted(cell));
-    for (std::size_t c = 0; c < names.size(); ++c)
-      if (names[c].empty()) names[c] = fmt::format("column {}", c + 1);  // pandas leaves its index without a name
-    return names;
+  void skip_preamble() {
+    std::int64_t const first = lines_.line_number(), last = layout_->names_line - 1;
+    if (first > last) return;
+    while (lines_.line_number() < layout_->names_line) next_line();
+    table_.remarks.push_back(first == last
+                                 ? fmt::format("Line {} above the column names was skipped.", first)
+                                 : fmt::format("Lines {} to {} above the column names were skipped.", first, last));
+  }
+
+  // what stands between the names and the rows: units, or words
+  void skip_to_rows() {
+    LineReader before_row = lines_;
+    while (next_line() && lines_.line_number() < layout_->rows_line) {
+      before_row = lines_;
+      split_cells(line_, separator_, cells_);
+      cells_.resize(std::max(cells_.size(), table_.names.size()));
+      bool const known =
+          std::any_of(cells_.begin(), cells_.end(), [](auto cell) { return is_known_unit(unit_in(cell)); });
+      bool const are_units = lines_.line_number() == layout_->units_line && known;
+      for (std::size_t c = 0; are_units && c < table_.names.size(); ++c)
+        table_.units.push_back(utf8_or_latin1(unit_in(cells_[c])));
+      table_.remarks.push_back(are_units
+                                   ? fmt::format("Line {} was read as the units of the columns.", lines_.line_number())
+                                   : fmt::format("Line {} holds no numbers and was skipped.", lines_.line_number()));
+    }
+    lines_ = before_row;
   }
 
   // the last comment as names, if it has as many cells as the line of numbers at hand
@@ -101,33 +143,67 @@ class CsvText {
   }
 
   bool is_numbers() const {
-    double ignored = 0.0;
-    return std::none_of(cells_.begin(), cells_.end(),
-                        [&](auto cell) { return read_cell(cell, ignored) == CellKind::text; });
+    DecimalMarks marks = marks_;
+    return std::all_of(cells_.begin(), cells_.end(), [&](auto cell) { return TextColumn().add(cell, 1, marks); });
   }
 
   void add_row() {
     split_cells(line_, separator_, cells_);
     std::size_t const n_columns = table_.names.size();
     if (cells_.size() == n_columns + 1 && cells_.back().empty()) cells_.pop_back();
+    bool const last = lines_.at_end();
+    if (last && cells_.size() < n_columns && !table_.line_of_row.empty()) return leave_out_last_line();
     validate(cells_.size() == n_columns, [&] { return ragged_row(); });
+    if (last && !lines_.line_ended() && is_torn(cells_.back())) return leave_out_last_line();
     std::size_t n_text = 0;
-    for (std::size_t c = 0; c < n_columns; ++c) {
-      double value = 0.0;
-      bool const is_text = read_cell(cells_[c], value) == CellKind::text;
-      n_text += is_text;
-      if (is_text && first_text_[c].line == 0)
-        first_text_[c] = {table_.names[c],
-                          fmt::format("holds text: \"{}\" in line {}", shown(cells_[c]), lines_.line_number()),
-                          lines_.line_number()};
-      table_.columns[c].push_back(value);
-    }
+    for (std::size_t c = 0; c < n_columns; ++c) n_text += !columns_[c].add(cells_[c], lines_.line_number(), marks_);
     validate(n_text < n_columns, [&] { return row_of_text(); });
     table_.line_of_row.push_back(lines_.line_number());
     validate(table_.line_of_row.size() * n_columns <= most_table_values, [&] {
       return problem(fmt::format("more than {} numbers; one recording may not hold more", most_table_values),
                      "cut it into several recordings: recording.train takes a list");
     });
+  }
+
+  // the last cell of a text that does not end its last line: "-", "2.5e-" below numbers
+  bool is_torn(std::string_view cell) {
+    TextColumn& column = columns_.back();
+    bool const was_number = !column.values().empty() && std::isfinite(column.values().back());
+    if (!was_number || column.text_line() != 0) return false;
+    TextColumn trial = column.without_values();
+    DecimalMarks marks = marks_;
+    bool const is_text = !trial.add(cell, lines_.line_number(), marks);
+    return is_text || std::isnan(trial.values().back());
+  }
+
+  void leave_out_last_line() {
+    table_.remarks.push_back(
+        fmt::format("The last line, {}, was cut short (\"{}\") and is left out.", lines_.line_number(), shown(line_)));
+  }
+
+  // a spreadsheet may write lines of separators below its numbers
+  void drop_empty_rows() {
+    std::size_t n_dropped = 0;
+    auto const empty = [](TextColumn& column) { return std::isnan(column.values().back()) && column.text_line() == 0; };
+    while (!table_.line_of_row.empty() && std::all_of(columns_.begin(), columns_.end(), empty)) {
+      for (auto& column : columns_) column.drop_last();
+      table_.line_of_row.pop_back();
+      ++n_dropped;
+    }
+    if (n_dropped > 0)
+      table_.remarks.push_back(fmt::format("{} rows without a number at the end are left out.", n_dropped));
+  }
+
+  void check_marks() {
+    if (marks_.comma_line == 0) return;
+    validate(marks_.point_line == 0, [&] {
+      return bad_data(fmt::format("{} in line {} has a decimal comma, a number in line {} a decimal point",
+                                  marks_.comma_cell, marks_.comma_line, marks_.point_line),
+                      table_.path, std::max(marks_.comma_line, marks_.point_line),
+                      "export it with one decimal mark and without marks between thousands");
+    });
+    table_.remarks.push_back(fmt::format("Decimal commas were read as decimal points (first: {} in line {}).",
+                                         marks_.comma_cell, marks_.comma_line));
   }
 
   Problem problem(std::string what, std::string help) const {
@@ -146,35 +222,46 @@ class CsvText {
   }
 
   Problem row_of_text() const {
-    bool const header = names_of(cells_) == table_.names;
-    if (header)
+    if (names_of(cells_) == table_.names)
       return problem(fmt::format("the header is repeated in line {}", lines_.line_number()),
                      fmt::format("two recordings in one file? split it at line {}", lines_.line_number()));
-    bool const decimal_comma = separator_ != ',' && line_.find(',') != std::string_view::npos;
     return problem(fmt::format("\"{}\" in line {} is not a number", shown(cells_.front()), lines_.line_number()),
-                   decimal_comma ? "a decimal comma? write 1.5 for 1,5" : "put `#` before lines that are comments");
+                   "put `#` before lines that are comments");
   }
 
-  void move_text_columns() {
-    RawTable kept{table_.path, table_.sha256, {}, {}, std::move(table_.line_of_row)};
-    for (std::size_t c = 0; c < table_.names.size(); ++c) {
-      if (first_text_[c].line != 0) {
-        kept.unusable.push_back(std::move(first_text_[c]));
-      } else {
-        kept.names.push_back(std::move(table_.names[c]));
-        kept.columns.push_back(std::move(table_.columns[c]));
+  void move_columns() {
+    auto const names = std::move(table_.names);
+    auto const units = std::move(table_.units);
+    table_.names.clear();
+    table_.units.clear();
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      TextColumn& column = columns_[c];
+      if (column.text_line() != 0) {
+        table_.unusable.push_back({names[c],
+                                   fmt::format("holds text: \"{}\" in line {}", column.text(), column.text_line()),
+                                   column.text_line()});
+        continue;
       }
+      if (column.stamps() != StampKind::none)
+        table_.remarks.push_back(fmt::format("\"{}\" holds {}.", names[c],
+                                             column.stamps() == StampKind::date
+                                                 ? "dates with times: read as seconds since 1970"
+                                                 : "times of day: read as seconds since midnight"));
+      table_.names.push_back(names[c]);
+      table_.columns.push_back(std::move(column.values()));
+      if (!units.empty()) table_.units.push_back(units[c]);
     }
-    table_ = std::move(kept);
   }
 
   LineReader lines_;
   RawTable& table_;
+  std::optional<TableLayout> layout_;
   std::string_view line_;
   std::string_view last_comment_;
   char separator_ = ',';
+  DecimalMarks marks_;
   std::vector<std::string_view> cells_;
-  std::vector<UnusableColumn> first_text_;  // line 0: none so far
+  std::vector<TextColumn> columns_;
 };
 
 RawTable read(std::filesystem::path const& path) {
@@ -183,16 +270,7 @@ RawTable read(std::filesystem::path const& path) {
   table.path = path.string();
   table.sha256 = sha256_hex(bytes);
   if (is_gzip(bytes)) bytes = gunzip_text(bytes, table.path);
-  std::string_view text = bytes;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
-  bool const utf16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
-  bool const binary = text.find('\0') != std::string_view::npos;
-  validate(!utf16 && !binary, [&] {
-    return bad_data(
-        fmt::format("{} is {}", table.path, utf16 ? "UTF-16 text" : "not text throughout: it holds zero bytes"),
-        table.path, 0,
-        utf16 ? "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)" : "copy it again, or export it again as CSV");
-  });
+  std::string const text = utf8_text(std::move(bytes), table.path, table.remarks);
   CsvText(text, table).read();
   return table;
 }

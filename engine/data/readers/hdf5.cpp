@@ -1,18 +1,15 @@
-// HDF5 and MAT 7.3: every numeric dataset of rank 1 or 2, in any group.
+// HDF5 and MAT 7.3: every numeric dataset of rank 1 or 2, structures of numbers and pandas frames, in any group.
 //
-// Names      the path without its leading slash: "joint_1/q"; a matrix (rows are samples) gives "name[0]", "name[1]",
-//            ... or the names in its attribute `columns`. MATLAB stores transposed: known by the attribute MATLAB_class
+// Names      the path without its leading slash: "joint_1/q"; "name[0]", ... of a matrix (rows are samples), or the
+//            names in its attribute `columns`; "name/field"; a pandas table numbers its columns (a pickle names them)
 // Refused    numbers in another file (external links and storage, virtual datasets); soft links are not followed;
 //            filters that are not HDF5's own: none is loaded from this machine's folders
-// Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated; the bytes parsed are
-//            those of the sha256
-// Confined   in a process of its own: of a hundred damaged files two crash HDF5 1.10 or keep it busy for ever
+// Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated
 // Errors     Error 65 when the file is damaged or cut short
-// Threads    one at a time
-// Source     HDF5 1.10 C API; MATLAB 7.3: an HDF5 file behind 512 bytes of its own
+// Threads    one at a time, in a process of its own: of a hundred damaged files two crash HDF5 1.10
+// Source     HDF5 1.10 C API; MATLAB 7.3 (transposed, attribute MATLAB_class): HDF5 behind 512 bytes of its own
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <set>
@@ -22,6 +19,8 @@
 #include "engine/data/data_problem.hpp"
 #include "engine/data/delimited_text.hpp"
 #include "engine/data/file_bytes.hpp"
+#include "engine/data/hdf5_access.hpp"
+#include "engine/data/hdf5_open_flags.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/data/table_builder.hpp"
 
@@ -33,72 +32,10 @@ constexpr int deepest_group = 32;
 constexpr std::size_t most_objects = 20000;
 constexpr std::size_t longest_name = 1024;
 
-// an identifier of the library, closed by the function that belongs to it
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(Handle const&) = delete;
-  Handle& operator=(Handle const&) = delete;
-  hid_t id() const { return id_; }
-  explicit operator bool() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-// the library prints its error stack unless told not to; our messages say what a user can use
-class QuietErrors {
- public:
-  QuietErrors() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  QuietErrors(QuietErrors const&) = delete;
-  QuietErrors& operator=(QuietErrors const&) = delete;
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
 bool accepts(std::filesystem::path const&, std::string const& first_bytes) {
   for (std::size_t at = 0; at < first_bytes.size(); at = at == 0 ? 512 : 2 * at)  // where the format allows it to begin
     if (std::string_view(first_bytes).substr(at).starts_with(signature)) return true;
   return false;
-}
-
-// the texts of a one-dimensional string attribute, or nothing
-std::vector<std::string> text_attribute(hid_t object, char const* name) {
-  if (H5Aexists(object, name) <= 0) return {};
-  Handle const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  Handle const type(attribute ? H5Aget_type(attribute.id()) : -1, H5Tclose);
-  Handle const space(attribute ? H5Aget_space(attribute.id()) : -1, H5Sclose);
-  if (!type || !space || H5Tget_class(type.id()) != H5T_STRING) return {};
-  hssize_t const count = H5Sget_simple_extent_npoints(space.id());
-  if (count < 1 || count > 4096) return {};
-  std::vector<std::string> texts;
-  if (H5Tis_variable_str(type.id()) > 0) {
-    Handle const memory(H5Tcopy(type.id()), H5Tclose);
-    std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
-    if (H5Aread(attribute.id(), memory.id(), pointers.data()) < 0) return {};
-    for (char const* text : pointers) texts.emplace_back(text != nullptr ? text : "");
-    H5Dvlen_reclaim(memory.id(), space.id(), H5P_DEFAULT, pointers.data());
-  } else {
-    std::size_t const width = H5Tget_size(type.id());
-    if (width == 0 || width > longest_name) return {};
-    std::string letters(static_cast<std::size_t>(count) * width, '\0');
-    if (H5Aread(attribute.id(), type.id(), letters.data()) < 0) return {};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      auto const text = letters.substr(k * width, width);
-      texts.push_back(text.substr(0, std::min(text.find('\0'), text.find_last_not_of(' ') + 1)));
-    }
-  }
-  return texts;
 }
 
 class FileWalk {
@@ -115,13 +52,23 @@ class FileWalk {
   void group(hid_t group, std::string const& prefix, int depth) {
     H5G_info_t info{};
     if (H5Gget_info(group, &info) < 0) return;
+    auto const pandas = text_attribute(group, "pandas_type");
+    if (!pandas.empty() && pandas[0] == "frame_table")
+      table_.remark(
+          fmt::format("\"{}\" is a table of pandas, which keeps the names of its columns as a pickle: they are "
+                      "numbered; to_hdf(..., format=\"fixed\") keeps them readable.",
+                      prefix));
+    bool const is_frame = !pandas.empty() && pandas[0] == "frame";
     for (hsize_t k = 0; k < info.nlinks; ++k) {
       auto const name = link_name(group, k);
-      if (name.empty() || name.starts_with("#refs#") || ++n_objects_ > most_objects) continue;
+      bool const is_index = name.starts_with("#refs#") || name.starts_with("_i_");  // of MATLAB, of PyTables
+      if (name.empty() || is_index || ++n_objects_ > most_objects) continue;
+      if (is_frame && (name == "axis0" || name.ends_with("_items"))) continue;  // the names
       H5L_info_t link{};
       if (H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) < 0) continue;
       if (link.type == H5L_TYPE_HARD)
-        object(group, name, prefix + name, depth);
+        object(group, name, prefix + name, depth,
+               is_frame ? frame_names(group, name, prefix) : std::vector<std::string>{});
       else
         table_.cannot_use(prefix + name, link.type == H5L_TYPE_EXTERNAL
                                              ? "is a link into another file; copy its numbers into this one"
@@ -138,7 +85,23 @@ class FileWalk {
     return name;
   }
 
-  void object(hid_t parent, std::string const& name, std::string const& path, int depth) {
+  // of the columns of a block of a pandas frame, or of its index
+  static std::vector<std::string> frame_names(hid_t group, std::string const& name, std::string const& prefix) {
+    constexpr std::string_view values = "_values";
+    if (name == "axis1") {
+      constexpr char const* no_name = "N.";  // None as a pickle
+      Handle const index(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose);
+      auto const given = index ? text_attribute(index.id(), "name") : std::vector<std::string>{};
+      return {prefix + (given.empty() || given[0].empty() || given[0] == no_name ? "index" : given[0])};
+    }
+    if (!name.ends_with(values)) return {};
+    auto names = text_dataset(group, name.substr(0, name.size() - values.size()) + "_items");
+    for (auto& column : names) column = prefix + column;
+    return names;
+  }
+
+  void object(hid_t parent, std::string const& name, std::string const& path, int depth,
+              std::vector<std::string> const& names) {
     Handle const opened(H5Oopen(parent, name.c_str(), H5P_DEFAULT), H5Oclose);
     if (!opened) {
       table_.cannot_use(path, "is damaged");
@@ -148,7 +111,7 @@ class FileWalk {
     if (H5Oget_info2(opened.id(), &info, H5O_INFO_BASIC) < 0) return;
     bool const is_new = seen_.insert(info.addr).second;
     if (info.type == H5O_TYPE_GROUP && is_new && depth < deepest_group) group(opened.id(), path + "/", depth + 1);
-    if (info.type == H5O_TYPE_DATASET) dataset(opened.id(), path);
+    if (info.type == H5O_TYPE_DATASET) dataset(opened.id(), path, names);
   }
 
   // a filter that does not belong to HDF5 itself, or ""
@@ -174,12 +137,24 @@ class FileWalk {
     return claimed <= stored * (H5Pget_layout(creation) == H5D_CHUNKED ? best_compression : 1.0);
   }
 
+  static bool is_number(hid_t type) {
+    auto const kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+  }
+
+  // as h5py and MATLAB store complex numbers
+  static bool is_complex(hid_t type) {
+    if (H5Tget_nmembers(type) != 2) return false;
+    return H5Tget_member_index(type, "r") >= 0 || H5Tget_member_index(type, "real") >= 0;
+  }
+
   // why a dataset cannot serve, or ""
   std::string objection(hid_t dataset, hid_t type, hid_t space) const {
     auto const kind = H5Tget_class(type);
     if (kind == H5T_STRING) return "is text";
-    if (kind != H5T_INTEGER && kind != H5T_FLOAT) return "is not made of plain real numbers";
+    if (!is_number(type) && (kind != H5T_COMPOUND || is_complex(type))) return "is not made of plain real numbers";
     int const rank = H5Sget_simple_extent_ndims(space);
+    if (kind == H5T_COMPOUND && rank != 1) return "is not a list of structures";
     if (rank != 1 && rank != 2) return fmt::format("has rank {} (a signal has 1, a table of signals 2)", rank);
     Handle const creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation) return "is damaged";
@@ -195,7 +170,7 @@ class FileWalk {
     return {};
   }
 
-  void dataset(hid_t dataset, std::string const& path) {
+  void dataset(hid_t dataset, std::string const& path, std::vector<std::string> const& names) {
     Handle const type(H5Dget_type(dataset), H5Tclose);
     Handle const space(H5Dget_space(dataset), H5Sclose);
     if (!type || !space) {
@@ -215,6 +190,7 @@ class FileWalk {
       table_.cannot_use(path, "is empty");
       return;
     }
+    if (H5Tget_class(type.id()) == H5T_COMPOUND) return structures(dataset, type.id(), path, sizes[0]);
     table_.reserve(sizes[0], sizes[1], path);
     std::vector<double> values(static_cast<std::size_t>(sizes[0] * sizes[1]));
     if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
@@ -224,7 +200,37 @@ class FileWalk {
     bool const transposed = !matlab_class.empty();
     table_.add_matrix(path, values, static_cast<std::size_t>(sizes[transposed ? 1 : 0]),
                       static_cast<std::size_t>(sizes[transposed ? 0 : 1]), transposed,
-                      text_attribute(dataset, "columns"));
+                      names.empty() ? text_attribute(dataset, "columns") : names);
+  }
+
+  void structures(hid_t dataset, hid_t type, std::string const& path, hsize_t n_rows) {
+    for (unsigned k = 0; k < static_cast<unsigned>(std::max(0, H5Tget_nmembers(type))); ++k) {
+      char* const given = H5Tget_member_name(type, k);
+      std::string const name = given != nullptr ? given : "";
+      H5free_memory(given);
+      Handle const member(H5Tget_member_type(type, k), H5Tclose);
+      if (member && !name.empty()) field(dataset, member.id(), name, path + "/" + name, n_rows);
+    }
+  }
+
+  // one number in each structure, or a short list of them
+  void field(hid_t dataset, hid_t member, std::string const& name, std::string const& path, hsize_t n_rows) {
+    constexpr hsize_t most_numbers = 4096;
+    hsize_t count = 1;
+    bool const is_list = H5Tget_class(member) == H5T_ARRAY && H5Tget_array_ndims(member) == 1;
+    Handle const base(is_list ? H5Tget_super(member) : H5Tcopy(member), H5Tclose);
+    if (is_list) H5Tget_array_dims2(member, &count);
+    if (!base || !is_number(base.id()) || count < 1 || count > most_numbers)
+      return table_.cannot_use(path, "is not made of plain real numbers");
+    table_.reserve(n_rows, count, path);
+    Handle const numbers(is_list ? H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &count) : H5Tcopy(H5T_NATIVE_DOUBLE),
+                         H5Tclose);
+    Handle const memory(H5Tcreate(H5T_COMPOUND, static_cast<std::size_t>(count) * sizeof(double)), H5Tclose);
+    std::vector<double> values(static_cast<std::size_t>(n_rows * count));
+    bool const read = H5Tinsert(memory.id(), name.c_str(), 0, numbers.id()) >= 0 &&
+                      H5Dread(dataset, memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+    if (!read) return table_.cannot_use(path, "cannot be decoded: it is damaged");
+    table_.add_matrix(path, values, static_cast<std::size_t>(n_rows), static_cast<std::size_t>(count), false);
   }
 
   TableBuilder& table_;
@@ -238,6 +244,7 @@ RawTable read(std::filesystem::path const& path) {
   QuietErrors const quiet;
   H5PLset_loading_state(0);
   TableBuilder table(path.string(), sha256_hex(bytes));
+  bool const left_open = clear_open_flags(bytes);
   // the file in memory: the numbers read are those that were hashed, and nothing is ever written
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.id(), std::size_t{1} << 20, 0);
@@ -245,9 +252,17 @@ RawTable read(std::filesystem::path const& path) {
   // under a name that nothing can have, being below a file: HDF5 refuses an image when it finds a file of its name
   Handle const file(H5Fopen((path / "image").c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   validate(static_cast<bool>(file), [&] {
+    if (left_open)
+      return bad_data(
+          fmt::format("{} was left open by the program that wrote it, and not all of it is in the file", path.string()),
+          path.string(), 0, "close the file in that program and copy it again, or try: h5clear -s -i FILE");
     return bad_data(fmt::format("{} is a damaged HDF5 file, or was cut short", path.string()), path.string(), 0,
                     "copy it again; was the program that wrote it stopped before it closed the file?");
   });
+  if (left_open)
+    table.remark(
+        "The file is marked as open: the program that wrote it was stopped, or still writes. What it has saved is "
+        "read.");
   hsize_t const file_bytes = bytes.size();
   bytes = {};
   Handle const root(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose);

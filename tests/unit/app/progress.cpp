@@ -17,9 +17,9 @@ ProgressUpdate update(std::int64_t runs, double seconds) { return {"fade", runs,
 
 // a printer under a clock that the test sets
 struct Watched {
-  explicit Watched(ProgressStyle style)
+  explicit Watched(ProgressStyle style, bool patient = false)
       : printer({style, [this](auto const& t) { text.push_back(t); }, [this] { return width; }, [this] { return now; },
-                 false}) {}
+                 false, patient}) {}
   std::vector<std::string> text;
   double now = 1000.0;
   int width = 80;
@@ -64,6 +64,69 @@ TEST(ProgressLines, BeginAgainWithEveryStage) {
   watched.printer({"ols", 1, 1, 1, 1, 0.0});
   watched.printer({"de", 0, 30, 0, 90000, 0.0});
   EXPECT_THAT(watched.text, ElementsAre(HasSubstr("stage=ols"), HasSubstr("stage=de")));
+}
+
+TEST(ProgressLines, NobodyAskedForStayAwayFromShortStages) {
+  Watched watched(ProgressStyle::lines, true);
+  for (int run = 0; run <= 30; ++run, watched.now += 0.01) watched.printer(update(run, 0.01 * run));
+  EXPECT_TRUE(watched.text.empty());
+  // a long stage tells from its third second on
+  for (int run = 0; run <= 30; ++run, watched.now += 0.2)
+    watched.printer({"de", run, 30, run * 3000, 90000, 0.2 * run});
+  EXPECT_THAT(watched.text.front(), HasSubstr("stage=de runs=10/30"));
+  EXPECT_THAT(watched.text.back(), HasSubstr("stage=de runs=30/30"));
+  EXPECT_EQ(watched.text.size(), 8u);
+}
+
+TEST(ProgressLines, ManyShortStagesGiveOneLineInTenSeconds) {
+  Watched watched(ProgressStyle::lines, true);
+  for (int stage = 0; stage < 30; ++stage) {
+    std::string const name = "stage" + std::to_string(stage);
+    watched.printer({name, 0, 1, 0, 0, 0.0});
+    watched.now += 1.0;
+    watched.printer({name, 1, 1, 0, 0, 1.0});
+  }
+  EXPECT_EQ(watched.text.size(), 3u);
+}
+
+TEST(ProgressBar, MovesWhileNothingIsCounted) {
+  Watched watched(ProgressStyle::bar);
+  watched.printer({"twins", 0, 200, 0, 0, 0.0, "clean twins"});
+  watched.printer.beat();  // too early: what was told still stands
+  EXPECT_EQ(watched.text.size(), 1u);
+  for (int k = 0; k < 4; ++k) {
+    watched.now += 0.5;
+    watched.printer.beat();
+  }
+  ASSERT_EQ(watched.text.size(), 5u);
+  for (std::size_t k = 2; k < 5; ++k) EXPECT_NE(watched.text[k], watched.text[k - 1]);
+  EXPECT_THAT(watched.text.back(), HasSubstr("200 clean twins   0:02"));
+  // the next stage: the sum of both stands beside it
+  watched.printer({"search", 0, 34, 0, 0, 0.0, "effects"});
+  watched.now += 3.0;
+  watched.printer.beat();
+  EXPECT_THAT(watched.text.back(), HasSubstr("34 effects   0:03, 0:05 in all"));
+}
+
+TEST(ProgressBar, OfAWaitComesAfterASecond) {
+  Watched watched(ProgressStyle::bar);
+  watched.printer.wait_for("read");
+  for (int k = 0; k < 9; ++k) {
+    watched.now += 0.1;
+    watched.printer.beat();
+  }
+  EXPECT_TRUE(watched.text.empty());
+  watched.now += 0.2;
+  watched.printer.beat();
+  ASSERT_EQ(watched.text.size(), 1u);
+  EXPECT_THAT(watched.text[0], HasSubstr("\rread"));
+  EXPECT_THAT(watched.text[0], HasSubstr("0:01"));
+}
+
+TEST(WaitingBar, FitsEveryWindow) {
+  for (int width = 20; width <= 80; ++width)
+    for (double seconds : {0.0, 1.3, 77.0, 5000.0})
+      EXPECT_LT(columns_of(waiting_bar({"twins", 0, 200, 0, 0, seconds, "clean twins"}, 9000.0, width, true)), width);
 }
 
 TEST(SecondsLeft, AreUnknownInTheFirstTwoSeconds) {

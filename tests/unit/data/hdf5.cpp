@@ -6,6 +6,7 @@
 
 #include "engine/base/digest.hpp"
 #include "engine/data/file_bytes.hpp"
+#include "engine/data/hdf5_open_flags.hpp"
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
@@ -106,6 +107,85 @@ TEST(Hdf5Reader, ReadsNumericDatasetsOfAnyTypeAndGroup) {
   EXPECT_EQ(table.columns[column_of(table, "alpha")], (std::vector<double>{5, 6, 7, 8}));
   EXPECT_TRUE(table.line_of_row.empty());
   EXPECT_EQ(table.sha256, sha256_hex(read_whole_file(path)));
+}
+
+// a file as a killed writer leaves it: saved, and marked as open
+std::string left_open(std::string const& name, unsigned mode) {
+  auto const path = data_test::folder() / name;
+  hid_t const access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC | mode, H5P_DEFAULT, access);
+  hsize_t const rows = 6, open_end = H5S_UNLIMITED, chunk = 3;
+  hid_t const space = H5Screate_simple(1, &rows, &open_end), creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(creation, 1, &chunk);
+  for (char const* signal : {"t", "q"}) {
+    hid_t const id = H5Dcreate2(file, signal, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, ramp(6).data());
+    H5Dclose(id);
+  }
+  H5Fflush(file, H5F_SCOPE_GLOBAL);
+  auto const bytes = read_whole_file(path);
+  H5Pclose(creation);
+  H5Sclose(space);
+  H5Pclose(access);
+  H5Fclose(file);
+  return bytes;
+}
+
+TEST(Hdf5Reader, ReadsWhatAKilledWriterSaved) {
+  for (unsigned const mode : {0U, H5F_ACC_SWMR_WRITE}) {
+    auto const bytes = left_open("open.h5", mode);
+    ASSERT_NE(bytes[11], 0);
+    auto const table = read_table(data_test::write("left.h5", bytes), recording_section());
+    EXPECT_EQ(table.columns[column_of(table, "q")], ramp(6));
+    EXPECT_EQ(table.sha256, sha256_hex(bytes));  // of the file as it is
+    ASSERT_EQ(table.remarks.size(), 1u);
+    EXPECT_NE(table.remarks[0].find("is marked as open"), std::string::npos);
+    auto const part = problem_of(
+        [&] { read_table(data_test::write("part.h5", bytes.substr(0, bytes.size() / 2)), recording_section()); });
+    EXPECT_NE(part.what.find("was left open by the program that wrote it"), std::string::npos);
+  }
+}
+
+TEST(OpenFlags, AreClearedOnlyInAWholeSuperblock) {
+  auto const bytes = left_open("open.h5", 0);
+  auto cleared = bytes;
+  EXPECT_TRUE(clear_open_flags(cleared));
+  EXPECT_EQ(cleared[11], 0);
+  EXPECT_EQ(cleared.substr(48), bytes.substr(48));
+  EXPECT_FALSE(clear_open_flags(cleared));
+  auto damaged = bytes;
+  damaged[20] = static_cast<char>(damaged[20] ^ 1);
+  EXPECT_FALSE(clear_open_flags(damaged));
+  std::string none;
+  EXPECT_FALSE(clear_open_flags(none));
+}
+
+TEST(Hdf5Reader, FieldsOfStructuresAreColumns) {
+  struct Row {
+    double t;
+    float q[2];
+    char const* text;
+  };
+  {
+    Hdf5File file("rows.h5");
+    hsize_t const two = 2;
+    hid_t const pair = H5Tarray_create2(H5T_NATIVE_FLOAT, 1, &two), text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, H5T_VARIABLE);
+    hid_t const type = H5Tcreate(H5T_COMPOUND, sizeof(Row));
+    H5Tinsert(type, "t", HOFFSET(Row, t), H5T_NATIVE_DOUBLE);
+    H5Tinsert(type, "q", HOFFSET(Row, q), pair);
+    H5Tinsert(type, "text", HOFFSET(Row, text), text);
+    std::vector<Row> const rows{{0.5, {1, 2}, "a"}, {1.5, {3, 4}, "b"}};
+    file.dataset("log", {2}, type, type, rows.data());
+    H5Tclose(type);
+    H5Tclose(text);
+    H5Tclose(pair);
+  }
+  auto const table = read_table(data_test::folder() / "rows.h5", recording_section());
+  EXPECT_EQ(table.columns[column_of(table, "log/t")], (std::vector<double>{0.5, 1.5}));
+  EXPECT_EQ(table.columns[column_of(table, "log/q[1]")], (std::vector<double>{2, 4}));
+  EXPECT_EQ(reason_of(table, "log/text"), "is not made of plain real numbers");
 }
 
 TEST(Hdf5Reader, Matlab73IsTransposedBehindItsUserBlock) {
