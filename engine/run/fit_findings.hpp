@@ -1,8 +1,8 @@
 #pragma once
 // What the least squares fit of a job's model says of its recordings: masses and frictions that are surely negative.
 //
-// Surely     more than four HAC standard errors below zero (problem/hac.hpp); two where the torque also takes work out of
-//            the joint, which no passive joint allows: that is a fault, the other a warning
+// Surely     more than four HAC standard errors below zero (problem/hac.hpp); two where the torque also takes work out
+//            of the joint, which no passive joint allows: that is a fault, the other a warning
 // Threads    free function
 
 #include <vector>

@@ -2,8 +2,8 @@
 // The box the population methods look in: [model.bounds] with "every = [-1, 1]" for all parameters, "inertia = [0, 2]"
 // for one; without it a box that the recordings suggest.
 //
-// Default    of a parameter -b .. b, b the power of ten at or above three times the least squares value and its standard
-//            error together: wide enough for every loss, and no hint where in it the optimum is
+// Default    of a parameter -b .. b, b the power of ten at or above three times the least squares value and its
+//            standard error together: wide enough for every loss, and no hint where in it the optimum is
 // Errors     problems are appended (78): unknown parameter, not two numbers, low not below high
 // Threads    free functions
 
