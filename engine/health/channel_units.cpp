@@ -12,7 +12,10 @@ namespace {
 
 std::optional<NamedUnit> unit_of(Examination const& exam, std::string const& channel) {
   if (!exam.has(channel)) return {};
-  return unit_of_name(exam.channels.at(channel).column);
+  auto const& column = exam.channels.at(channel).column;
+  auto const& names = exam.table.names;
+  auto const at = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  return unit_of_name(column, at < exam.table.units.size() ? exam.table.units[at] : std::string());
 }
 
 void examine_position_unit(Examination& exam) {

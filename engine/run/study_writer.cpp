@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/effects/joint_form.hpp"
+#include "engine/health/finding_text.hpp"
 
 namespace torquescope {
 
@@ -105,6 +106,10 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   else
     writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
   std::vector<std::string> warnings;
+  for (auto const& recording : set.recordings)
+    for (auto const& finding : recording.findings)
+      if (finding.grade != Grade::note)
+        warnings.push_back(fmt::format("{}: {}: {}", recording.name, code_of(finding.kind), sentence_with_cure(finding)));
   for (auto const& recording : set.recordings)
     for (auto const& warning : recording.warnings)
       warnings.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));

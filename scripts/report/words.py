@@ -16,7 +16,10 @@ def verdict(study):
     """mark, word, tone ("ink" or "ochre"), sentence, evidence: what was found, in one look."""
     words = study.health.words or ""
     late = [e for e in study.searches if not _arrived(e)]
-    if words:
+    if (negative := _less_than_none(study)):
+        mark, word, tone = "▽", "Not physical", "ochre"
+        words = f"Less than none is fitted of {q.listed(negative)}. {words}".strip()
+    elif words:
         mark, word, tone = "▽", "Identified, but poorly separable", "ochre"
     elif late:
         mark, word, tone = "◌", "Not converged", "ochre"
@@ -31,6 +34,15 @@ def verdict(study):
         "headlines": [sentence],
         "evidence": _evidence(study, words),
     }
+
+
+def _less_than_none(study):
+    """Masses and frictions whose 95 % interval of least squares lies below zero."""
+    fit = study.ols
+    if fit is None or fit.ci95 is None:
+        return []
+    return [name for name, (_, upper) in zip(study.model.names, fit.ci95[0])
+            if name in ("inertia", "viscous", "coulomb") and upper < 0]
 
 
 def _arrived(e):
@@ -158,7 +170,7 @@ def recording_answer(study):
         f"{q.count(data.rows, 'sample')} kept at {q.tick(data.kept_rate_hz)} Hz, {q.count(data.reversals, 'reversal')}."
     )
     warnings = len(data.warned)
-    return said + (f" {q.count(warnings, 'warning')}, listed below." if warnings else " No warnings.")
+    return said + (f" {q.count(warnings, 'warning')}, listed at the top." if warnings else " No warnings.")
 
 
 def stop_reasons(e):

@@ -30,6 +30,7 @@ void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments
   ResultReader const reader(summary.file);
   Diagnosis const diagnosis = read_diagnosis(reader);
   Ink const& ink = session.result_ink();
+  session.result(warning_lines(summary, ink));
   session.verdict(verdict_text(diagnosis, session.utf8(), ink));
   session.result(evidence_text(diagnosis, {.all_candidates = arguments.all, .utf8 = session.utf8()}, ink));
   session.result("\n" + diagnosed_model_text(diagnosis, ink) + "\n" + origin_lines(summary, ink));

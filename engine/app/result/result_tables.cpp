@@ -208,12 +208,16 @@ std::string origin_lines(ResultSummary const& summary, Ink const& ink) {
     text += hanging("  time     ", fmt::format("{} to {}, {}", printable(made.started), printable(made.finished),
                                                seconds_text(made.seconds)));
   text += hanging("  content  ", fmt::format("sha256 {:.16}, {}", summary.content_sha256, bytes_text(summary.bytes)));
-  if (!summary.health_words.empty())
-    text += hanging("  " + ink.warning("warn") + "     ", printable(summary.health_words));
-  for (auto const* data : {&summary.train, &summary.validation})
-    for (auto const& warning : data->warnings)
-      text += hanging("  " + ink.warning("warn") + "     ", printable(warning));
   return text;
+}
+
+std::string warning_lines(ResultSummary const& summary, Ink const& ink) {
+  std::string text;
+  auto const add = [&](std::string const& warning) { text += hanging(ink.warning("warn") + "  ", printable(warning)); };
+  for (auto const* data : {&summary.train, &summary.validation})
+    for (auto const& warning : data->warnings) add(warning);
+  if (!summary.health_words.empty()) add(summary.health_words);
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace torquescope

@@ -14,7 +14,10 @@ std::string result_table(ResultSummary const& summary, Ink const& ink);
 // one line or two per estimator: median, quartiles, best, worst of the MSE and why the runs ended
 std::string estimator_lines(ResultSummary const& summary, Ink const& ink);
 
-// job, data, machine and warnings: how the file was made
+// what `check` would warn of: stands above every table; "" where there is nothing
+std::string warning_lines(ResultSummary const& summary, Ink const& ink);
+
+// job, data and machine: how the file was made
 std::string origin_lines(ResultSummary const& summary, Ink const& ink);
 
 // "OLS" for an estimator named after its kind, else its label
