@@ -7,12 +7,14 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/stack_limit.hpp"
 #include "engine/data/change_of_rate.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/health/make_recording.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_recordings.hpp"
 
@@ -39,6 +41,14 @@ void check_work(Job const& job, Experiment::Purpose purpose, std::vector<Problem
   problems.push_back(missing(job, "the job has no [[estimator]]", std::move(help)));
 }
 
+void check_name(Job const& job, std::string const& name, std::vector<Problem>& problems) {
+  if (is_a_name(name)) return;
+  auto const* section = job.find("experiment");
+  if (section != nullptr)
+    problems.push_back(problem_at(*section, "name", "the name of an experiment has no \"/\" and no control characters",
+                                  "a path belongs into --out, or [output] file"));
+}
+
 void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {
   bool const reads = !recording.train.empty();
   bool const simulates = job.find("simulate") != nullptr;
@@ -53,8 +63,11 @@ void check_sources(Job const& job, RecordingOptions const& recording, std::vecto
 std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> const& files,
                                        RecordingOptions const& options, Section const& section) {
   std::vector<Recording> recordings;
-  for (auto const& file : files)
-    recordings.push_back(make_recording(read_table(job.resolve(file), section), options, section));
+  for (auto const& file : files) {
+    RawTable const table = read_table(job.resolve(file), section);
+    refuse_huge_samples(table, options);
+    recordings.push_back(make_recording(table, options, section));
+  }
   return recordings;
 }
 
@@ -226,6 +239,7 @@ Experiment::Experiment(Experiment&&) noexcept = default;
 Experiment::~Experiment() = default;
 
 Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpose) {
+  refuse_small_stack();
   auto parts = std::make_unique<Parts>();
   parts->job = read_job(job_file);
   Job const& job = parts->job;
@@ -235,6 +249,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   check_section_names(job, problems);
   parts->experiment = read_options<ExperimentOptions>(job, problems);
   if (parts->experiment.name.empty()) parts->experiment.name = job_file.stem().string();
+  check_name(job, parts->experiment.name, problems);
   parts->output = read_options<OutputOptions>(job, problems);
   parts->filter = read_options<FilterOptions>(job, problems);
   auto const recording = read_options<RecordingOptions>(job, problems);

@@ -133,7 +133,9 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
         diagnose_into_file(experiment, request, [&] { return diagnose_examined(experiment, job.input(), sink); });
     if (shard && request.tell) request.tell("shard", shard->twins().account());
     // also those of shards that were killed, when one process made it all in the end
-    if (shard || twin_parts_in(segment_folder_of(request.output)) > 0) remove_segments(request.output);
+    if (shard || twin_parts_in(segment_folder_of(request.output)) > 0)
+      for (auto const& warning : remove_segments(request.output, experiment.inputs_sha256()))
+        if (request.tell) request.tell("warning", warning);
     remove_unfinished(request.output);
     return diagnosis;
   } catch (TwinsAbandoned const&) {

@@ -16,7 +16,8 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
   // would leave
   { TempFile const asked(request.output); }
   Diagnosis diagnosis = find();
-  ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});
+  ResultWriter writer(request.output,
+                      {.gzip = parts.output.compression == "gzip", .inputs_sha256 = experiment.inputs_sha256()});
   write_study(writer, experiment);
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))

@@ -5,6 +5,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/store/disk_failure.hpp"
+#include "engine/store/result_files.hpp"
 
 namespace torquescope {
 namespace {
@@ -43,6 +44,7 @@ struct Wish {
 };
 
 void check(Wish const& wish, std::uintmax_t needed, std::filesystem::path const& file) {
+  refuse_long_name(wish.output);
   auto const free = free_bytes_for(wish.output);
   if (!free || *free >= needed) return;
   std::string const words = fmt::format("{} needs up to {} bytes, and {} are free there", file.string(), needed, *free);

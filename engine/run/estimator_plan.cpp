@@ -6,6 +6,8 @@
 #include <charconv>
 #include <set>
 
+#include "engine/run/job_sections.hpp"
+
 namespace torquescope {
 
 OptionTable<EstimatorOptions> const& EstimatorOptions::table() {
@@ -111,6 +113,9 @@ std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& se
     EstimatorPlan plan;
     plan.kind = options.name;
     plan.label = options.label.empty() ? options.name : options.label;
+    if (!is_a_name(plan.label))
+      problems.push_back(problem_at(*section, "label", "a label has no \"/\" and no control characters",
+                                    "it names a group of the result and files of figures"));
     if (!labels.insert(plan.label).second) {
       problems.push_back(problem_at(*section, options.label.empty() ? "name" : "label",
                                     fmt::format("two estimators are called \"{}\"", plan.label),

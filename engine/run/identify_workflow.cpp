@@ -117,6 +117,11 @@ void warn_of_bounds(Study const& study, EstimatorPlan const& plan, RunResults co
                    fmt::join(names, ", ")));
 }
 
+// the result stands: what it was made of is no longer wanted
+void tidy_up(IdentifyOptions const& options, std::string const& inputs_sha256) {
+  for (auto const& warning : remove_segments(options.output, inputs_sha256)) tell(options, "warning", warning);
+}
+
 void tell_what_was_done(Attempt const& attempt) {
   for (auto const& warning : attempt.saved.warnings()) tell(attempt.options, "warning", warning);
   if (attempt.saved.mixed())
@@ -132,8 +137,9 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   Beginning const beginning;
   auto const& options = attempt.options;
   auto const& parts = experiment.parts();
-  ResultWriter writer(options.output,
-                      {.gzip = parts.output.compression == "gzip", .expected_bytes = result_bytes(parts)});
+  ResultWriter writer(options.output, {.gzip = parts.output.compression == "gzip",
+                                       .expected_bytes = result_bytes(parts),
+                                       .inputs_sha256 = experiment.inputs_sha256()});
   write_study(writer, experiment);
   experiment.forget_motion();
 
@@ -166,6 +172,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
 
 IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
   IdentifyReport report;
+  std::string const inputs = experiment.inputs_sha256();
   {
     ShardLock const lock(options.output, {});
     Attempt attempt(experiment, options);
@@ -178,7 +185,7 @@ IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, P
       stop_and_save(attempt);
     }
   }
-  remove_segments(options.output);
+  tidy_up(options, inputs);
   return report;
 }
 
@@ -199,9 +206,10 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
   if (count > 0)
     tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
   check_room(options, result_bytes(experiment.parts()), options.output);
+  std::string const inputs = experiment.inputs_sha256();
   IdentifyReport const report = write_result(std::move(experiment), attempt, true, progress);
   // of a part of the runs, the segments are still wanted
-  if (count == 0) remove_segments(options.output);
+  if (count == 0) tidy_up(options, inputs);
   return report;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace torquescope {
 
 std::vector<std::string> const& known_sections() {
@@ -42,6 +44,12 @@ void check_section_names(Job const& job, std::vector<Problem>& problems) {
 Section section_or_empty(Job const& job, std::string const& name) {
   if (Section const* section = job.find(name)) return *section;
   return Section{name, SourcePlace{job.path.string(), 0, 0, 0, ""}, {}};
+}
+
+bool is_a_name(std::string const& text) {
+  return text != "." && text != ".." && std::none_of(text.begin(), text.end(), [](unsigned char letter) {
+           return letter == '/' || letter < ' ' || letter == 127;
+         });
 }
 
 }  // namespace torquescope

@@ -24,4 +24,7 @@ Options read_options(Job const& job, std::vector<Problem>& problems) {
   return options;
 }
 
+// what becomes the name of a file, a line of a batch script and words on a page is never a path, and never two lines
+bool is_a_name(std::string const& text);
+
 }  // namespace torquescope

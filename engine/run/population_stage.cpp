@@ -51,6 +51,7 @@ SegmentOrigin origin_of(Experiment const& experiment, IdentifyOptions const& opt
 
 SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& options) {
   SavedRunsRequest request;
+  refuse_foreign_folder(segment_folder_of(options.output));
   request.folders = {segment_folder_of(options.output)};
   request.folders.insert(request.folders.end(), options.more_segments.begin(), options.more_segments.end());
   request.expected = origin_of(experiment, options);

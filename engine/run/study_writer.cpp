@@ -109,7 +109,8 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   for (auto const& recording : set.recordings)
     for (auto const& finding : recording.findings)
       if (finding.grade != Grade::note)
-        warnings.push_back(fmt::format("{}: {}: {}", recording.name, code_of(finding.kind), sentence_with_cure(finding)));
+        warnings.push_back(
+            fmt::format("{}: {}: {}", recording.name, code_of(finding.kind), sentence_with_cure(finding)));
   for (auto const& recording : set.recordings)
     for (auto const& warning : recording.warnings)
       warnings.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));

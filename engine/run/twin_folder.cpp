@@ -2,7 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +17,7 @@
 #include "engine/run/code_identity.hpp"
 #include "engine/simulate/twin_lanes.hpp"
 #include "engine/store/disk_failure.hpp"
+#include "engine/store/file_seal.hpp"
 
 namespace torquescope {
 namespace {
@@ -26,16 +29,17 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 // "this one is being computed": as long as its process lives, or has it
 class Claim {
  public:
-  explicit Claim(std::filesystem::path file) : file_(std::move(file)) {
+  Claim(OwnFolder const& folder, std::string file) : folder_(folder), file_(std::move(file)) {
     constexpr mode_t anybody_as_umask_allows = 0666;
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, anybody_as_umask_allows);
+    descriptor_ = folder_.open(file_, O_RDWR | O_CREAT | O_NONBLOCK, anybody_as_umask_allows);
     // without files or locks nobody waits for anybody
     is_ours_ = descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
   }
   ~Claim() {
     if (descriptor_ < 0) return;
     // its name goes first: whoever gets the lock of a file without one finds the part published
-    if (is_ours_) ::unlink(file_.c_str());
+    struct stat facts {};
+    if (is_ours_ && ::fstat(descriptor_, &facts) == 0 && facts.st_size == 0) folder_.unlink(file_);
     ::close(descriptor_);
   }
   Claim(Claim const&) = delete;
@@ -44,7 +48,8 @@ class Claim {
   bool is_ours() const { return is_ours_; }
 
  private:
-  std::filesystem::path file_;
+  OwnFolder const& folder_;
+  std::string file_;
   int descriptor_ = -1;
   bool is_ours_ = false;
 };
@@ -58,7 +63,10 @@ void look_again(std::filesystem::path const& folder) {
 }  // namespace
 
 TwinFolder::TwinFolder(Setting setting)
-    : setting_(std::move(setting)), folder_(segment_folder_of(setting_.result)), program_(numerics_sha256()) {}
+    : setting_(std::move(setting)),
+      folder_(segment_folder_of(setting_.result)),
+      job_(job_identity(setting_.inputs_sha256, Keeps::work)),
+      program_(numerics_sha256()) {}
 
 void TwinFolder::warn(std::string const& text) const {
   if (setting_.tell) setting_.tell("warning", text);
@@ -84,12 +92,13 @@ std::vector<TwinFolder::Part> TwinFolder::parts_of(TwinBatch const& batch) const
     Part part;
     part.range.from = batch.range.from + groups * i / n * twin_lanes;
     part.range.to = std::min(batch.range.to, batch.range.from + groups * (i + 1) / n * twin_lanes);
-    part.file = folder_ / fmt::format("batch-{:04}.part-{:03}-of-{:03}.twins", batches_, i, n);
+    part.file = folder_.path() / fmt::format("batch-{:04}.part-{:03}-of-{:03}.{:02x}.twins", batches_, i, n,
+                                             fmt::join(std::span(job_).first(4), ""));
     Digest key;
     for (auto const& text : {std::string("twins 1"), setting_.inputs_sha256, program_, batch.identity,
                              fmt::format("{} {} {} {}", batches_, part.range.from, part.range.to, batch.numbers)})
       key.text(text);
-    part.key = key.raw();
+    part.key = {job_, key.raw()};
     parts.push_back(std::move(part));
   }
   // our own share first
@@ -114,7 +123,7 @@ void TwinFolder::fill_parts(TwinBatch const& batch, std::vector<Part> parts) {
   auto since = Clock::now();
   while (!parts.empty()) {
     std::size_t const before = parts.size();
-    std::erase_if(parts, [&](Part const& part) { return take(batch, part) || claim_and_make(batch, part); });
+    std::erase_if(parts, [&](Part& part) { return take(batch, part) || claim_and_make(batch, part); });
     if (parts.empty()) return;
     if (parts.size() < before) {
       since = Clock::now();
@@ -129,18 +138,21 @@ void TwinFolder::fill_parts(TwinBatch const& batch, std::vector<Part> parts) {
     }
     // seldom enough for a file server, and no more than a twentieth too late
     std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(0.05 * waited, 0.001, 0.1)));
-    look_again(folder_);
+    look_again(folder_.path());
   }
 }
 
-bool TwinFolder::take(TwinBatch const& batch, Part const& part) {
+bool TwinFolder::take(TwinBatch const& batch, Part& part) {
   if (setting_.must_end && setting_.must_end()) throw TwinsAbandoned();
   numbers_.resize(part.range.size() * batch.numbers);
   NumberFile const found = read_number_file(part.file, part.key, numbers_);
   if (found == NumberFile::damaged) {
     warn(fmt::format("{} is damaged; its twins are simulated again", part.file.string()));
-    ::unlink(part.file.c_str());
+    folder_.unlink(part.file.filename().string());
   }
+  if (found == NumberFile::foreign && !std::exchange(part.is_foreign, true))
+    warn(fmt::format("{} is no part of this diagnosis: it stays as it is, and its twins are not shared",
+                     part.file.string()));
   if (found != NumberFile::whole) return false;
   for (std::size_t i = 0; i < part.range.size(); ++i)
     batch.put(part.range.from + i, std::span(numbers_).subspan(i * batch.numbers, batch.numbers));
@@ -149,8 +161,8 @@ bool TwinFolder::take(TwinBatch const& batch, Part const& part) {
 }
 
 // false: another process is at it
-bool TwinFolder::claim_and_make(TwinBatch const& batch, Part const& part) {
-  Claim const claim(part.file.string() + ".lock");
+bool TwinFolder::claim_and_make(TwinBatch const& batch, Part& part) {
+  Claim const claim(folder_, part.file.filename().string() + ".lock");
   if (!claim.is_ours()) return false;
   // it may have been published since we looked
   if (!take(batch, part)) make(batch, part);
@@ -162,7 +174,7 @@ void TwinFolder::make(TwinBatch const& batch, Part const& part) {
   batch.compute(part.range);
   longest_part_s_ = std::max(longest_part_s_, seconds_since(start));
   ++made_;
-  if (publishes_) publish(batch, part);
+  if (publishes_ && !part.is_foreign) publish(batch, part);
 }
 
 // without it nothing is wrong: others compute it as well

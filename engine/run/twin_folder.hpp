@@ -7,7 +7,8 @@
 // Waiting    for parts of a living process, no longer than they could take; then they are computed here
 // Trust      a part counts when its bytes fit their SHA-256 and its key: job, recordings, program, batch, inputs
 // No disk    nothing is published where it would take the room of the result; without locks everybody computes
-// Files      batch-<number>.part-<i>-of-<n>.twins and .lock beside it; removed with the folder when the result stands
+// Files      batch-<number>.part-<i>-of-<n>.<8 letters of the job>.twins and .lock beside it; removed with the folder
+//            when the result stands. A file of such a name that is not of this job is neither read nor replaced
 // Errors     TwinsAbandoned when a stop is asked for, or another process has published the result
 // Threads    as TwinExchange
 
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "engine/store/number_file.hpp"
+#include "engine/store/own_folder.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/twin/twin_exchange.hpp"
 
@@ -47,20 +49,22 @@ class TwinFolder final : public TwinExchange {
   struct Part {
     TwinRange range;
     std::filesystem::path file;
-    Sha256 key;
+    NumberFileKey key;
+    bool is_foreign = false;  // somebody else's file stands there
   };
 
   bool is_worth_it(TwinBatch const& batch) const;
   std::vector<Part> parts_of(TwinBatch const& batch) const;
   void fill_parts(TwinBatch const& batch, std::vector<Part> parts);
-  bool take(TwinBatch const& batch, Part const& part);
-  bool claim_and_make(TwinBatch const& batch, Part const& part);
+  bool take(TwinBatch const& batch, Part& part);
+  bool claim_and_make(TwinBatch const& batch, Part& part);
   void make(TwinBatch const& batch, Part const& part);
   void publish(TwinBatch const& batch, Part const& part);
   void warn(std::string const& text) const;
 
   Setting setting_;
-  std::filesystem::path folder_;
+  OwnFolder folder_;
+  Sha256 job_;
   std::string program_;
   bool publishes_ = true;
   std::size_t batches_ = 0, taken_ = 0, made_ = 0;

@@ -24,6 +24,7 @@ namespace torquescope {
 
 // root attributes that say something about the file rather than about its content
 inline constexpr char complete_key[] = "complete";
+inline constexpr char sealed_key[] = "sealed";  // 1: the file ends with a seal (file_seal.hpp)
 inline constexpr char content_digest_key[] = "content_sha256";
 inline constexpr char provenance_digest_key[] = "provenance_sha256";  // of files that have the group
 inline constexpr char provenance_path[] = "/provenance";

@@ -30,6 +30,10 @@ class FileWalk {
   void add_object(std::string const& path) {
     if (is_volatile(path) != (part_ == FilePart::provenance)) return;
     std::vector<std::string> children;
+    // each step is made again for every object below it
+    constexpr std::ptrdiff_t most_steps = 32;
+    if (std::count(path.begin(), path.end(), '/') > most_steps)
+      throw h5::Failure("it lies deeper than anything in a result", path.substr(0, 100) + "...");
     try {
       h5::Handle const object = h5::open_object(file_, path);
       // groups within themselves have no end, and pairs of names double with each level

@@ -82,7 +82,7 @@ bool Handle::close() noexcept {
 
 Handle property_list(std::int64_t kind) { return Handle(checked(H5Pcreate(kind), "prepare a property list")); }
 
-Handle create_file(TempFile& file) {
+Handle create_file(TempFile& file, ByteRanges& values) {
   prepare_library();
   Handle const access = access_list();
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), "choose the file version");
@@ -92,7 +92,7 @@ Handle create_file(TempFile& file) {
   constexpr hsize_t metadata_bytes = std::size_t{16} << 10;
   if (file.expected_bytes() >= larger)
     checked(H5Pset_meta_block_size(access.id(), metadata_bytes), "gather the metadata");
-  if (!use_output_driver(access.id(), file)) fail("use the output driver");
+  if (!use_output_driver(access.id(), file, values)) fail("use the output driver");
   Handle const creation = property_list(H5P_FILE_CREATE);
   checked(H5Pset_obj_track_times(creation.id(), 0), "switch times off");
   return Handle(

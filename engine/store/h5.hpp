@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "engine/base/options.hpp"
+#include "engine/store/byte_ranges.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope::h5 {
@@ -89,7 +90,8 @@ struct PaddedTexts {
 };
 
 // h5.cpp
-Handle create_file(TempFile& file);
+// values: is told where the chunks of values lie; lives as long as the file is open
+Handle create_file(TempFile& file, ByteRanges& values);
 Handle open_file(std::filesystem::path const& name);
 bool is_hdf5(std::filesystem::path const& name);
 void flush(Handle const& file);

@@ -9,12 +9,14 @@ namespace {
 
 struct DriverInfo {
   TempFile* file;
+  ByteRanges* values;
 };
 
 // HDF5 hands out and takes back pointers to the first member
 struct OutputFile {
   H5FD_t base{};
   TempFile* file = nullptr;
+  ByteRanges* values = nullptr;
   haddr_t allocated = 0;  // end of what HDF5 has handed out
 };
 
@@ -26,6 +28,7 @@ H5FD_t* open_file(char const*, unsigned, hid_t access_list, haddr_t) {
   if (!info) return nullptr;
   auto output = std::make_unique<OutputFile>();
   output->file = info->file;
+  output->values = info->values;
   return &output.release()->base;
 }
 
@@ -54,7 +57,9 @@ herr_t read_bytes(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t offset, std::size_t s
   return file_of(base).read_at(offset, data, size) ? 0 : -1;
 }
 
-herr_t write_bytes(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, void const* data) {
+herr_t write_bytes(H5FD_t* base, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, void const* data) {
+  auto& values = *reinterpret_cast<OutputFile*>(base)->values;
+  kind == H5FD_MEM_DRAW ? values.add(offset, offset + size) : values.remove(offset, offset + size);
   file_of(base).write_at(offset, data, size);
   return 0;
 }
@@ -87,10 +92,10 @@ H5FD_class_t make_driver_class() {
 
 }  // namespace
 
-bool use_output_driver(std::int64_t access_list, TempFile& file) {
+bool use_output_driver(std::int64_t access_list, TempFile& file, ByteRanges& values) {
   static H5FD_class_t const driver_class = make_driver_class();
   static hid_t const driver = H5FDregister(&driver_class);
-  DriverInfo const info{&file};
+  DriverInfo const info{&file, &values};
   return driver >= 0 && H5Pset_driver(access_list, driver, &info) >= 0;
 }
 

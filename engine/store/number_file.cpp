@@ -16,13 +16,13 @@ namespace {
 
 struct Head {
   char letters[8];
-  Sha256 key;
+  Sha256 job, key;
   std::uint64_t count;
 };
-static_assert(sizeof(Head) == 48);
+static_assert(sizeof(Head) == 80);
 
-Head head_of(Sha256 const& key, std::size_t count) {
-  return {{'T', 'S', 'N', 'U', 'M', 'S', '0', '1'}, key, static_cast<std::uint64_t>(count)};
+Head head_of(NumberFileKey const& key, std::size_t count) {
+  return {{'T', 'S', 'N', 'U', 'M', 'S', '0', '2'}, key.job, key.key, static_cast<std::uint64_t>(count)};
 }
 
 Sha256 digest_of(Head const& head, std::span<double const> numbers) {
@@ -66,7 +66,7 @@ class OpenFile {
 
 std::size_t number_file_bytes(std::size_t numbers) { return sizeof(Head) + numbers * sizeof(double) + sizeof(Sha256); }
 
-void write_number_file(std::filesystem::path const& name, Sha256 const& key, std::span<double const> numbers) {
+void write_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double const> numbers) {
   Head const head = head_of(key, numbers.size());
   Sha256 const digest = digest_of(head, numbers);
   TempFile file(name, number_file_bytes(numbers.size()));
@@ -76,19 +76,28 @@ void write_number_file(std::filesystem::path const& name, Sha256 const& key, std
   file.publish();
 }
 
-NumberFile read_number_file(std::filesystem::path const& name, Sha256 const& key, std::span<double> numbers) {
+NumberFile read_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double> numbers) {
   OpenFile const file(name);
-  if (!file.is_open()) return errno == ENOENT ? NumberFile::missing : NumberFile::damaged;
+  if (!file.is_open()) return errno == ENOENT ? NumberFile::missing : NumberFile::foreign;
   Head const wanted = head_of(key, numbers.size());
   Head head{};
-  if (!file.read(&head, sizeof head) || std::memcmp(head.letters, wanted.letters, sizeof head.letters) != 0)
-    return NumberFile::damaged;
-  // of another key: nothing is said about its numbers, nobody wants them
-  if (head.key != wanted.key) return NumberFile::foreign;
+  if (!file.read(&head, sizeof head) || std::memcmp(head.letters, wanted.letters, sizeof head.letters) != 0 ||
+      head.job != wanted.job)
+    return NumberFile::foreign;
+  // nothing is said about its numbers, nobody wants them
+  if (head.key != wanted.key) return NumberFile::outdated;
   Sha256 digest{};
   bool const is_read = head.count == wanted.count && file.has_bytes(number_file_bytes(numbers.size())) &&
                        file.read(numbers.data(), numbers.size_bytes()) && file.read(digest.data(), digest.size());
   return is_read && digest == digest_of(wanted, numbers) ? NumberFile::whole : NumberFile::damaged;
+}
+
+std::optional<Sha256> number_file_identity(int descriptor) {
+  Head const ours = head_of({}, 0);
+  Head head{};
+  bool const is_read = unless_interrupted([&] { return ::pread(descriptor, &head, sizeof head, 0); }) == sizeof head;
+  if (!is_read || std::memcmp(head.letters, ours.letters, sizeof head.letters) != 0) return std::nullopt;
+  return head.job;
 }
 
 }  // namespace torquescope

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/store/disk_failure.hpp"
+#include "engine/store/file_seal.hpp"
 #include "engine/store/result_writer.hpp"
 
 namespace torquescope {
@@ -38,6 +39,7 @@ void check_is_file(fs::path const& name) {
 
 h5::Handle open_checked(fs::path const& name) {
   check_is_file(name);
+  if (check_seal(name) == Seal::broken) throw damaged(name, "", "its bytes do not match their sha256");
   try {
     return h5::open_file(name);
   } catch (h5::Failure const& failure) {
@@ -195,7 +197,16 @@ ReadFacts ResultReader::verified_content() const {
   return found;
 }
 
-std::string ResultReader::verify() const { return verified_content().sha256; }
+void ResultReader::expect_seal() const {
+  if (find_attribute<std::int64_t>("/", sealed_key).value_or(0) == 1 && check_seal(name_) != Seal::whole)
+    throw damaged(name_, "", "its seal is missing: another program wrote into it, or its end is lost");
+}
+
+std::string ResultReader::verify() const {
+  std::string sha256 = verified_content().sha256;
+  expect_seal();
+  return sha256;
+}
 
 std::string verify_result(fs::path const& name) { return ResultReader(name).verify(); }
 

@@ -1,9 +1,10 @@
 #pragma once
 // Reads a result file (RESULT_FORMAT.md) and trusts nothing that it has not checked.
 //
-// Checked    at opening: regular file, HDF5, ours, complete, format not newer; at each object: the checksum of its
-//            header and of each chunk; type; size against that of the file, before memory is taken. Links to elsewhere
-//            are refused. verify_result() reads everything and compares content_sha256
+// Checked    at opening: regular file, the seal of its bytes before HDF5 sees them (file_seal.hpp), HDF5, ours,
+//            complete, format not newer; at each object: the checksum of its header, and of each chunk of values; type;
+//            size against that of the file, before memory is taken. Links to elsewhere are refused. verify_result()
+//            reads everything and compares content_sha256: it also notices what another program changed on purpose.
 // Errors     Error 66 when there is no such file; 74 when the disk cannot read it; 65 when anything above does not hold
 //            (the message names the dataset), or what the format promises is missing
 // Threads    one at a time, and nothing else in the process may use HDF5 meanwhile
@@ -58,7 +59,9 @@ class ResultReader {
   ReadFacts read_everything(FilePart part) const;
   // reads everything; throws unless it is what was written
   ReadFacts verified_content() const;
-  // the same; returns content_sha256
+  // throws when the file promises a seal at its end, and has none
+  void expect_seal() const;
+  // both; returns content_sha256
   std::string verify() const;
 
  private:

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/version.hpp"
@@ -64,9 +65,12 @@ void ResultWriter::guarded(std::string const& path, Write&& write) {
 }
 
 ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
-    : options_(options), written_(final_name), chunks_(options.gzip), temp_(final_name, options.expected_bytes) {
+    : options_(std::move(options)),
+      written_(final_name),
+      chunks_(options_.gzip),
+      temp_(final_name, options_.expected_bytes) {
   try {
-    file_ = h5::create_file(temp_);
+    file_ = h5::create_file(temp_, values_);
   } catch (h5::Failure const& failure) {
     temp_.check();
     throw cannot_write(final_name, "/", failure);
@@ -74,6 +78,7 @@ ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriter
   written_.keep_object("/");
   attribute("/", "format", result_format);
   attribute("/", "creator", std::string("torquescope ") + version);
+  attribute("/", sealed_key, std::int64_t{1});
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -274,6 +279,7 @@ std::string ResultWriter::finish() {
   bool const closed = file_.close();
   temp_.check();
   if (!closed) throw cannot_write(temp_.final_name(), "/", h5::Failure("HDF5 could not close the file"));
+  seal_file(temp_, values_, job_identity(options_.inputs_sha256, options_.keeps));
   temp_.publish();
   return sha256;
 }

@@ -25,8 +25,10 @@
 #include <vector>
 
 #include "engine/base/options.hpp"
+#include "engine/store/byte_ranges.hpp"
 #include "engine/store/chunk_writer.hpp"
 #include "engine/store/content_digest.hpp"
+#include "engine/store/file_seal.hpp"
 #include "engine/store/h5.hpp"
 #include "engine/store/run_blocks.hpp"
 #include "engine/store/temp_file.hpp"
@@ -39,6 +41,8 @@ inline constexpr std::int64_t result_format = 2;
 struct ResultWriterOptions {
   bool gzip = false;                  // level 1 without shuffle: a fifth of the size for histories, five times the time
   std::uintmax_t expected_bytes = 0;  // as far as that is known: said where there is no room
+  std::string inputs_sha256{};        // of the job it belongs to: its identity in the seal (file_seal.hpp)
+  Keeps keeps = Keeps::result;
 };
 
 // what a dataset says about itself
@@ -114,6 +118,7 @@ class ResultWriter {
   WrittenResult written_;
   ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them
+  ByteRanges values_;
   h5::Handle file_;
   std::map<std::string, h5::Handle> groups_;  // those met so far: HDF5 walks from the root to each of them in 10 us
   std::map<std::string, RunDataset> runs_;

@@ -9,10 +9,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "engine/base/error.hpp"
 #include "engine/store/disk_failure.hpp"
+#include "engine/store/file_seal.hpp"
+#include "engine/store/number_file.hpp"
+#include "engine/store/own_folder.hpp"
 #include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
 
@@ -32,27 +38,72 @@ std::vector<fs::path> files_in(fs::path const& folder, std::error_code& failed) 
   return names;
 }
 
-// a TempFile holds a lock on its file while it lives
-bool has_a_writer(fs::path const& file) {
-  int const descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return true;
-  bool const held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
-  ::close(descriptor);
-  return held;
+bool are_digits(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// segments, and twins
-bool is_kept_work(fs::path const& name) { return name.extension() == ".h5" || name.extension() == ".twins"; }
-
-// on its way to be one of them
-bool is_unfinished_work(fs::path const& name) {
-  std::string const file = name.filename().string();
-  std::size_t const end = file.rfind(".tmp.");
-  return end != std::string::npos && is_kept_work(file.substr(0, end));
+// "NAME.tmp.<pid>" or "NAME.tmp.<pid>.<number>", as TempFile makes them: what stands before; "" for any other name
+std::string finished_name_of(std::string const& name) {
+  std::size_t const end = name.rfind(".tmp.");
+  if (end == std::string::npos) return "";
+  std::string_view const rest = std::string_view(name).substr(end + 5);
+  std::size_t const dot = rest.find('.');
+  bool const is_ours =
+      are_digits(rest.substr(0, dot)) && (dot == std::string_view::npos || are_digits(rest.substr(dot + 1)));
+  return is_ours ? name.substr(0, end) : "";
 }
 
-void remove_if_abandoned(fs::path const& file) {
-  if (!has_a_writer(file)) ::unlink(file.c_str());
+bool is_segment(std::string const& name) { return name.ends_with(".h5"); }
+bool is_twins(std::string const& name) { return name.ends_with(".twins"); }
+bool is_kept_work(std::string const& name) { return is_segment(name) || is_twins(name); }
+
+// closed when it ends
+class KeptFile {
+ public:
+  explicit KeptFile(int descriptor) : descriptor_(descriptor) {}
+  ~KeptFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  KeptFile(KeptFile const&) = delete;
+  KeptFile& operator=(KeptFile const&) = delete;
+
+  bool is_regular() const {
+    struct stat facts {};
+    return descriptor_ >= 0 && ::fstat(descriptor_, &facts) == 0 && S_ISREG(facts.st_mode);
+  }
+  // a TempFile, and whoever holds a lock, holds it while its process lives
+  bool has_a_writer() const { return ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0; }
+  bool is_empty_or_begins_with(std::string_view words) const {
+    std::string begin(words.size(), '\0');
+    ssize_t const got = ::pread(descriptor_, begin.data(), begin.size(), 0);
+    return got == 0 || (got == static_cast<ssize_t>(words.size()) && begin == words);
+  }
+  std::optional<Sha256> job(std::string const& name) const {
+    return is_segment(name) ? sealed_identity(descriptor_) : number_file_identity(descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
+constexpr int only_look = O_RDONLY | O_NONBLOCK;
+
+// by what stands in the file: names prove nothing
+bool is_of_job(OwnFolder const& folder, std::string const& name, Sha256 const& job) {
+  KeptFile const file(folder.open(name, only_look));
+  return job != Sha256{} && file.is_regular() && file.job(name) == job;
+}
+
+// nobody reads what a dead process was still writing, nor a lock that nobody holds
+bool is_abandoned(OwnFolder const& folder, std::string const& name) {
+  bool const is_lock =
+      name.ends_with(".lock") && (name.starts_with("shard-") || is_twins(name.substr(0, name.size() - 5)));
+  std::string const finished = finished_name_of(name);
+  bool const is_unfinished =
+      is_kept_work(finished) && (finished.starts_with("shard-") || finished.starts_with("batch-"));
+  if (!is_lock && !is_unfinished) return false;
+  KeptFile const file(folder.open(name, only_look));
+  return file.is_regular() && !file.has_a_writer() && (!is_lock || file.is_empty_or_begins_with(lock_words));
 }
 
 }  // namespace
@@ -66,11 +117,15 @@ fs::path segment_folder_of(fs::path const& result) { return result.string() + ".
 
 void make_segment_folder(fs::path const& folder) {
   constexpr mode_t anybody_as_umask_allows = 0777;
-  int error_number = ::mkdir(folder.c_str(), anybody_as_umask_allows) == 0 || errno == EEXIST ? 0 : errno;
+  bool const is_new = ::mkdir(folder.c_str(), anybody_as_umask_allows) == 0;
+  int error_number = is_new || errno == EEXIST ? 0 : errno;
+  if (error_number == 0 && !is_new) refuse_foreign_folder(folder);
   // also when it was there: whoever made it may have been killed before its name was safe
   if (error_number == 0) error_number = sync_folder_of(folder);
   if (error_number != 0) throw cannot_write(folder, error_number);
 }
+
+void refuse_foreign_folder(fs::path const& folder) { OwnFolder const refuses(folder); }
 
 SegmentNames::SegmentNames(fs::path folder, ShardChoice const& shard) : folder_(std::move(folder)), host_(host_name()) {
   auto const now = std::chrono::system_clock::now().time_since_epoch();
@@ -96,25 +151,43 @@ std::size_t twin_parts_in(fs::path const& folder) {
       std::count_if(names.begin(), names.end(), [](fs::path const& name) { return name.extension() == ".twins"; }));
 }
 
-void remove_segments(fs::path const& result) {
-  fs::path const folder = segment_folder_of(result);
-  std::error_code ignored;
-  for (auto const& name : files_in(folder, ignored)) {
-    if (is_kept_work(name))
-      ::unlink(name.c_str());
-    else if (name.extension() == ".lock" || is_unfinished_work(name))
-      remove_if_abandoned(name);
-  }
-  ::rmdir(folder.c_str());
+std::vector<std::string> remove_segments(fs::path const& result, std::string const& inputs_sha256) {
   remove_unfinished(result);
+  std::vector<std::string> left;
+  fs::path const path = segment_folder_of(result);
+  try {
+    OwnFolder const folder(path);
+    Sha256 const job = job_identity(inputs_sha256, Keeps::work);
+    for (auto const& name : folder.names()) {
+      bool const is_ours = is_kept_work(name) ? is_of_job(folder, name, job) : is_abandoned(folder, name);
+      if (is_ours)
+        folder.unlink(name);
+      else if (is_kept_work(name))
+        left.push_back(name);
+    }
+  } catch (Error const& refused) {
+    return {refused.problems().front().what + ": nothing in it was touched"};
+  }
+  ::rmdir(path.c_str());
+  if (left.empty()) return {};
+  constexpr std::size_t most_names = 3;
+  std::size_t const n = left.size();
+  bool const cut = n > most_names;
+  if (cut) left.resize(most_names);
+  return {fmt::format("{} of the files in {} {} not, or not verifiably, of this job and {} left there: {}{}", n,
+                      path.string(), n == 1 ? "is" : "are", n == 1 ? "was" : "were", fmt::join(left, ", "),
+                      cut ? ", ..." : "")};
 }
 
 void remove_unfinished(fs::path const& result) {
-  std::error_code ignored;
   fs::path const home = result.has_parent_path() ? result.parent_path() : fs::path(".");
-  for (auto const& name : files_in(home, ignored))
-    for (auto const& whole : {result, circumstances_file_of(result)})
-      if (name.filename().string().starts_with(whole.filename().string() + ".tmp.")) remove_if_abandoned(name);
+  std::error_code ignored;
+  for (auto const& name : files_in(home, ignored)) {
+    std::string const finished = finished_name_of(name.filename().string());
+    if (finished != result.filename() && finished != circumstances_file_of(result).filename()) continue;
+    KeptFile const file(::open(name.c_str(), only_look | O_NOFOLLOW | O_CLOEXEC));
+    if (file.is_regular() && !file.has_a_writer()) ::unlink(name.c_str());
+  }
 }
 
 }  // namespace torquescope

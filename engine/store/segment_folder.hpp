@@ -6,7 +6,9 @@
 //            processes ever write the same file, whatever else runs (an orphan of a dead Slurm daemon, the same command
 //            twice)
 // Segments   complete HDF5 files written by ResultWriter: temp file, fsync, rename, fsync of the folder. Never changed.
-// Errors     74 when the folder cannot be made or listed; removal never fails loudly: what is left is stale, not wrong
+// Trust      the folder is ours, or refused (own_folder.hpp); a file in it is removed when it says that it is of this
+//            job (file_seal.hpp, number_file.hpp), never because of its name
+// Errors     74 when the folder cannot be made or listed; 73 when it is refused; removal never fails loudly
 // Threads    free functions
 
 #include <cstddef>
@@ -29,6 +31,12 @@ std::filesystem::path segment_folder_of(std::filesystem::path const& result);
 // makes the folder unless it is there; its name is safe against power loss then
 void make_segment_folder(std::filesystem::path const& folder);
 
+// throws where the folder is a link, or of another user; one that is not there is fine
+void refuse_foreign_folder(std::filesystem::path const& folder);
+
+// what a lock says begins with this
+inline constexpr char lock_words[] = "process ";
+
 // of this process, since it began: different on every node and at every start
 class SegmentNames {
  public:
@@ -48,10 +56,10 @@ std::vector<std::filesystem::path> segments_in(std::filesystem::path const& fold
 // how many parts of a diagnosis's twins are there (engine/run/twin_folder.hpp)
 std::size_t twin_parts_in(std::filesystem::path const& folder);
 
-// once the result is whole: all segments and twins, what killed processes left of unfinished ones, and the folder
-// unless it holds something else; and what killed processes left of the result itself. A file that a living process
-// writes stays.
-void remove_segments(std::filesystem::path const& result);
+// once the result is whole: the segments and twins of this job, what killed processes left of unfinished ones, and the
+// folder unless it holds something else; and what killed processes left of the result itself. A file that a living
+// process writes stays. Returns warnings: what was left, and why
+std::vector<std::string> remove_segments(std::filesystem::path const& result, std::string const& inputs_sha256);
 
 // only the last of these: what killed processes left of the result itself
 void remove_unfinished(std::filesystem::path const& result);

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <string>
+#include <utility>
 
 #include "engine/base/error.hpp"
 
@@ -30,6 +32,21 @@ Held take(int descriptor) {
   return Held::by_another;
 }
 
+// a disk that fails is told of by those who must write
+fs::path made(fs::path folder) {
+  constexpr mode_t as_umask_allows = 0777;
+  static_cast<void>(::mkdir(folder.c_str(), as_umask_allows));
+  return folder;
+}
+
+// not somebody's file of that name, whose words would be lost
+bool is_a_lock(int descriptor) {
+  struct stat facts {};
+  std::string begin(std::strlen(lock_words), '\0');
+  if (::fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
+  return facts.st_size == 0 || (::pread(descriptor, begin.data(), begin.size(), 0) > 0 && begin == lock_words);
+}
+
 std::string words_in(int descriptor) {
   char text[300] = {};
   ssize_t const size = ::pread(descriptor, text, sizeof(text) - 1, 0);
@@ -38,14 +55,16 @@ std::string words_in(int descriptor) {
 
 }  // namespace
 
-ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard) {
-  fs::path const folder = segment_folder_of(result);
-  file_ = folder / fmt::format("shard-{:04}-of-{:04}.lock", shard.index, shard.count);
-  // a disk that fails is told of by those who must write
-  constexpr mode_t folder_as_umask_allows = 0777, file_as_umask_allows = 0666;
-  static_cast<void>(::mkdir(folder.c_str(), folder_as_umask_allows));
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, file_as_umask_allows);
+ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard)
+    : folder_(made(segment_folder_of(result))),
+      file_(fmt::format("shard-{:04}-of-{:04}.lock", shard.index, shard.count)) {
+  constexpr mode_t as_umask_allows = 0666;
+  descriptor_ = folder_.open(file_, O_RDWR | O_CREAT | O_NONBLOCK, as_umask_allows);
   if (descriptor_ < 0) return;
+  if (!is_a_lock(descriptor_)) {
+    ::close(std::exchange(descriptor_, -1));
+    return;
+  }
   Held const held = take(descriptor_);
   if (held == Held::by_another) {
     std::string const who = words_in(descriptor_);
@@ -58,17 +77,17 @@ ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard) {
         .help = fmt::format("wait for it, or stop it; torquescope status {} says how far it is", result.string())});
   }
   // a hint for people: nobody reads it but the message above
-  std::string const who = fmt::format("process {} on {}", ::getpid(), host_name());
+  std::string const who = fmt::format("{}{} on {}", lock_words, ::getpid(), host_name());
   [[maybe_unused]] bool const said =
       ::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, who.data(), who.size(), 0) > 0;
 }
 
 ShardLock::~ShardLock() {
   if (descriptor_ >= 0) {
-    ::unlink(file_.c_str());
+    folder_.unlink(file_);
     ::close(descriptor_);
   }
-  ::rmdir(file_.parent_path().c_str());
+  ::rmdir(folder_.path().c_str());
 }
 
 }  // namespace torquescope

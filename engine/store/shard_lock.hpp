@@ -5,11 +5,13 @@
 //
 // File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; it says who that is
 // Locks      where there are none (some network file systems), or where the file cannot be made, both go on
-// Errors     73 when a living process holds it
+// Errors     73 when a living process holds it, or the folder is not ours (own_folder.hpp)
 // Threads    one at a time
 
 #include <filesystem>
+#include <string>
 
+#include "engine/store/own_folder.hpp"
 #include "engine/store/segment_folder.hpp"
 
 namespace torquescope {
@@ -22,7 +24,8 @@ class ShardLock {
   ShardLock& operator=(ShardLock const&) = delete;
 
  private:
-  std::filesystem::path file_;
+  OwnFolder folder_;
+  std::string file_;
   int descriptor_ = -1;
 };
 

@@ -42,6 +42,7 @@ Verification verify_everything(std::filesystem::path const& file) {
   facts.provenance_is_stored = stored.has_value();
   if (stored && *stored != facts.provenance.sha256)
     throw contradicts(file, provenance_path, "what it says of the program does not match its sha256");
+  reader.expect_seal();
   bool const is_segment = reader.exists("/segment");  // it names its job, but does not hold it
   if (!is_segment) facts.job_sha256 = job_digest(reader);
   return facts;

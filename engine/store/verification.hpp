@@ -1,10 +1,10 @@
 #pragma once
 // Is this file what the program wrote? Everything in it is read and compared with what it says about itself.
 //
-// Checked    what ResultReader checks at opening; the checksum of every object header and of every chunk; SHA-256 of
-//            the content; SHA-256 of the job text; SHA-256 of /provenance, which is one of its own because another
-//            build writes another. Files of earlier versions have none: there it is read (its checksums hold) and its
-//            digest is said
+// Checked    what ResultReader checks at opening, and that the seal is there where it is promised; the checksum of
+//            every object header and of every chunk; SHA-256 of the content; of the job text; of /provenance, which is
+//            one of its own because another build writes another. Files of earlier versions have none: there it is read
+//            (its checksums hold) and its digest is said
 // Errors     Error 66 when there is no such file; 65 with the path of what is damaged inside it
 // Threads    as ResultReader: one at a time
 // Cost       as reading the whole file once

@@ -51,9 +51,18 @@ def render(cases, **said):
             samples[name] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"], most)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["script_json"] = script_json
     return environment.get_template("page.html").render(
         words=words, q=quantities, figures=figures, samples=samples, css=(HERE / "page.css").read_text(),
         js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1), **said)
+
+
+def script_json(text):
+    """JSON as it may stand in a script element: nothing in it ends the element ("</script>") or hides its end
+    ("<!--<script>"). JSON has these letters in texts alone, where an escape means the same."""
+    for letter in "<>&\u2028\u2029":
+        text = text.replace(letter, f"\\u{ord(letter):04x}")
+    return jinja2.utils.markupsafe.Markup(text)
 
 
 def _of_study(study):
@@ -67,8 +76,7 @@ def _of_diagnosis(study):
             "head": words_of_diagnosis.head(study),
             "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
             "lists": tables_of_diagnosis, "diagnosed": diagnosed,
-            # a script element ends at the first "</", wherever it stands
-            "verdict_json": study.diagnosis.verdict_json.replace("</", "<\\/")}
+            "verdict_json": study.diagnosis.verdict_json}
 
 
 def _figure(name, case, most):

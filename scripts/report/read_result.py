@@ -20,6 +20,7 @@ its digest.
 """
 
 import argparse
+import contextlib
 import json
 import sys
 
@@ -27,13 +28,11 @@ import h5py
 import numpy as np
 
 from content_digest import content_sha256
+from file_seal import check_seal
+from first_look import WHAT_H5PY_RAISES, ResultError, look_first
 from read_diagnosis import read_diagnosis
 
 NEWEST_FORMAT = 2
-
-
-class ResultError(Exception):
-    """The file is missing, damaged, unfinished or not a Torquescope result; the text says which."""
 
 
 def _plain(value):
@@ -45,6 +44,15 @@ def _plain(value):
     if isinstance(value, np.generic):
         return value.item()
     return value
+
+
+@contextlib.contextmanager
+def _told_of(node):
+    """Whatever h5py says of a file that is damaged becomes a ResultError with the place."""
+    try:
+        yield
+    except WHAT_H5PY_RAISES as error:
+        raise ResultError(f"{node.file.filename} is damaged in {node.name}: {error}") from error
 
 
 class Group:
@@ -64,13 +72,15 @@ class Group:
         if name in self._arrays:
             return self._arrays[name]
         if name in self._group:
-            found = self._group[name]
+            with _told_of(self._group):
+                found = self._group[name]
             if isinstance(found, h5py.Group):
                 return Group(found)
             self._arrays[name] = self._read(found)
             return self._arrays[name]
         if name in self._group.attrs:
-            return _plain(self._group.attrs[name])
+            with _told_of(self._group):
+                return _plain(self._group.attrs[name])
         raise AttributeError(f"{self._group.name} has no {name!r}; it has: {', '.join(self._names())}")
 
     def __getitem__(self, name):
@@ -94,7 +104,8 @@ class Group:
 
     def attributes(self):
         """All attributes as a dict: options and summaries of an estimator."""
-        return {name: _plain(value) for name, value in self._group.attrs.items()}
+        with _told_of(self._group):
+            return {name: _plain(value) for name, value in self._group.attrs.items()}
 
     def unit(self, name):
         """Unit of a dataset; "1" for none."""
@@ -106,12 +117,10 @@ class Group:
 
     @staticmethod
     def _read(dataset):
-        try:
+        with _told_of(dataset):
             if h5py.check_string_dtype(dataset.dtype):
                 return np.array([text.decode() for text in dataset[()]], dtype=str)
             return dataset[()]
-        except OSError as error:
-            raise ResultError(f"{dataset.file.filename} is damaged in {dataset.name}: {error}") from error
 
 
 def _circumstances(name, content_sha256):
@@ -151,12 +160,11 @@ class Result(Group):
     """
 
     def __init__(self, name):
+        look_first(name)
         try:
             # the file is never changed once it has its name, so a lock would protect nothing
             self._file = h5py.File(name, "r", locking=False)
-        except FileNotFoundError as error:
-            raise ResultError(f"there is no file {name}") from error
-        except OSError as error:
+        except WHAT_H5PY_RAISES as error:
             raise ResultError(f"{name} is damaged or not an HDF5 file: {error}") from error
         super().__init__(self._file)
         try:
@@ -167,6 +175,9 @@ class Result(Group):
         except ResultError:
             self.close()
             raise
+        except WHAT_H5PY_RAISES as error:
+            self.close()
+            raise ResultError(f"{name} is damaged, or lacks what its format promises: {error}") from error
 
     def _check(self, name):
         if "format" not in self._file.attrs or "creator" not in self._file.attrs:
@@ -200,12 +211,15 @@ class Result(Group):
             raise ResultError(
                 f"{self._file.filename} has format {self.format}; only the digest of format {NEWEST_FORMAT} is known"
             )
-        try:
+        with _told_of(self._group):
             found = content_sha256(self._file)
-        except OSError as error:
-            raise ResultError(f"{self._file.filename} is damaged: {error}") from error
-        if found != self.content_sha256:
+        if found != self.get("content_sha256"):
             raise ResultError(f"{self._file.filename} is damaged: its content does not match its sha256")
+        if self.get("sealed") == 1 and check_seal(self._file.filename) != "whole":
+            raise ResultError(
+                f"{self._file.filename} is damaged: its seal is missing: another program wrote into it, or its end is "
+                "lost"
+            )
 
     def close(self):
         self._file.close()

@@ -82,6 +82,7 @@ matplotlib.rcParams.update(
         "font.family": "DejaVu Sans",
         "font.size": TEXT,
         "text.color": LIGHT["ink"],
+        "text.parse_math": False,  # names come from files: a "$" in one is a letter
         "axes.labelsize": TEXT,
         "axes.titlesize": TEXT,
         "xtick.labelsize": TEXT,

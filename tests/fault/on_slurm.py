@@ -10,6 +10,7 @@ Counts: 6 kills (TORQUESCOPE_FAULTS / 10). FAULT_SEED repeats a chance, though n
 import contextlib
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ import unittest
 import private_slurm
 import shimmed
 import study
+import twins
 
 KILLS = int(os.environ.get("TORQUESCOPE_FAULTS", "60")) // 10
 SHARDS = 4
@@ -82,14 +84,67 @@ class OnSlurm(study.FaultTest):
     def queue(self):
         return self.slurm.said("squeue", "-h", "-r", "-o", "%j %T")
 
-    def submit(self, folder, shards, limit):
-        ended = study.Ended(subprocess.Popen(
-            [study.PROGRAM, "submit", "job.toml", "--out", "r.h5", "--shards", str(shards), "--time", limit,
-             "--save-every", "0.2"], cwd=folder.path, env=study.environment(
+    def submitted(self, folder, job, result, *more, shards=2, limit="00:10:00"):
+        return study.Ended(subprocess.Popen(
+            [study.PROGRAM, "submit", job, "--out", result, "--shards", str(shards), "--time", limit,
+             "--save-every", "0.2", *more], cwd=folder.path, env=study.environment(
                  {"SLURM_CONF": self.slurm.environment["SLURM_CONF"], "PATH": private_slurm.PATH}),
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE))
+
+    def submit_words(self, folder, job, result, *more, **options):
+        ended = self.submitted(folder, job, result, *more, **options)
         self.assert_ended(ended, 0)
         return ended.said
+
+    def submit(self, folder, shards, limit):
+        return self.submit_words(folder, "job.toml", "r.h5", shards=shards, limit=limit)
+
+    def finished(self, folder, result):
+        """Waits for a result, and for the queue to be empty."""
+        began = time.monotonic()
+        while not os.path.exists(folder / result) or self.queue().strip():
+            self.assertLess(time.monotonic() - began, MOST_SECONDS, f"{self.queue()}\n{self.logs(folder)}")
+            time.sleep(0.1)
+
+    def test_odd_names_and_options_of_the_user_reach_slurm_as_they_are(self):
+        odd = "Läufe 100%a \"neu\" it's #1; $(touch hacked)"
+        folder = self.folder(shimmed.JOB)
+        os.mkdir(folder / odd)
+        shutil.copy(folder / "job.toml", folder / f"{odd}/job %j.toml")
+        result = f"{odd}/r %A.h5"
+        words = self.submit_words(folder, f"{odd}/job %j.toml", result, "--", "--comment=two words", "--nice=3")
+        self.assertIn("2 shards as job", words)
+        self.finished(folder, result)
+        self.assertEqual(set(os.listdir(folder / odd)),
+                         {"job %j.toml", *("r %A.h5" + ending for ending in (
+                             "", ".made.json", ".array.sbatch", ".merge.sbatch", ".shard-0.log", ".shard-1.log",
+                             ".merge.log"))})
+        self.assertFalse(os.path.exists(folder / "hacked"))
+        plain = folder.run("run", "job.toml", "--out", "plain.h5")
+        self.assert_ended(plain, 0)
+        told = self.slurm.said("scontrol", "show", "job", "-o")
+        self.assertEqual(told.count("Comment=two words"), 3, told)
+
+    def test_a_diagnosis_is_an_array_without_a_merge(self):
+        folder = self.folder(twins.JOB)
+        words = self.submit_words(folder, "job.toml", "r.h5")
+        self.assertIn("2 shards of the diagnosis as job", words)
+        self.finished(folder, "r.h5")
+        self.assertFalse(os.path.exists(folder / "r.h5.merge.sbatch"))
+        logs = " ".join(self.logs(folder).split())
+        self.assertIn("0/2 (--shard): twins are shared in r.h5.parts", logs)
+        self.assertIn("1/2 (--shard): twins are shared in r.h5.parts", logs)
+        self.assertFalse(os.path.exists(folder / "r.h5.parts"), logs)
+
+    def test_what_sbatch_says_is_said_as_it_said_it(self):
+        folder = self.folder(shimmed.JOB)
+        ended = self.submitted(folder, "job.toml", "r.h5", "--", "--partition=nosuch")
+        self.assert_ended(ended, 66)
+        own = subprocess.run(["sbatch", "--parsable", "--partition=nosuch", "r.h5.array.sbatch"], cwd=folder.path,
+                             env=self.slurm.environment, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        self.assertTrue(own.stderr.startswith(b"sbatch: error:"), own.stderr)
+        self.assertIn(own.stderr.decode(), ended.err)
+        self.assertIn("sbatch did not take the job: its own words stand above", ended.said)
 
     def restarts(self):
         """Of all tasks of the study's arrays together, and what Slurm said."""

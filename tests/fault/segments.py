@@ -24,8 +24,8 @@ def set_text(group, name, text):
 
 
 def change(name, edit):
-    """Changes a segment as nobody should: edit(file), and a digest that fits again."""
-    with h5py.File(name, "r+", locking=False) as file:
+    """Changes a segment as nobody should: edit(file), a digest that fits again, and a seal that does."""
+    with study.changed(name) as file:
         edit(file)
         set_text(file, "content_sha256", content_sha256(file))
 
@@ -156,7 +156,59 @@ class Segments(study.FaultTest):
                 self.assert_ended(ended, 0)
                 if damage != "flip":  # a bit in a gap of the file harms nothing
                     self.assertIn("its generations run again", ended.said)
-                self.assert_same(folder)
+                if damage in ("cut", "empty"):  # what has no end does not say whose it is
+                    self.assertIn("was left there", ended.said)
+                self.assert_same(folder, ended=ended)
+
+    def test_nothing_foreign_is_touched(self):
+        """A link of the folder's name to a folder of somebody else's files, and such files in the folder itself."""
+        folder, other = self.folder(), self.folder(study.JOB.replace("seed = 7", "seed = 8"))
+        os.mkdir(folder / "scratch")
+        foreign = {"notmine.h5": b"my own words", "notmine.twins": b"my own words", "notes.h5.tmp.12": b"unfinished"}
+        with open(self.whole / "r.h5", "rb") as file:  # the same job's result, and another job's segments
+            foreign["whole.h5"] = file.read()
+        self.assert_ended(other.run("run", "job.toml", "--out", "r.h5", "--shard", "0/2"), 0)
+        for name in other.segments():
+            with open(name, "rb") as file:
+                foreign[os.path.basename(name)] = file.read()
+
+        def in_folder(name):
+            found = {}
+            for each in os.listdir(folder / name):
+                with open(os.path.join(folder / name, each), "rb") as file:
+                    found[each] = file.read()
+            return found
+
+        for name, content in foreign.items():
+            with open(os.path.join(folder / "scratch", name), "wb") as file:
+                file.write(content)
+        os.symlink("scratch", folder / "r.h5.parts")
+        for more in ((), ("--shard", "0/2")):
+            ended = folder.run("run", "job.toml", "--out", "r.h5", *more)
+            self.assert_ended(ended, 73)
+            self.assertIn("r.h5.parts is a symbolic link", ended.said)
+            self.assertIn("help: remove the link: rm r.h5.parts", ended.said)
+        self.assert_ended(folder.run("merge", "job.toml", "--out", "r.h5"), 73)
+        self.assertFalse(os.path.exists(folder / "r.h5"))
+        self.assertEqual(in_folder("scratch"), foreign)
+
+        # a result that is complete already, when the link turns up
+        os.remove(folder / "r.h5.parts")
+        self.assert_ended(folder.run("run", "job.toml", "--out", "r.h5"), 0)
+        os.symlink("scratch", folder / "r.h5.parts")
+        ended = folder.run("run", "job.toml", "--out", "r.h5")
+        self.assert_ended(ended, 0)
+        self.assertIn("nothing in it was touched", ended.said)
+        self.assertEqual(in_folder("scratch"), foreign)
+
+        # and in the folder itself
+        os.remove(folder / "r.h5.parts")
+        os.rename(folder / "scratch", folder / "r.h5.parts")
+        ended = folder.run("run", "job.toml", "--out", "r.h5")
+        self.assert_ended(ended, 0)
+        words = f"{len(foreign) - 1} of the files in r.h5.parts are not, or not verifiably, of this job"
+        self.assertIn(words, ended.said)
+        self.assertEqual(in_folder("r.h5.parts"), foreign)
 
     def test_another_job_and_another_program_are_refused(self):
         folder = self.interrupted()

@@ -4,10 +4,13 @@ process."""
 import contextlib
 import fcntl
 import glob
+import hashlib
 import os
 import signal
 import time
 import unittest
+
+import h5py
 
 import study
 
@@ -35,11 +38,19 @@ class Twins(study.FaultTest):
     def parts(self, folder):
         return sorted(glob.glob(folder / "r.h5.parts/*.twins"))
 
+    @classmethod
+    def job_letters(cls):
+        """What the names of this job's twins end with (engine/store/RESULT_FORMAT.md)."""
+        with h5py.File(cls.whole / "r.h5", "r", locking=False) as file:
+            inputs = file["job"].attrs["inputs_sha256"]
+        texts = [b"torquescope work", inputs]
+        return hashlib.sha256(b"".join(len(t).to_bytes(8, "little") + t for t in texts)).hexdigest()[:8]
+
     @contextlib.contextmanager
     def at_work(self, folder, batch):
         """Shard 0/2, which cannot get beyond a batch: the second half of it is being computed, as far as it can see."""
         os.makedirs(folder / "r.h5.parts", exist_ok=True)
-        part = folder / f"r.h5.parts/batch-{batch:04}.part-00%d-of-002.twins"
+        part = folder / f"r.h5.parts/batch-{batch:04}.part-00%d-of-002.{self.job_letters()}.twins"
         with open(part % 1 + ".lock", "w", encoding="utf-8") as held:
             fcntl.flock(held, fcntl.LOCK_EX)
             process = folder.start(*shard(0, 2))

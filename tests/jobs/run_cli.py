@@ -11,7 +11,10 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
+
+import h5py
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -113,6 +116,71 @@ def add_bad_job(name):
 
 for bad_name in sorted(os.listdir(BAD)):
     add_bad_job(bad_name)
+
+
+class Limits(Folder):
+    """What would end in numbers that are none, in a crash, or in an error after hours."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("job.toml", GOOD_JOB)
+
+    def test_a_sample_that_no_machine_has_is_refused_with_its_row(self):
+        with open(os.path.join(self.folder, "good.csv"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        for column, value, words in ((2, "1e308", '"tau_Nm" is 1e+308 in line 301'),
+                                     (1, "-1e160", '"q_rad" is -1e+160 in line 301'),
+                                     (0, "1e70", '"t_s" is 1e+70 in line 301')):
+            cells = lines[300].split(",")
+            cells[column] = value
+            self.write("huge.csv", "\n".join([*lines[:300], ",".join(cells), *lines[301:]]) + "\n")
+            self.write("job.toml", GOOD_JOB.replace('train = "good.csv"', 'train = "huge.csv"'))
+            for command in ("check", "run"):
+                self.assert_refused(self.run_here(command, "job.toml"), 65, [words])
+
+    def test_a_small_stack_is_told_of(self):
+        limited = subprocess.run(["bash", "-c", 'ulimit -s 64 && exec "$0" run job.toml --out r.h5', program.PROGRAM],
+                                 cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        self.assertEqual(limited.returncode, 70, limited.stderr)
+        self.assertIn("the stack is limited to 64 KiB here; 1024 are needed", limited.stderr)
+        self.assertIn("help: ulimit -s 8192", limited.stderr)
+
+    def test_a_name_too_long_for_the_files_beside_it_is_refused_before_anything_runs(self):
+        name = 236 * "x" + ".h5"
+        outcome = self.run_here("run", "job.toml", "--out", name, "--quiet")
+        self.assert_refused(outcome, 64, ["the name of the result has 239 bytes; 229 are the most here"])
+        self.assertFalse([file for file in os.listdir(self.folder) if file.startswith("xxx")])
+        name = 226 * "x" + ".h5"
+        self.assertEqual(self.run_here("run", "job.toml", "--out", name, "--quiet").code, 0)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, name + ".made.json")))
+
+    def test_groups_in_groups_without_end_are_refused_soon(self):
+        self.assertEqual(self.run_here("run", "job.toml", "--out", "r.h5", "--quiet").code, 0)
+        with h5py.File(os.path.join(self.folder, "r.h5"), "r+", locking=False) as file:
+            group = file
+            for _ in range(3000):
+                group = group.create_group("g")
+        began = time.monotonic()
+        for command in (("show", "r.h5", "--verify"), ("report", "r.h5")):
+            self.assert_refused(self.run_here(*command), 65, ["it lies deeper than anything in a result"])
+        self.assertLess(time.monotonic() - began, 5.0)
+
+    def test_nothing_of_a_job_gets_out_of_its_word_in_a_script_of_submit(self):
+        for name in ("two\nlines.toml", "job\nresult=x.toml"):
+            shutil.copy(os.path.join(self.folder, "job.toml"), os.path.join(self.folder, name))
+            self.assert_refused(self.run_here("submit", name, "--shards", "2", "--dry-run"), 64,
+                                ["which no batch script can carry"])
+        self.assert_refused(self.run_here("submit", "job.toml", "--shards", "2", "--dry-run", "--out", "a\n#b.h5"), 64,
+                            ["which no batch script can carry"])
+        self.assert_refused(self.run_here("submit", "job.toml", "--shards", "2", "--dry-run", "--out", "a\\b.h5"), 64,
+                            ["has a backslash"])
+        for option in ("--array=0-1", "-d", "word"):
+            self.assertEqual(self.run_here("submit", "job.toml", "--shards", "2", "--dry-run", "--", option).code, 64)
+        told = self.run_here("submit", "job.toml", "--shards", "2", "--dry-run", "--out", "ä b/100% 'r'.h5", "--",
+                             "--account=a b", "--qos=long")
+        self.assertEqual(told.code, 0, told.err)
+        self.assertIn("\n#SBATCH --output=\"ä b/100%% 'r'.h5.shard-%a.log\"\n", told.out)
+        self.assertIn("# sbatch --parsable '--account=a b' --qos=long ", told.out)
 
 
 class BadJobFiles(Folder):

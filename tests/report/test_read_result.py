@@ -3,7 +3,9 @@
 The C++ store writes (tests/unit/store/example_result.hpp), Python reads.
 """
 
+import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -122,10 +124,78 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
             data[data.find(np.sin(1.0).tobytes())] ^= 4
             name.write_bytes(data)
 
-        self.assertIn("has format 3", self.refusal(set_attribute("format", 3)))
-        self.assertIn("never finished", self.refusal(set_attribute("complete", 0)))
+        def link(target):
+            def change(name):
+                with h5py.File(name, "r+") as file:
+                    file["runs/fade/more"] = target
+
+            return change
+
+        for target in (h5py.ExternalLink("other.h5", "/runs/ols"), h5py.SoftLink("/runs/ols")):
+            self.assertIn('in /runs/fade: "more" is a link to elsewhere', self.refusal(link(target)))
+
+        def virtual(name):
+            layout = h5py.VirtualLayout(shape=(3,), dtype="<f8")
+            layout[:] = h5py.VirtualSource("elsewhere.h5", "x", shape=(3,))
+            with h5py.File(name, "r+") as file:
+                file["runs/ols"].create_virtual_dataset("more", layout)
+
+        def itself(name):
+            with h5py.File(name, "r+") as file:
+                file["runs/ols/more"] = file["runs"]
+
+        def huge(name):
+            with h5py.File(name, "r+") as file:
+                file.create_dataset("runs/huge", shape=(1 << 40,), dtype="<f8", chunks=(1024,))
+
+        self.assertIn("its values lie in another file", self.refusal(virtual))
+        self.assertIn("it has two names", self.refusal(itself))
+        self.assertIn("claims more values than the file can hold", self.refusal(huge))
+        self.assertIn("has format 3", self.refusal(set_attribute("format", np.int64(3))))
+        self.assertIn("never finished", self.refusal(set_attribute("complete", np.int64(0))))
         self.assertIn("not an HDF5 file", self.refusal(lambda name: name.write_text("t_s,q_rad\n")))
         self.assertIn("damaged in /runs/fade/population", self.refusal(damage))
+
+    def test_a_file_that_crashes_hdf5_ends_in_one_error(self):
+        """Whatever happens to the child that looks first, this process lives on."""
+        code = (
+            "import os, signal, sys; sys.path.insert(0, sys.argv[2]); import first_look, read_result\n"
+            "first_look._look = lambda *_: os.kill(os.getpid(), getattr(signal, sys.argv[3]))\n"
+            "try: read_result.Result(sys.argv[1])\n"
+            "except read_result.ResultError as error: print(error)\n"
+        )
+        for number in ("SIGSEGV", "SIGXCPU", "SIGKILL"):
+            run = subprocess.run([sys.executable, "-B", "-c", code, self.name, SCRIPTS, number],
+                                 check=True, capture_output=True, text=True)
+            self.assertIn("R.h5 is damaged: HDF5 crashed", run.stdout)
+
+    def test_a_pipe_is_not_waited_for(self):
+        os.mkfifo(self.folder / "pipe.h5")
+        with self.assertRaisesRegex(ResultError, "pipe.h5 is not a file"):
+            Result(self.folder / "pipe.h5")
+
+    def test_of_600_flipped_bits_each_ends_in_one_error_or_changes_nothing(self):
+        chance = random.Random(20140606)
+        whole = self.name.read_bytes()
+        name = self.folder / "flipped.h5"
+        refused = harmless = 0
+        for _ in range(600):
+            place, bit = chance.randrange(len(whole)), chance.randrange(8)
+            flipped = bytearray(whole)
+            flipped[place] ^= 1 << bit
+            name.write_bytes(flipped)
+            with self.subTest(place=place, bit=bit):
+                try:
+                    with Result(name) as result:
+                        result.verify()
+                        found = []
+                        result._file.visititems(lambda path, _: found.append(path))
+                        self.assertEqual(content_sha256(result._file), self.sha256)
+                    harmless += 1
+                except ResultError:
+                    refused += 1
+        print(f"600 flipped bits: {refused} refused, {harmless} harmless", file=sys.stderr)
+        self.assertEqual(harmless, 0, "every byte is covered")
 
     def test_computes_the_digest_of_the_store(self):
         for case in ("example", "large", "large gzip"):
@@ -173,7 +243,9 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         with h5py.File(name, "r+") as file:
             file["provenance"].attrs["host"] = np.bytes_("another")
         with Result(name) as result:
-            result.verify()
+            self.assertEqual(content_sha256(result._file), self.sha256)
+            with self.assertRaisesRegex(ResultError, "its seal is missing"):
+                result.verify()
 
 
 if __name__ == "__main__":

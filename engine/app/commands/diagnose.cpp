@@ -16,6 +16,7 @@
 #include "engine/app/phase_times.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
+#include "engine/app/result/result_summary.hpp"
 #include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
@@ -90,12 +91,16 @@ ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& exp
   return ExitCode::ok;
 }
 
-ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, std::filesystem::path const& output) {
+ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, std::filesystem::path const& output,
+                    std::string const& inputs_sha256) {
+  look_at_result(output, [](ResultReader const& there) {
+    read_diagnosis(there);
+    read_verdict_json(there);
+  });
   ResultReader const reader(output);
   print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
   note_whereabouts(session, "kept", output, session.options().json);
-  // twins of a process that was killed while it tidied up, or that was a little late
-  remove_segments(output);
+  tidy_up(session, output, inputs_sha256);
   return ExitCode::ok;
 }
 
@@ -113,7 +118,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
         "done", fmt::format("already diagnosed: nothing runs again, the kept result is shown; --out another name, or "
                             "delete {}, to diagnose anew",
                             output.string())));
-    return print_kept(arguments, session, output);
+    return print_kept(arguments, session, output, experiment.inputs_sha256());
   }
 
   DiagnoseRequest request;
@@ -142,7 +147,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   } catch (Error const&) {
     if (shard.count < 2 || !already_complete(output, experiment.inputs_sha256(), ResultKind::diagnosis)) throw;
     session.note(session.topic_line("done", "another shard was first: its result is ours"));
-    return print_kept(arguments, session, output);
+    return print_kept(arguments, session, output, experiment.inputs_sha256());
   }
   print_baseline(session, diagnosis);
   print_stages(session, phases.finish());

@@ -33,7 +33,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     session.note(session.topic_line("done", "already complete: nothing is merged again"));
     print_results(session, read_summary(output));
     note_whereabouts(session, "kept", output);
-    remove_segments(output);  // of a process that was killed while it tidied up
+    tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
   IdentifyOptions options;

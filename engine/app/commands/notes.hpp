@@ -21,4 +21,7 @@ void note_start(Session const& session, std::string const& job_line, Experiment 
 void note_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& file,
                       std::string const& json = {});
 
+// once a result stands: takes away what it was made of (remove_segments), and warns of what is left
+void tidy_up(Session const& session, std::filesystem::path const& result, std::string const& inputs_sha256);
+
 }  // namespace torquescope

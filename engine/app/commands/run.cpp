@@ -65,7 +65,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
     note_whereabouts(session, "kept", output);
-    remove_segments(output);  // of a process that was killed while it tidied up
+    tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
 

@@ -27,6 +27,10 @@ struct ShowArguments {
 };
 
 void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments, Session const& session) {
+  look_at_result(summary.file, [](ResultReader const& there) {
+    read_diagnosis(there);
+    read_verdict_json(there);
+  });
   ResultReader const reader(summary.file);
   Diagnosis const diagnosis = read_diagnosis(reader);
   Ink const& ink = session.result_ink();

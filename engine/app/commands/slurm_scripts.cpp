@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/contract.hpp"
+#include "engine/base/error.hpp"
 
 namespace torquescope {
 
@@ -33,13 +37,6 @@ void fill_in_what_both_have(std::string& script, SlurmPlan const& plan) {
   }
 }
 
-// what sbatch reads as a value without quotes
-std::string plain(std::string text) {
-  for (char& letter : text)
-    if (letter <= ' ' || letter == '%' || letter == '"' || letter == '\'' || letter == '\\') letter = '_';
-  return text;
-}
-
 }  // namespace
 
 std::string shell_word(std::string const& text) {
@@ -48,15 +45,45 @@ std::string shell_word(std::string const& text) {
   return word + "'";
 }
 
+std::string sbatch_word(std::string const& text) {
+  std::string word = "\"";
+  for (char const letter : text) {
+    if (letter == '"' || letter == '\\') word += '\\';
+    word += letter;
+  }
+  return word + "\"";
+}
+
+std::string sbatch_pattern(std::string const& name, std::string const& ending) {
+  std::string pattern;
+  for (char const letter : name) pattern += letter == '%' ? std::string("%%") : std::string(1, letter);
+  return sbatch_word(pattern + ending);
+}
+
+void check_plan(SlurmPlan const& plan) {
+  auto const refuse = [](std::string const& what, std::string const& help) {
+    throw Error(Problem{.code = ExitCode::usage, .what = what, .help = help});
+  };
+  for (auto const* text : {&plan.program, &plan.job, &plan.result, &plan.name})
+    if (std::any_of(text->begin(), text->end(), [](unsigned char letter) { return letter < ' ' || letter == 127; }))
+      refuse(fmt::format("\"{}\" has a line break or another control character, which no batch script can carry",
+                         printable(*text)),
+             "rename it");
+  if (plan.result.find('\\') != std::string::npos)
+    refuse(fmt::format("\"{}\" has a backslash, after which Slurm does not fill in the number of a task", plan.result),
+           "--out a name without one");
+}
+
 std::string array_script(SlurmPlan const& plan) {
   std::string script = array_template;
   fill_in_what_both_have(script, plan);
-  fill_in(script, "#SBATCH --job-name=", plain(plan.name));
+  fill_in(script, "#SBATCH --job-name=", sbatch_word(plan.name));
   fill_in(script, "#SBATCH --array=", fmt::format("0-{}", plan.shards - 1));
+  if (plan.diagnoses) fill_in(script, "command=", "diagnose");
   fill_in(script, "shards=", std::to_string(plan.shards));
   if (plan.save_every_s > 0.0) fill_in(script, "save_every=", fmt::format("{:g}", plan.save_every_s));
   fill_in(script, "#SBATCH --cpus-per-task=", std::to_string(plan.threads));
-  fill_in(script, "#SBATCH --output=", plain(plan.result) + ".shard-%a.log");
+  fill_in(script, "#SBATCH --output=", sbatch_pattern(plan.result, ".shard-%a.log"));
   if (!plan.time.empty()) fill_in(script, "#SBATCH --time=", plan.time);
   return script;
 }
@@ -64,8 +91,8 @@ std::string array_script(SlurmPlan const& plan) {
 std::string merge_script(SlurmPlan const& plan) {
   std::string script = merge_template;
   fill_in_what_both_have(script, plan);
-  fill_in(script, "#SBATCH --job-name=", plain(plan.name) + "-merge");
-  fill_in(script, "#SBATCH --output=", plain(plan.result) + ".merge.log");
+  fill_in(script, "#SBATCH --job-name=", sbatch_word(plan.name + "-merge"));
+  fill_in(script, "#SBATCH --output=", sbatch_pattern(plan.result, ".merge.log"));
   return script;
 }
 

@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,13 +9,19 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/slurm_scripts.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/interrupted_call.hpp"
+#include "engine/job/job.hpp"
+#include "engine/store/result_files.hpp"
 #include "engine/store/temp_file.hpp"
+
+extern char** environ;
 
 namespace torquescope {
 
@@ -27,6 +35,7 @@ struct SubmitArguments {
   std::string time{}, partition{};
   double save_every_s = 0.0;  // 0: not given
   bool dry_run = false;
+  std::vector<std::string> sbatch_options{};
 };
 
 std::string this_program() {
@@ -35,30 +44,61 @@ std::string this_program() {
   return failed ? "torquescope" : path.string();
 }
 
-Error not_submitted(std::string const& what) {
-  return Error(
-      Problem{.code = ExitCode::no_input,
-              .what = "sbatch did not take the job: " + what,
-              .help = "run this where Slurm is, or --dry-run to see the scripts, or jobs/slurm/*.sbatch to edit"});
+Error not_submitted(std::string const& what, std::string const& help) {
+  return Error(Problem{.code = ExitCode::no_input, .what = what, .help = help});
 }
 
-// the number of the job that sbatch made
-std::string sbatch(std::string const& options, std::filesystem::path const& script) {
-  std::string const command = "sbatch --parsable " + options + " " + shell_word(script.string()) + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (!pipe) throw not_submitted("no process can be started");
-  std::string said;
-  char piece[256];
-  while (std::fgets(piece, sizeof(piece), pipe)) said += piece;
-  int const status = ::pclose(pipe);
-  while (!said.empty() && said.back() == '\n') said.pop_back();
-  // "1234" or "1234;cluster"; Slurm may warn in lines before it
-  std::string const last = said.substr(said.rfind('\n') + 1);
-  std::string const number = last.substr(0, last.find(';'));
-  bool const is_number = !number.empty() && std::all_of(number.begin(), number.end(),
-                                                        [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !is_number) throw not_submitted(said);
-  return number;
+// reads what sbatch says on stdout; its stderr is ours, so that people read its words as it wrote them
+class Sbatch {
+ public:
+  explicit Sbatch(std::vector<std::string> words) {
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    int ends[2] = {-1, -1};
+    if (::pipe2(ends, O_CLOEXEC) != 0) return;
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    pid_t child = 0;
+    failure_ = ::posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    char piece[256];
+    if (failure_ == 0)
+      for (ssize_t n = 1; n > 0;) {
+        n = unless_interrupted([&] { return ::read(ends[0], piece, sizeof(piece)); });
+        said_.append(piece, static_cast<std::size_t>(std::max<ssize_t>(0, n)));
+      }
+    ::close(ends[0]);
+    int status = 0;
+    ended_well_ = failure_ == 0 && unless_interrupted([&] { return ::waitpid(child, &status, 0); }) == child &&
+                  WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+  bool was_started() const { return failure_ == 0; }
+  // of the job it made, "1234" or "1234;cluster"; "" for none
+  std::string number() const {
+    std::string const text = said_.substr(0, said_.find_first_of(";\n"));
+    bool const is_number = ended_well_ && !text.empty() &&
+                           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    return is_number ? text : "";
+  }
+
+ private:
+  int failure_ = -1;
+  bool ended_well_ = false;
+  std::string said_;
+};
+
+std::vector<std::string> sbatch_words(std::vector<std::string> const& users, std::vector<std::string> const& ours,
+                                      std::string const& script) {
+  std::vector<std::string> words{"sbatch", "--parsable"};
+  words.insert(words.end(), users.begin(), users.end());
+  words.insert(words.end(), ours.begin(), ours.end());
+  // a name that begins with a dash is no option
+  words.push_back(script.starts_with("-") ? "./" + script : script);
+  return words;
 }
 
 void write_script(std::filesystem::path const& name, std::string const& text) {
@@ -67,12 +107,56 @@ void write_script(std::filesystem::path const& name, std::string const& text) {
   file.publish();
 }
 
+// for a shell, in one line
+std::string shell_line(std::vector<std::string> const& words) {
+  std::string line;
+  for (auto const& word : words) {
+    bool const is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+      return std::isalnum(c) != 0 || std::string_view("-_=:,./@+").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    line += (line.empty() ? "" : " ") + (is_plain ? word : shell_word(word));
+  }
+  return line;
+}
+
+void queue(SlurmPlan const& plan, SubmitArguments const& arguments, std::string const& array_name,
+           std::string const& merge_name, Session const& session) {
+  std::string const see = "run this where Slurm is, or --dry-run to see the scripts, or jobs/slurm/*.sbatch to edit";
+  write_script(array_name, array_script(plan));
+  if (!plan.diagnoses) write_script(merge_name, merge_script(plan));
+  Sbatch const first(sbatch_words(arguments.sbatch_options, {}, array_name));
+  if (!first.was_started()) throw not_submitted("there is no sbatch here", see);
+  std::string const array = first.number();
+  if (array.empty()) throw not_submitted("sbatch did not take the job: its own words stand above", see);
+  if (plan.diagnoses) {
+    session.note(session.topic_line("queued", fmt::format("{} shards of the diagnosis as job {}", plan.shards, array)));
+  } else {
+    auto const words = sbatch_words(arguments.sbatch_options, {"--dependency=afterok:" + array}, merge_name);
+    std::string const merge = Sbatch(words).number();
+    if (merge.empty())
+      throw not_submitted(
+          fmt::format("sbatch took the shards, as job {}, but not their merge: its words stand above", array),
+          shell_line(words) + "; or scancel " + array);
+    session.note(session.topic_line(
+        "queued", fmt::format("{} shards as job {}, merge as job {} when all are done", plan.shards, array, merge)));
+  }
+  session.note(session.topic_line("look", "torquescope status " + plan.result));
+}
+
+// of a job without [[estimator]] and with [diagnose]
+bool is_for_diagnose(std::string const& job) {
+  Job const text = read_job(job);
+  return text.all("estimator").empty() && text.find("diagnose") != nullptr;
+}
+
 ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   // everything that can be refused is refused here and not in the queue
-  Experiment const experiment = Experiment::load(arguments.job);
+  SlurmPlan plan;
+  plan.diagnoses = is_for_diagnose(arguments.job);
+  Experiment const experiment =
+      Experiment::load(arguments.job, plan.diagnoses ? Experiment::Purpose::diagnose : Experiment::Purpose::identify);
   std::filesystem::path const result =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
-  SlurmPlan plan;
   plan.program = this_program();
   plan.job = arguments.job;
   plan.result = result.string();
@@ -82,18 +166,21 @@ ExitCode submit_job(SubmitArguments const& arguments, Session const& session) {
   plan.time = arguments.time;
   plan.partition = arguments.partition;
   plan.save_every_s = arguments.save_every_s;
+  check_plan(plan);
+  refuse_long_name(result);
+  refuse_foreign_folder(segment_folder_of(result));
   std::string const array_name = result.string() + ".array.sbatch", merge_name = result.string() + ".merge.sbatch";
-  if (arguments.dry_run) {
-    session.result(fmt::format("# {}\n{}\n# {}\n{}", array_name, array_script(plan), merge_name, merge_script(plan)));
+  if (!arguments.dry_run) {
+    queue(plan, arguments, array_name, merge_name, session);
     return ExitCode::ok;
   }
-  write_script(array_name, array_script(plan));
-  write_script(merge_name, merge_script(plan));
-  std::string const array = sbatch("", array_name);
-  std::string const merge = sbatch("--dependency=afterok:" + array, merge_name);
-  session.note(session.topic_line(
-      "queued", fmt::format("{} shards as job {}, merge as job {} when all are done", plan.shards, array, merge)));
-  session.note(session.topic_line("look", "torquescope status " + result.string()));
+  auto const& users = arguments.sbatch_options;
+  std::string text = fmt::format("# {}\n{}", array_name, array_script(plan));
+  if (!plan.diagnoses) text += fmt::format("\n# {}\n{}", merge_name, merge_script(plan));
+  text += fmt::format("\n# {}\n", shell_line(sbatch_words(users, {}, array_name)));
+  if (!plan.diagnoses)
+    text += fmt::format("# {}\n", shell_line(sbatch_words(users, {"--dependency=afterok:ARRAY"}, merge_name)));
+  session.result(text);
   return ExitCode::ok;
 }
 
@@ -111,17 +198,33 @@ std::string no_plain_word(std::string const& text) {
   return fits ? "" : fmt::format("\"{}\" holds letters that no Slurm option has", text);
 }
 
+// what stands behind "--": for sbatch, but for what `submit` says itself
+std::string no_sbatch_option(std::string const& text) {
+  if (!text.starts_with("-") || text == "-" || text == "--") return fmt::format("\"{}\" is no option of sbatch", text);
+  for (std::string_view const ours : {"--array", "--dependency", "--wrap", "--parsable", "--output", "--cpus-per-task"})
+    if (text == ours || text.starts_with(std::string(ours) + "="))
+      return fmt::format("{} is for `submit` to say (--shards, --threads)", ours);
+  for (std::string_view const ours : {"-a", "-d", "-o", "-c"})
+    if (text.starts_with(ours)) return fmt::format("{} is for `submit` to say (--shards, --threads)", ours);
+  bool const is_one_line = std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+  return is_one_line ? "" : "an option of sbatch has no control characters";
+}
+
 }  // namespace
 
 void add_submit(CLI::App& app, ChosenCommand& chosen) {
   auto const arguments = std::make_shared<SubmitArguments>();
   CLI::App* command = app.add_subcommand(
-      "submit", "Hands a job to Slurm: an array of shards that survives kills, and a merge when all are done.");
+      "submit",
+      "Hands a job, or a diagnosis, to Slurm: an array of shards that survives kills, and a merge when all are done.");
   command->footer(
       "  torquescope submit lab.toml --shards 8 --threads 4 --time 02:00:00\n"
       "  torquescope submit lab.toml --shards 8 --dry-run\n"
+      "  torquescope submit lab.toml --shards 8 -- --account=robots --qos=long\n"
       "  torquescope status lab.h5\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
+  command->add_option("OPTION", arguments->sbatch_options, "behind \"--\": for sbatch, as they are, --name=value")
+      ->check(no_sbatch_option);
   add_result_option(*command, arguments->out);
   command
       ->add_option("--shards", arguments->shards, "tasks of the array; each does every Nth run, in minutes not seconds")

@@ -109,6 +109,9 @@ void build_page(std::filesystem::path const& result, std::filesystem::path const
                        "set TORQUESCOPE_SHARE to the folder that holds report/build.py");
   std::string const python = find_python();
   auto const status = run_program({python, program->string(), result.string(), "--out", page.string()}, Voice::heard);
+  if (status == static_cast<int>(ExitCode::bad_data))
+    throw page_problem(ExitCode::bad_data, result.string() + " is no file to build a page from",
+                       "the page builder's words stand above; torquescope show --verify says more");
   if (status != 0)
     throw page_problem(ExitCode::internal, fmt::format("the page builder failed ({} {})", python, program->string()),
                        "its own words stand above; the result file itself is unharmed");

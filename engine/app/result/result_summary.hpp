@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -66,6 +67,11 @@ struct ResultSummary {
   bool is_partial() const;  // some runs are missing
 };
 
+// reads in a process of its own what will be read here: whatever HDF5 does there with a file that nobody vouches for,
+// this process lives on. Errors: those of `look`; 65 when HDF5 crashes, loops or takes too much memory
+void look_at_result(std::filesystem::path const& file, std::function<void(ResultReader const&)> const& look);
+
+// looks at it first
 ResultSummary read_summary(std::filesystem::path const& file);
 // the same of a result that was written just now
 ResultSummary summary_of(WrittenResult const& result);

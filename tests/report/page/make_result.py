@@ -174,6 +174,30 @@ def texts(group, key, values):
     group.attrs.create(key, np.array(values, dtype=object), dtype=h5py.string_dtype())
 
 
+def texts_of_fixed_length(file):
+    """As results have them: h5py's own kind is refused by every reader."""
+
+    def change(_, node):
+        for key, value in list(node.attrs.items()):
+            if isinstance(value, str):
+                node.attrs[key] = np.bytes_(value.encode())
+            elif getattr(value, "dtype", None) == object:
+                node.attrs[key] = np.array([text.encode() for text in value])
+        for key in list(node) if isinstance(node, h5py.Group) else ():
+            child = node[key]
+            if isinstance(child, h5py.Dataset) and h5py.check_string_dtype(child.dtype):
+                words, kept = child.asstr()[()], dict(child.attrs)
+                del node[key]
+                node.create_dataset(key, data=np.array([word.encode() for word in words])).attrs.update(kept)
+
+    change("/", file)
+    groups = []
+    file.visititems(lambda name, node: groups.append((name, node)) if isinstance(node, h5py.Group) else None)
+    for name, node in groups:
+        change(name, node)
+    file.visititems(lambda name, node: change(name, node) if isinstance(node, h5py.Dataset) else None)
+
+
 def write_data(group, parts, units, rate_hz, simulated, warnings):
     """parts: [(name, time, position, velocity, acceleration, torque)], one per recording."""
     texts(group, "recordings", [part[0] for part in parts])
@@ -326,6 +350,7 @@ def write(path, *, name, job_text, units, joint, truth, train, validate, rate_hz
                     "crossover": "binomial",
                 }
             write_estimator(runs, label, kind, title, result, sets, floor, options)
+        texts_of_fixed_length(file)
 
 
 CRS_JOB = """# The single joint of the seed: ordinary least squares, DE and FADE, 30 runs each

@@ -4,16 +4,20 @@ import dataclasses
 import json
 import math
 import re
+import shutil
 import types
 import unittest
 
 import support
+import build
 import diagnosed
+import h5py
 import numpy as np
 import tables_of_diagnosis
 import words_of_diagnosis
 from figures import all_cases, diagnosed_trace, mismatch_map, parameters_before_after
 from read_result import Result, summary
+from study import Study
 
 LEAST_P = 1 / 201
 
@@ -30,6 +34,39 @@ def read_by_a_person(kind):
     """The text of the page outside tags, scripts and files that are shown verbatim."""
     body = support.page(kind).read_text(encoding="utf-8").split("<body>")[1]
     return re.sub(r"<[^>]*>", " ", re.sub(r"<(script|pre)\b.*?</\1>", " ", body, flags=re.S))
+
+
+class EmbeddedJson(unittest.TestCase):
+    def test_neither_ends_its_script_element_nor_hides_the_end(self):
+        hostile = json.dumps({"reason": "<!--<script> </script> --> & \u2028 <\\/script>"}, ensure_ascii=False)
+        escaped = str(build.script_json(hostile))
+        self.assertFalse(set(escaped) & set("<>&\u2028\u2029"), escaped)
+        self.assertEqual(json.loads(escaped), json.loads(hostile))
+
+
+@support.needs_diagnoses
+class HostileVerdict(unittest.TestCase):
+    """Words of a file are words, wherever the page puts them."""
+
+    def test_the_page_keeps_its_scripts(self):
+        words = "<!--<script>alert(1)</script> $unmatched"
+        path = support.FOLDER / "hostile.h5"
+        shutil.copy(support.result("named"), path)
+        with h5py.File(path, "r+") as file:
+            found = file["diagnosis"]
+            for key in ("reason", "finding", "way_out"):
+                found.attrs[key] = np.bytes_(words)
+            found["joint_1/effects/effect_1"].attrs["title"] = np.bytes_(words)
+            del found["verdict_json"]
+            found.create_dataset("verdict_json", data=np.array([json.dumps({"reason": words}).encode()]))
+        page = build.page(Study(path))
+        bodies = re.findall(r"<script\b[^>]*>(.*?)</script>", page, flags=re.S)
+        self.assertEqual(len(bodies), page.count("<script"), "each element that begins also ends")
+        self.assertEqual(page.count("<script"), page.count("</script>"))
+        self.assertFalse([body for body in bodies if "<!--" in body])
+        self.assertNotIn("alert(1)</script>", page.replace("\\u003c", ""))
+        kept = re.search(r'id="verdict-json">(.*?)</script>', page, flags=re.S)[1]
+        self.assertEqual(json.loads(kept)["reason"], words)
 
 
 @support.needs_diagnoses

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "engine/base/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
@@ -23,6 +24,7 @@ TEST(SlurmScripts, SayWhatWasAskedFor) {
        {"#!/bin/bash\n", "\n#SBATCH --array=0-7\n", "\n#SBATCH --cpus-per-task=4\n", "\n#SBATCH --time=01:30:00\n",
         "\n#SBATCH --partition=long\n", "\n#SBATCH --requeue\n", "\n#SBATCH --open-mode=append\n",
         "\n#SBATCH --signal=B:USR1@120\n", "\njob='it'\\''s a job.toml'\n", "\nresult='out/r.h5'\n", "\nshards=8\n",
+        "\ncommand=run", "\n#SBATCH --job-name=\"lab\"\n", "\n#SBATCH --output=\"out/r.h5.shard-%a.log\"\n",
         "\nsave_every=2.5\n", "scontrol requeue"})
     EXPECT_THAT(script, HasSubstr(line));
   EXPECT_THAT(merge_script(plan), HasSubstr("merge \"$job\" --out \"$result\""));
@@ -35,6 +37,31 @@ TEST(SlurmScripts, AreValidForBash) {
     auto const file = folder.write("script.sh", text);
     EXPECT_EQ(std::system(("bash -n '" + file.string() + "'").c_str()), 0);
   }
+}
+
+TEST(SlurmScripts, OfADiagnosisSayIt) {
+  SlurmPlan diagnosis = plan;
+  diagnosis.diagnoses = true;
+  EXPECT_THAT(array_script(diagnosis), HasSubstr("\ncommand=diagnose\n"));
+}
+
+// what sbatch unquotes (its manual: quotes and backslashes in #SBATCH lines, % in names of files)
+TEST(SbatchWord, KeepsBlanksQuotesPercentAndLettersOfAnyLanguage) {
+  EXPECT_EQ(sbatch_word("a b # \"c\" it's \\ \u00fc"), "\"a b # \\\"c\\\" it's \\\\ \u00fc\"");
+  EXPECT_EQ(sbatch_pattern("100%a \u00fc", ".shard-%a.log"), "\"100%%a \u00fc.shard-%a.log\"");
+}
+
+TEST(CheckPlan, RefusesWhatNoScriptCanCarry) {
+  EXPECT_NO_THROW(check_plan(plan));
+  for (auto SlurmPlan::*word : {&SlurmPlan::program, &SlurmPlan::job, &SlurmPlan::result, &SlurmPlan::name})
+    for (auto const* text : {"a\nresult=b", "a\rb", "a\x7f"}) {
+      SlurmPlan hostile = plan;
+      hostile.*word = text;
+      EXPECT_THROW(check_plan(hostile), Error) << text;
+    }
+  SlurmPlan backslash = plan;
+  backslash.result = "a\\b.h5";
+  EXPECT_THROW(check_plan(backslash), Error);
 }
 
 // the words a shell makes of it

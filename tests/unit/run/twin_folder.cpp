@@ -124,9 +124,17 @@ TEST_F(SharedTwins, AreSimulatedAgainWhereAPartIsMissingDamagedOrForeign) {
   EXPECT_EQ(computed_by_another(setting()), 2 * twin_lanes);
   EXPECT_EQ(test::bytes_of(names[0]), whole);
 
+  // somebody's own file of that name
+  test::write_bytes(names[0], "my own words");
+  EXPECT_EQ(computed_by_another(setting()), 2 * twin_lanes);
+  EXPECT_NE(told_.find(names[0].string() + " is no part of this diagnosis"), std::string::npos);
+  EXPECT_EQ(test::bytes_of(names[0]), "my own words");
+  test::write_bytes(names[0], whole);
+
   auto other_recording = setting();
   other_recording.inputs_sha256 = "other inputs";
   EXPECT_EQ(computed_by_another(other_recording), all_twins);
+  EXPECT_EQ(files().size(), 6u) << "of two jobs";
   Twins twins;
   TwinFolder(setting()).fill(twins.batch("another batch"));
   EXPECT_EQ(twins.computed, all_twins);

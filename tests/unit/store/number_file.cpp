@@ -18,9 +18,10 @@ namespace number_file_test {
 namespace fs = std::filesystem;
 
 std::array<double, 5> const numbers{1.0, -0.0, std::numeric_limits<double>::infinity(), 5e-324, -3.25};
-Sha256 const key = Digest().text("this one").raw();
+Sha256 const job = Digest().text("this job").raw();
+NumberFileKey const key{job, Digest().text("this one").raw()};
 
-NumberFile found(fs::path const& name, Sha256 const& wanted = key, std::size_t count = numbers.size()) {
+NumberFile found(fs::path const& name, NumberFileKey const& wanted = key, std::size_t count = numbers.size()) {
   std::vector<double> read(count);
   return read_number_file(name, wanted, read);
 }
@@ -54,14 +55,17 @@ TEST(NumberFile, IsNotBelievedWithAnyBitFlippedAnyByteMissingOrOneTooMany) {
     EXPECT_NE(found(folder.write("b", flipped)), NumberFile::whole) << bit;
   }
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_EQ(found(folder.write("c", whole.substr(0, size))), NumberFile::damaged) << size;
+    EXPECT_EQ(found(folder.write("c", whole.substr(0, size))), size < 80 ? NumberFile::foreign : NumberFile::damaged)
+        << size;
   EXPECT_EQ(found(folder.write("d", whole + 'x')), NumberFile::damaged);
 }
 
 TEST(NumberFile, OfAnotherKeyOrCountIsNotTaken) {
   test::TemporaryFolder const folder;
   write_number_file(folder / "a", key, numbers);
-  EXPECT_EQ(found(folder / "a", Digest().text("another").raw()), NumberFile::foreign);
+  Sha256 const another = Digest().text("another").raw();
+  EXPECT_EQ(found(folder / "a", {job, another}), NumberFile::outdated);
+  EXPECT_EQ(found(folder / "a", {another, key.key}), NumberFile::foreign) << "of another job";
   EXPECT_EQ(found(folder / "a", key, numbers.size() - 1), NumberFile::damaged);
   EXPECT_EQ(found(folder / "a", key, numbers.size() + 1), NumberFile::damaged);
 }
@@ -70,12 +74,12 @@ TEST(NumberFile, ThatIsNoFileIsNeitherReadNorWaitedFor) {
   test::TemporaryFolder const folder;
   EXPECT_EQ(found(folder / "nothing"), NumberFile::missing);
   fs::create_directory(folder / "folder");
-  EXPECT_EQ(found(folder / "folder"), NumberFile::damaged);
+  EXPECT_EQ(found(folder / "folder"), NumberFile::foreign);
   ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
-  EXPECT_EQ(found(folder / "fifo"), NumberFile::damaged);
+  EXPECT_EQ(found(folder / "fifo"), NumberFile::foreign);
   write_number_file(folder / "a", key, numbers);
   fs::create_symlink("a", folder / "link");
-  EXPECT_EQ(found(folder / "link"), NumberFile::damaged);
+  EXPECT_EQ(found(folder / "link"), NumberFile::foreign);
 }
 
 TEST(NumberFile, ThatCannotBeWrittenIsSaid) { EXPECT_THROW(write_number_file("/nowhere/at/all", key, numbers), Error); }
