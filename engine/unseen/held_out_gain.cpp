@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/contract.hpp"
+#include "engine/statistics/equal_blocks.hpp"
 #include "engine/statistics/student_t.hpp"
 
 namespace torquescope {
@@ -35,8 +37,8 @@ std::string word(HeldOutChange change) {
       return "lower";
     case HeldOutChange::not_lower:
       return "not lower";
-    case HeldOutChange::unknown:
-      return "unknown";
+    case HeldOutChange::undecided:
+      return "undecided";
   }
   return {};
 }
@@ -61,6 +63,18 @@ HeldOutGain held_out_gain(std::span<HeldOutBlock const> blocks) {
   bool const is_lower = gain.after < gain.before && gain.t > gain.asked_for;
   gain.change = is_lower ? HeldOutChange::lower : HeldOutChange::not_lower;
   return gain;
+}
+
+std::vector<HeldOutBlock> held_out_blocks(Eigen::VectorXd const& left_before, Eigen::VectorXd const& left_after,
+                                          Eigen::Index memory) {
+  TORQUESCOPE_EXPECT(left_before.size() == left_after.size() && memory > 0);
+  constexpr Eigen::Index most = 60;
+  auto const fewest = static_cast<Eigen::Index>(fewest_blocks);
+  std::vector<HeldOutBlock> blocks;
+  for (auto const& block : equal_blocks(left_before.size(), std::clamp(left_before.size() / memory, fewest, most)))
+    blocks.push_back({left_before.segment(block.from, block.size()).squaredNorm(),
+                      left_after.segment(block.from, block.size()).squaredNorm(), static_cast<double>(block.size())});
+  return blocks;
 }
 
 }  // namespace torquescope

@@ -81,11 +81,11 @@ TEST(HeldOutGain, CountsBlocksThatRepeatEachOtherForLess) {
 }
 
 TEST(HeldOutGain, KnowsNothingOfFewBlocksOrOfNoNumbers) {
-  EXPECT_EQ(held_out_gain(blocks_with(7, 0.5, false, 5)).change, HeldOutChange::unknown);
+  EXPECT_EQ(held_out_gain(blocks_with(7, 0.5, false, 5)).change, HeldOutChange::undecided);
   auto blocks = blocks_with(60, 0.5, false, 6);
   blocks[3].after = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(held_out_gain(blocks).change, HeldOutChange::unknown);
-  EXPECT_EQ(held_out_gain({}).change, HeldOutChange::unknown);
+  EXPECT_EQ(held_out_gain(blocks).change, HeldOutChange::undecided);
+  EXPECT_EQ(held_out_gain({}).change, HeldOutChange::undecided);
 }
 
 TEST(HeldOutGain, IsNotWorseWithinChance) {
