@@ -5,15 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "engine/base/error.hpp"
-#include "engine/data/excitation.hpp"
+#include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/locate/mismatch_map.hpp"
 #include "engine/pipeline/motion_limits.hpp"
-#include "engine/pipeline/recording_checks.hpp"
-#include "engine/pipeline/shared_constants.hpp"
-#include "engine/pipeline/simulator_gap.hpp"
 #include "engine/search/abstention.hpp"
 #include "engine/search/blocked_mismatch.hpp"
 #include "engine/search/candidate_table.hpp"
@@ -25,7 +21,6 @@
 #include "engine/unseen/unseen_record.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
-#include "engine/words/name_list.hpp"
 #include "engine/words/sentences.hpp"
 #include "engine/words/withdrawn_names.hpp"
 
@@ -40,31 +35,15 @@ std::string without_reference_sentence(bool is_echo) {
          "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
 }
 
-// what work() says of the recording, or what stopped it when that is the recording's fault
-template <typename Work>
-std::optional<Hopeless> verdict_of(Verdict verdict, Work const& work) {
-  try {
-    return work();
-  } catch (Error const& error) {
-    auto const& problem = error.problems().front();
-    if (problem.code != ExitCode::bad_data) throw;
-    return Hopeless{verdict, problem.what, problem.help};
-  }
-}
-
 LeftOut told(LeftOutRows const& rows) {
   return {rows.time_share(), rows.energy_share(), std::sqrt(rows.energy / rows.torque),
           std::sqrt(rows.after / rows.torque)};
 }
 
-std::string merged_sentence(std::vector<std::string> const& dropped) {
-  return "On this motion " + name_list(dropped, "and") + (dropped.size() == 1 ? " is" : " are") +
-         " one number with a friction or offset that the model keeps, and left out.";
-}
-
 class JointWork {
  public:
-  JointWork(DiagnosisInput const& input, StageSink const& progress) : input_(input), progress_(progress) {
+  JointWork(DiagnosisInput const& input, StageSink const& progress)
+      : input_(input), progress_(progress), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = revolute ? "N m" : "N";
@@ -99,14 +78,17 @@ class JointWork {
     Recording recording = without_echoed_reference(from_zero(input_.train));
     has_reference_ = recording.reference.size() > 0;
     // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
-    if (auto const why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); })) return hopeless(*why);
-    StageSetting setting{recording,    regressor(), input_.filter, input_.filter_section,
-                         input_.twins, input_.seed, input_.threads};
+    auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(recording); });
+    joint_.train_relerr = first_look_.relerr();
+    joint_.remarks = first_look_.remarks();
+    if (why) return hopeless(*why);
+    StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
+                         input_.seed, input_.threads};
     setting.ablation = input_.ablation;
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
-    std::erase_if(selection.candidates, [&](Effect const* law) { return closes(limits_, *law); });
-    auto const why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
+    std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
+    why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
       selection_ = search_in_time(setting, recording, selection, progress_, torque_late_s_);
       return std::nullopt;
     });
@@ -114,7 +96,7 @@ class JointWork {
     tell("verify", 0, selection_.accepted.size());
     unseen_.reserve(input_.validate.size());
     for (auto const& given : input_.validate) {
-      Recording one = less_simulator(without_echoed_reference(given));
+      Recording one = first_look_.less_simulator(without_echoed_reference(given));
       unseen_.push_back(torque_late_s_ == 0.0 ? std::move(one) : with_torque_earlier(std::move(one), torque_late_s_));
     }
     HeldOutSelection found = search_while_names_spoil(setting, selection, unseen_, std::move(selection_), progress_);
@@ -132,60 +114,6 @@ class JointWork {
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
-  }
-
-  // the recording by itself; may replace its torque by what the user's simulator cannot say
-  std::optional<Hopeless> look_first(Recording& recording) {
-    Motion const motion = differentiate(recording, input_.filter, input_.filter_section);
-    excitation_ = measure_excitation(recording, motion, input_.filter);
-    if (auto why = check_recording(excitation_)) return why;
-    merge_constants(recording);
-    RecordPipeline const pipeline = plain_pipeline(recording);
-    // columns that the motion cannot tell apart
-    auto why = verdict_of(Verdict::insufficient, [&] {
-      ProcessedRecord const record = pipeline.process(recording);
-      joint_.train_relerr = relative_error(record);
-      return check_sign(record);
-    });
-    limits_ = limits_of(excitation_, joint_.train_relerr);
-    add_remark(closed_sentences(limits_, excitation_));
-    if (!why && recording.simulated_torque.size() > 0) {
-      SimulatorGap gap = gap_to_simulator(recording, pipeline);
-      parameter_share_ = gap.parameter_share;
-      simulator_parameters_ = gap.simulator_parameters;
-      recording = std::move(gap.recording);
-    }
-    return why;
-  }
-
-  Regressor const& regressor() const { return merged_ ? *merged_ : input_.regressor; }
-
-  // of the model without effects
-  RecordPipeline plain_pipeline(Recording const& recording) const {
-    return {regressor(), input_.filter, recording.rate_hz, recording.position.size(), input_.filter_section};
-  }
-
-  void add_remark(std::string sentence) {
-    if (!sentence.empty()) joint_.remarks.push_back(std::move(sentence));
-  }
-
-  // terms that are one number on the rows of this motion become one of them
-  void merge_constants(Recording const& recording) {
-    auto const dropped = terms_to_drop(input_.regressor, plain_pipeline(recording).prepare(recording),
-                                       limits_of(excitation_, 0.0).has_one_speed);
-    if (dropped.empty()) return;
-    std::vector<std::string> terms;
-    for (auto const* term : input_.regressor.terms())
-      if (std::find(dropped.begin(), dropped.end(), term->name()) == dropped.end()) terms.push_back(term->name());
-    merged_.emplace(terms, input_.regressor.joint(), input_.regressor.velocity_deadband());
-    add_remark(merged_sentence(dropped));
-  }
-
-  // what the simulator cannot say of an unseen recording, by the terms it has in training
-  Recording less_simulator(Recording recording) const {
-    if (simulator_parameters_.size() == 0) return recording;
-    RecordPipeline const pipeline = plain_pipeline(recording);
-    return without_simulator(std::move(recording), pipeline, simulator_parameters_);
   }
 
   ModelStage const& final_stage() const { return *selection_.final; }
@@ -257,9 +185,9 @@ class JointWork {
     double const excess = std::max(0.0, selection_.first_excess);
     double const mismatch = std::min(1.0, excess / residual);
     double const left = selection_.is_gate_open ? std::min(1.0, remainder.share) : 1.0;
-    double const of_model = 1.0 - parameter_share_;
+    double const of_model = 1.0 - first_look_.parameter_share();
     // what no gate passed is noise as far as anybody can tell
-    joint_.budget.parameter_error = parameter_share_;
+    joint_.budget.parameter_error = first_look_.parameter_share();
     joint_.budget.missing_physics = of_model * mismatch * (1.0 - left);
     joint_.budget.unexplained = selection_.is_gate_open ? of_model * mismatch * left : 0.0;
     joint_.budget.noise =
@@ -270,7 +198,7 @@ class JointWork {
     if (!selection_.is_gate_open) {
       diagnosis_.verdict = Verdict::none;
       if (!joint_.unseen_beyond.empty()) diagnosis_.verdict = Verdict::unexplained;
-      if (auto const why = blamed_for_silence(limits_, excitation_, joint_.train_relerr)) hopeless(*why);
+      if (auto const why = first_look_.blamed_for_silence()) hopeless(*why);
       return;
     }
     if (remainder.is_significant || remainder.is_unexplained) {
@@ -283,8 +211,8 @@ class JointWork {
       diagnosis_.verdict = Verdict::unexplained;
       if (kept_to_) hopeless(too_narrow(joint_, *kept_to_));
       // nothing was found in a torque that has nothing to do with the motion
-      else if (limits_.has_no_relation)
-        hopeless(*blamed_for_silence(limits_, excitation_, joint_.train_relerr));
+      else if (first_look_.limits().has_no_relation)
+        hopeless(*first_look_.blamed_for_silence());
       withdraw(remainder);
       return;
     }
@@ -324,20 +252,16 @@ class JointWork {
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
+  FirstLook first_look_;
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  Excitation excitation_{};            // of the training recording
-  std::vector<Recording> unseen_;      // torque in time with that of the training recording
-  std::vector<std::size_t> place_;     // of each accepted effect among the named ones
-  bool has_reference_ = false;         // one that tells a loop
-  MotionLimits limits_{};              // what the training motion cannot tell
-  std::optional<Regressor> merged_{};  // the model with terms merged that are one on this motion; none: as given
-  double parameter_share_ = 0.0;
-  Eigen::VectorXd simulator_parameters_{};  // of the terms in the user's simulator; none
-  double torque_late_s_ = 0.0;              // taken out of all recordings (channel_timing.hpp)
-  bool is_refuted_ = false;                 // what was named, by unseen recordings
-  std::optional<MotionRange> kept_to_{};    // by training, when they do so only beyond it
+  std::vector<Recording> unseen_;         // torque in time with that of the training recording
+  std::vector<std::size_t> place_;        // of each accepted effect among the named ones
+  bool has_reference_ = false;            // one that tells a loop
+  double torque_late_s_ = 0.0;            // taken out of all recordings (channel_timing.hpp)
+  bool is_refuted_ = false;               // what was named, by unseen recordings
+  std::optional<MotionRange> kept_to_{};  // by training, when they do so only beyond it
   bool unseen_twins_ran_away_ = false;
 };
 
