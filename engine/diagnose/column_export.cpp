@@ -117,14 +117,20 @@ void shape_candidates(ColumnExport& result, CandidateColumns const& columns, Dia
 ColumnExport export_columns(DiagnosisInput const& input) {
   Recording train = from_zero(input.train);
   RecordPipeline pipeline = pipeline_of(input, train);
-  if (train.simulated_torque.size() > 0) train = gap_to_simulator(train, pipeline).recording;
+  Eigen::VectorXd simulator_parameters;
+  if (train.simulated_torque.size() > 0) {
+    SimulatorGap gap = gap_to_simulator(train, pipeline);
+    simulator_parameters = std::move(gap.simulator_parameters);
+    train = std::move(gap.recording);
+  }
   ProcessedRecord record = pipeline.process(train);
   auto const size = input.regressor.size();
-  BaselineReference const reference{fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
-                                                    smoothing_cutoff(pipeline), encoder_step_of(train))
-                                        .scales,
-                                    record.parameters};
+  BaselineReference reference{fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
+                                              smoothing_cutoff(pipeline), encoder_step_of(train))
+                                  .scales,
+                              record.parameters};
 
+  reference.gear_load = gear_load_of(train);
   ColumnExport result;
   {
     MeasuredRecord const measured(std::move(pipeline), std::move(record), reference);
@@ -132,8 +138,10 @@ ColumnExport export_columns(DiagnosisInput const& input) {
     result.train = measured.all_columns(train.name, result.candidates, input.threads);
   }
   for (auto const& given : input.validate) {
-    Recording const unseen = from_zero(given);
+    Recording unseen = from_zero(given);
     RecordPipeline own = pipeline_of(input, unseen);
+    if (simulator_parameters.size() > 0) unseen = without_simulator(std::move(unseen), own, simulator_parameters);
+    reference.gear_load = gear_load_of(unseen);
     ProcessedRecord prepared = own.prepare(unseen);
     MeasuredRecord const measured(std::move(own), std::move(prepared), reference);
     result.validate.push_back(measured.all_columns(unseen.name, result.candidates, input.threads));

@@ -5,24 +5,20 @@
 #include <optional>
 #include <utility>
 
-#include "engine/base/error.hpp"
-#include "engine/data/excitation.hpp"
+#include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/locate/mismatch_map.hpp"
-#include "engine/pipeline/recording_checks.hpp"
-#include "engine/pipeline/simulator_gap.hpp"
+#include "engine/pipeline/motion_limits.hpp"
 #include "engine/search/abstention.hpp"
 #include "engine/search/blocked_mismatch.hpp"
 #include "engine/search/candidate_table.hpp"
 #include "engine/search/channel_timing.hpp"
 #include "engine/search/joint_search.hpp"
 #include "engine/twin/echoed_reference.hpp"
+#include "engine/unseen/held_out_search.hpp"
 #include "engine/unseen/unseen_range.hpp"
 #include "engine/unseen/unseen_record.hpp"
-#include "engine/unseen/unseen_refutation.hpp"
-#include "engine/unseen/unseen_selection.hpp"
-#include "engine/unseen/unseen_transfer.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
 #include "engine/words/sentences.hpp"
@@ -39,24 +35,19 @@ std::string without_reference_sentence(bool is_echo) {
          "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
 }
 
-// what work() says of the recording, or what stopped it when that is the recording's fault
-template <typename Work>
-std::optional<Hopeless> verdict_of(Verdict verdict, Work const& work) {
-  try {
-    return work();
-  } catch (Error const& error) {
-    auto const& problem = error.problems().front();
-    if (problem.code != ExitCode::bad_data) throw;
-    return Hopeless{verdict, problem.what, problem.help};
-  }
+LeftOut told(LeftOutRows const& rows) {
+  return {rows.time_share(), rows.energy_share(), std::sqrt(rows.energy / rows.torque),
+          std::sqrt(rows.after / rows.torque)};
 }
 
 class JointWork {
  public:
-  JointWork(DiagnosisInput const& input, StageSink const& progress) : input_(input), progress_(progress) {
+  JointWork(DiagnosisInput const& input, StageSink const& progress)
+      : input_(input), progress_(progress), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = revolute ? "N m" : "N";
+    joint_.name = input.joint_name;
     diagnosis_.seed = input.seed;
     diagnosis_.q = input.selection.q;
   }
@@ -65,6 +56,8 @@ class JointWork {
     diagnose();
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
+    if (diagnosis_.finding.empty())
+      for (auto const& remark : diagnosis_.joints.front().remarks) diagnosis_.reason += " " + remark;
     if (selection_.baseline && !has_reference_)
       diagnosis_.reason += " " + without_reference_sentence(input_.train.reference.size() > 0);
     return std::move(diagnosis_);
@@ -84,27 +77,32 @@ class JointWork {
   void diagnose() {
     Recording recording = without_echoed_reference(from_zero(input_.train));
     has_reference_ = recording.reference.size() > 0;
-    StageSetting setting{recording,    input_.regressor, input_.filter, input_.filter_section,
-                         input_.twins, input_.seed,      input_.threads};
+    // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
+    auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(recording); });
+    joint_.train_relerr = first_look_.relerr();
+    joint_.remarks = first_look_.remarks();
+    if (why) return hopeless(*why);
+    StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
+                         input_.seed, input_.threads};
     setting.ablation = input_.ablation;
     setting.exchange = input_.exchange;
-    // a job that asks for the impossible is refused; a recording that cannot carry it is a verdict
-    auto why = verdict_of(Verdict::data_fault, [&] { return look_first(recording); });
-    if (!why)
-      why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
-        selection_ = search_in_time(setting, recording, input_.selection, progress_, torque_late_s_);
-        return std::nullopt;
-      });
+    SelectionOptions selection = input_.selection;
+    std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
+    why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
+      selection_ = search_in_time(setting, recording, selection, progress_, torque_late_s_);
+      return std::nullopt;
+    });
     if (why) return hopeless(*why);
     tell("verify", 0, selection_.accepted.size());
-    selection_ = doubt_noise(setting, input_.selection, std::move(selection_), progress_);
-    Remainder remainder = judge_with_reversals(setting, input_.selection, selection_, progress_);
     unseen_.reserve(input_.validate.size());
     for (auto const& given : input_.validate) {
-      Recording one = without_echoed_reference(given);
+      Recording one = first_look_.less_simulator(without_echoed_reference(given));
       unseen_.push_back(torque_late_s_ == 0.0 ? std::move(one) : with_torque_earlier(std::move(one), torque_late_s_));
     }
-    drop_spoilers(setting, unseen_, selection_, remainder);
+    HeldOutSelection found = search_while_names_spoil(setting, selection, unseen_, std::move(selection_), progress_);
+    selection_ = std::move(found.selection);
+    kept_to_ = found.kept_to;
+    Remainder const remainder = std::move(found.remainder);
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
     joint_.timing_sentence = timing_sentence(torque_late_s_, input_.train.rate_hz);
@@ -112,32 +110,10 @@ class JointWork {
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (selection_.is_gate_open) account_for_effects();
-    check_on_unseen(setting, remainder);
+    account_for_unseen(*found.setting, std::move(found.judgement));
     budget(remainder);
     decide(remainder);
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
-  }
-
-  // the recording by itself; may replace its torque by what the user's simulator cannot say
-  std::optional<Hopeless> look_first(Recording& recording) {
-    Motion const motion = differentiate(recording, input_.filter, input_.filter_section);
-    excitation_ = measure_excitation(recording, motion, input_.filter);
-    if (auto why = check_recording(excitation_, 0.0)) return why;
-    RecordPipeline const pipeline(input_.regressor, input_.filter, recording.rate_hz, recording.position.size(),
-                                  input_.filter_section);
-    // columns that the motion cannot tell apart
-    auto why = verdict_of(Verdict::insufficient, [&] {
-      ProcessedRecord const record = pipeline.process(recording);
-      joint_.train_relerr = relative_error(record);
-      auto const wrong_sign = check_sign(record);
-      return wrong_sign ? wrong_sign : check_recording(excitation_, joint_.train_relerr);
-    });
-    if (!why && recording.simulated_torque.size() > 0) {
-      SimulatorGap gap = gap_to_simulator(recording, pipeline);
-      parameter_share_ = gap.parameter_share;
-      recording = std::move(gap.recording);
-    }
-    return why;
   }
 
   ModelStage const& final_stage() const { return *selection_.final; }
@@ -151,47 +127,42 @@ class JointWork {
     place_ = std::move(named.place);
   }
 
-  void check_on_unseen(StageSetting const& setting, Remainder const& remainder) {
+  void account_for_unseen(StageSetting const& setting, HeldOutJudgement judgement) {
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
-    UnseenSum sum;
+    joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
+    joint_.held_out = {judgement.gain.blocks == 0 ? ""
+                       : unseen_.empty()          ? "cross-validated"
+                                                  : "unseen",
+                       judgement.gain.blocks == 0 ? "" : word(judgement.gain.change), judgement.gain.t,
+                       judgement.gain.asked_for, judgement.gain.blocks};
     double floor = 0.0;
-    bool has_twins = false, is_beyond = false;
+    bool has_twins = false;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
-    for (auto const& recording : unseen_) {
-      UnseenResult result = check_unseen(recording, setting, baseline(), final_stage());
-      sum.add(result);
+    for (auto& result : judgement.unseen) {
       floor += result.floor * result.floor * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
-      unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
-      if (auto beyond = beyond_twins(recording.name, std::sqrt(result.energies.after / result.torque_energy),
-                                     result.transferred)) {
-        is_beyond = true;
-        if (!selection_.is_gate_open) joint_.unseen_beyond.push_back(std::move(*beyond));
-      }
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
     }
+    is_refuted_ = !judgement.holds();
+    unseen_twins_ran_away_ = judgement.twins_ran_away;
+    if (!selection_.is_gate_open) joint_.unseen_beyond = judgement.beyond;
     if (input_.validate.empty()) {
       auto const& record = baseline().comparison.recording;
       joint_.traces.push_back(
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
-    UnseenEnergies const energies = sum.energies();
-    double const torque = sum.torque_energy();
-    joint_.validation_relerr = std::sqrt(energies.found.before / torque);
-    joint_.augmented_validation_relerr = std::sqrt(energies.found.after / torque);
-    if (has_twins) joint_.floor_relerr = std::sqrt(floor / torque);
-    bool const are_a_part = !remainder.is_named_enough && is_beyond;
-    is_refuted_ =
-        must_carry_over(selection_.accepted) && (are_a_part ? speak_against_a_part(energies) : speak_against(energies));
-    if (is_refuted_ && !remainder.is_unexplained && !are_a_part)
-      kept_to_ = spoils_only_beyond(setting, unseen_, selection_);
+    joint_.validation_left_out = told(judgement.left_out);
+    PredictionEnergies const& energies = judgement.energies.found;
+    joint_.validation_relerr = std::sqrt(energies.before / judgement.torque_energy);
+    joint_.augmented_validation_relerr = std::sqrt(energies.after / judgement.torque_energy);
+    if (has_twins) joint_.floor_relerr = std::sqrt(floor / judgement.torque_energy);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / energies.found.before;
+      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / energies.before;
     }
   }
 
@@ -214,9 +185,9 @@ class JointWork {
     double const excess = std::max(0.0, selection_.first_excess);
     double const mismatch = std::min(1.0, excess / residual);
     double const left = selection_.is_gate_open ? std::min(1.0, remainder.share) : 1.0;
-    double const of_model = 1.0 - parameter_share_;
+    double const of_model = 1.0 - first_look_.parameter_share();
     // what no gate passed is noise as far as anybody can tell
-    joint_.budget.parameter_error = parameter_share_;
+    joint_.budget.parameter_error = first_look_.parameter_share();
     joint_.budget.missing_physics = of_model * mismatch * (1.0 - left);
     joint_.budget.unexplained = selection_.is_gate_open ? of_model * mismatch * left : 0.0;
     joint_.budget.noise =
@@ -227,7 +198,7 @@ class JointWork {
     if (!selection_.is_gate_open) {
       diagnosis_.verdict = Verdict::none;
       if (!joint_.unseen_beyond.empty()) diagnosis_.verdict = Verdict::unexplained;
-      if (auto const why = check_silence(excitation_)) hopeless(*why);
+      if (auto const why = first_look_.blamed_for_silence()) hopeless(*why);
       return;
     }
     if (remainder.is_significant || remainder.is_unexplained) {
@@ -239,6 +210,9 @@ class JointWork {
     if (remainder.is_unexplained || is_refuted_) {
       diagnosis_.verdict = Verdict::unexplained;
       if (kept_to_) hopeless(too_narrow(joint_, *kept_to_));
+      // nothing was found in a torque that has nothing to do with the motion
+      else if (first_look_.limits().has_no_relation)
+        hopeless(*first_look_.blamed_for_silence());
       withdraw(remainder);
       return;
     }
@@ -259,7 +233,7 @@ class JointWork {
       why = "unseen data go beyond the training motion, and there it does not hold";
     } else if (!remainder.is_unexplained) {
       joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
-      why = "unseen data keep too little of what its own twins promise";
+      why = "does not hold on rows it was not fitted to";
     } else if (remainder.is_most_left) {
       joint_.refutation = too_little_clause(joint_, 1.0 - std::min(1.0, remainder.share));
       why = "it explains less than half";
@@ -273,18 +247,18 @@ class JointWork {
     joint_.effects.clear();
     joint_.augmented.clear();
     joint_.augmented_train_relerr = joint_.augmented_validation_relerr = joint_.augmented_cv_relerr = unknown;
+    joint_.train_left_out.augmented_relerr = joint_.validation_left_out.augmented_relerr = unknown;
   }
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
+  FirstLook first_look_;
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  Excitation excitation_{};         // of the training recording
-  std::vector<Recording> unseen_;   // torque in time with that of the training recording
-  std::vector<std::size_t> place_;  // of each accepted effect among the named ones
-  bool has_reference_ = false;      // one that tells a loop
-  double parameter_share_ = 0.0;
+  std::vector<Recording> unseen_;         // torque in time with that of the training recording
+  std::vector<std::size_t> place_;        // of each accepted effect among the named ones
+  bool has_reference_ = false;            // one that tells a loop
   double torque_late_s_ = 0.0;            // taken out of all recordings (channel_timing.hpp)
   bool is_refuted_ = false;               // what was named, by unseen recordings
   std::optional<MotionRange> kept_to_{};  // by training, when they do so only beyond it

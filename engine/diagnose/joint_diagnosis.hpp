@@ -2,12 +2,13 @@
 // The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
 //
 // Verdict    none, named, class, unexplained, insufficient or data_fault: METHOD.md, Verdict. Accepted effects are
-//            withdrawn by abstention.hpp and unseen_refutation.hpp, one of several by unseen_selection.hpp
+//            withdrawn by abstention.hpp, and by held_out_search.hpp where held-out rows do not confirm them
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "engine/search/forward_selection.hpp"
@@ -27,6 +28,7 @@ struct DiagnosisInput {
   std::uint64_t seed = 0;
   int threads = 1;
   Ablation ablation{};
+  std::string joint_name{};          // for texts: of the position column
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 

@@ -36,6 +36,9 @@ struct EffectParameter {
   Spacing spacing = Spacing::linear;
   bool none_at_lower = false;  // its lower bound stands for a law without it
   bool is_resonance = false;   // that rings: most of what it explains is gone a few percent beside it
+  // a bound that is a law of its own (an exponent of 2, a share of all), or a limit of what rows can tell: an estimate
+  // there is a finding, and at any other bound the end of what is plausible
+  bool law_at_lower = false, law_at_upper = false;
 
   std::string const& unit_for(JointKind joint) const {
     return joint == JointKind::revolute ? unit_revolute : unit_prismatic;
@@ -60,6 +63,20 @@ inline EffectParameter none_at_lower(EffectParameter parameter) {
 inline EffectParameter resonance(EffectParameter parameter) {
   parameter.is_resonance = true;
   return parameter;
+}
+
+inline EffectParameter law_at_lower(EffectParameter parameter) {
+  parameter.law_at_lower = true;
+  return parameter;
+}
+
+inline EffectParameter law_at_upper(EffectParameter parameter) {
+  parameter.law_at_upper = true;
+  return parameter;
+}
+
+inline EffectParameter law_at_both(EffectParameter parameter) {
+  return law_at_lower(law_at_upper(std::move(parameter)));
 }
 
 // a parameter's bounds on one recording

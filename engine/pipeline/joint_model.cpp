@@ -12,6 +12,12 @@ JointModel::JointModel(Regressor const& regressor, BaselineReference reference, 
   TORQUESCOPE_EXPECT(effects_.empty() || static_cast<std::size_t>(reference_.parameters.size()) == regressor.size());
 }
 
+std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording) {
+  return recording.gear_load.size() > 0 ? std::make_shared<Eigen::VectorXd const>(recording.gear_load) : nullptr;
+}
+
+void JointModel::load_as_in(Recording const& recording) { reference_.gear_load = gear_load_of(recording); }
+
 std::size_t JointModel::size() const { return first_parameter(effects_.size()); }
 
 std::size_t JointModel::first_parameter(std::size_t effect) const {
@@ -83,8 +89,8 @@ TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
   TwinJoint joint = make_twin_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
   for (std::size_t i = 0; i < effects_.size(); ++i)
-    joint.effects.push_back(
-        lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales, joint.lanes));
+    joint.effects.push_back(lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales,
+                                        {joint.lanes, reference_.gear_load, reference_.scales.rate_hz}));
   return joint;
 }
 
@@ -93,6 +99,10 @@ FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& re
       fitted_baseline(regressor, {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())},
                       motion, reference.scales.cutoff_hz, reference.scales.encoder_step);
   baseline.scales = reference.scales;
+  if (reference.gear_load) {
+    TORQUESCOPE_EXPECT(reference.gear_load->size() == baseline.load_torque.size());
+    baseline.load_torque += *reference.gear_load;
+  }
   return baseline;
 }
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ShapedEffect {
 struct BaselineReference {
   JointScales scales{};
   Eigen::VectorXd parameters{};  // of the regressor
+  // per sample: load that passes the gear beside the regressor's (Recording::gear_load); none
+  std::shared_ptr<Eigen::VectorXd const> gear_load{};
 };
 
 // one per sample
@@ -44,6 +47,8 @@ class JointModel {
 
   Regressor const& regressor() const { return *regressor_; }
   BaselineReference const& reference() const { return reference_; }
+  // the same model on that recording: its gear load, or none
+  void load_as_in(Recording const& recording);
   std::vector<ShapedEffect> const& effects() const { return effects_; }
   std::size_t size() const;
   // index of the first parameter of effect i
@@ -67,6 +72,9 @@ class JointModel {
   BaselineReference reference_{};
   std::vector<ShapedEffect> effects_{};
 };
+
+// of the recording, for a reference; none
+std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording);
 
 // load and model torque of the reference on a motion, its scales as they are
 FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion);

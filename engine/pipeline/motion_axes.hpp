@@ -1,7 +1,8 @@
 #pragma once
 // Where the samples of a motion lie: what every axis of a diagnosis is read from.
 //
-// Load       terms of the model that need position or acceleration; the other terms are friction and offset
+// Load       terms of the model that need position or acceleration, and the gear load of the recording's simulator; the
+//            other terms are friction and offset
 // Distance   travelled since the sign of velocity, or of the model's torque, last changed
 // Shapes     n samples, or those rows of them that a diagnosis looks at
 // Units      SI of the joint's kind

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/error.hpp"
@@ -19,13 +20,15 @@ namespace {
 
 // the mask at the samples the filter keeps, without the start of the record
 std::vector<Eigen::Index> moving_rows(Motion const& motion, ParallelFilter const& filter, double cutoff_hz,
-                                      bool with_reversals) {
+                                      bool with_reversals, std::vector<bool> const& saturated) {
   auto const moving = with_reversals ? samples_without_rest(motion.dq, motion.rate_hz, cutoff_hz)
                                      : moving_samples(motion.dq, motion.rate_hz, cutoff_hz);
   auto const left_out = left_out_samples(motion, cutoff_hz);
   Eigen::VectorXd as_numbers = Eigen::VectorXd::Zero(motion.dq.size());
   for (Eigen::Index k = unknown_start(motion.q, motion.dq); k < as_numbers.size(); ++k)
-    if (moving[static_cast<std::size_t>(k)] && !left_out[static_cast<std::size_t>(k)]) as_numbers[k] = 1.0;
+    if (moving[static_cast<std::size_t>(k)] && !left_out[static_cast<std::size_t>(k)] &&
+        (saturated.empty() || !saturated[static_cast<std::size_t>(k)]))
+      as_numbers[k] = 1.0;
   Eigen::VectorXd const kept = filter.pick(as_numbers);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < kept.size(); ++i)
@@ -107,6 +110,12 @@ bool RecordPipeline::is_repeated(Eigen::MatrixXd const& columns, Eigen::Index co
   return false;
 }
 
+std::vector<Eigen::Index> RecordPipeline::all_rows() const {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(kept_samples()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  return rows;
+}
+
 void RecordPipeline::restrict_to(std::vector<Eigen::Index> kept_rows) {
   fixed_rows_ = std::move(kept_rows);
   if (whitens()) fixed_wander_ = weights_->wander_on(fixed_rows_);
@@ -174,10 +183,10 @@ ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
   ProcessedRecord record;
   record.motion = std::move(motion);
   record.drive = std::move(drive);
-  record.kept_rows =
-      fixed_rows_.empty()
-          ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz, keeps_reversals_)
-          : fixed_rows_;
+  record.kept_rows = fixed_rows_.empty()
+                         ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz,
+                                       keeps_reversals_, saturated_)
+                         : fixed_rows_;
 
   // the torque goes through the filter beside the columns: eight signals cost as much as one
   Eigen::MatrixXd signals = model_.columns(record.motion, record.drive);

@@ -70,6 +70,11 @@ class RecordPipeline {
   void bound_effects(bool bounds) { fit_bounds_.of_effects = bounds; }
   bool bounds_effects() const { return fit_bounds_.of_effects; }
 
+  // from now on its own mask drops these samples too, one per sample
+  void leave_out(std::vector<bool> samples) { saturated_ = std::move(samples); }
+  // every sample that the filter keeps: what residuals are of when nothing is left out
+  std::vector<Eigen::Index> all_rows() const;
+
   // from now on its own mask drops rests alone (reversal_mask.hpp)
   void keep_reversals() { keeps_reversals_ = true; }
 
@@ -119,6 +124,7 @@ class RecordPipeline {
   Eigen::Index n_samples_;
   double cutoff_hz_;
   ParallelFilter filter_;
+  std::vector<bool> saturated_{};  // samples that are left out too; empty: none
   bool keeps_reversals_ = false;
   FitBounds fit_bounds_{};
   std::vector<Eigen::Index> fixed_rows_{};  // empty: each recording's own mask

@@ -6,13 +6,9 @@
 
 namespace torquescope {
 
-std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) {
-  constexpr double one_direction = 0.995;  // of moving time
-  constexpr double one_speed = 1.3;        // 95th over 10th percentile
-  constexpr double fewest_steps = 50;      // of the encoder, in the whole motion
-  constexpr double at_limit = 0.05;        // of time
-  constexpr double fewest_updates = 4.0;   // of a held torque, in a period of the cut-off
-  constexpr double no_relation = 0.9;      // relerr of a model that explains a fifth of the torque's energy
+std::optional<Hopeless> check_recording(Excitation const& facts) {
+  constexpr double fewest_steps = 50;     // of the encoder, in the whole motion
+  constexpr double fewest_updates = 4.0;  // of a held torque, in a period of the cut-off
   auto const insufficient = [](std::string finding, std::string way_out) {
     return Hopeless{Verdict::insufficient, std::move(finding), std::move(way_out)};
   };
@@ -25,16 +21,6 @@ std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) 
     return insufficient(fmt::format("the whole motion spans {:.0f} encoder steps: its speed is mostly rounding",
                                     range / facts.encoder_step),
                         "record a larger motion");
-  if (std::max(facts.forward_share, 1.0 - facts.forward_share) > one_direction)
-    return insufficient(
-        "only one direction of motion was recorded: viscous, Coulomb friction and offset cannot be separated",
-        "record both directions over the same positions");
-  if (facts.speed_spread < one_speed)
-    return insufficient("only one speed was recorded: laws of velocity cannot be told apart",
-                        "record at least four speeds in both directions");
-  if (facts.torque_limit_share > at_limit)
-    return fault(fmt::format("the torque sits at its limit {:.0f} % of the time", 100.0 * facts.torque_limit_share),
-                 "widen the range of the torque channel, or record a gentler motion");
   if (facts.torque_updates > 0.0 && facts.torque_updates < fewest_updates)
     return fault(
         fmt::format("the torque changes on one row in {} only, {:.2g} times in a period of the filter's cut-off",
@@ -42,9 +28,6 @@ std::optional<Hopeless> check_recording(Excitation const& facts, double relerr) 
         fmt::format("log the torque as often as the position, or set filter.parallel_cutoff_hz to {:.2g} times what it "
                     "is, or less",
                     facts.torque_updates / fewest_updates));
-  if (relerr > no_relation)
-    return fault(fmt::format("the model explains almost nothing of the torque (relerr {:.0f} %)", 100.0 * relerr),
-                 "check recording.columns and torque_per_unit: the column may hold another signal or another joint");
   return std::nullopt;
 }
 

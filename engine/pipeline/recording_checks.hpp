@@ -1,9 +1,8 @@
 #pragma once
 // What makes a diagnosis of a recording hopeless before it begins: the finding and the way out, no search.
 //
-// Rule       limits of both kinds: METHOD.md, Checks before the search. insufficient: the motion is too poor. data
-//            fault: the torque channel sits at its limit, is held too long, has no relation to the motion, or has the
-//            wrong sign
+// Rule       limits: METHOD.md, Checks before the search. insufficient: the motion is too small. data fault: the torque
+//            channel is held too long, or has the wrong sign. What else a motion lacks closes laws (motion_limits.hpp)
 // Silence    mostly one speed is asked only when nothing was found: such a motion says nothing of laws of the speed
 // Units      as Excitation
 // Threads    free function
@@ -23,8 +22,7 @@ struct Hopeless {
   std::string way_out;
 };
 
-// relerr: of the baseline on the recording it was fitted to
-std::optional<Hopeless> check_recording(Excitation const& facts, double relerr);
+std::optional<Hopeless> check_recording(Excitation const& facts);
 
 // of a recording where nothing was found to be missing: whether its motion could have shown it
 std::optional<Hopeless> check_silence(Excitation const& facts);

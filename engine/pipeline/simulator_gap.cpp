@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/pipeline/held_torque.hpp"
@@ -30,13 +31,19 @@ void bridge(Eigen::VectorXd& values, std::vector<bool> const& known) {
 
 // torque of the simulator that its terms do not give, at the full rate. Where the joint rests or turns the sign of a
 // noisy velocity says nothing about friction and both chatter, each in its own way: bridged, no row sees those samples
-Eigen::VectorXd beyond_terms(Recording const& recording, ProcessedRecord const& of_simulator,
-                             Regressor const& regressor) {
-  Eigen::VectorXd beyond =
-      recording.simulated_torque - regressor.columns(of_simulator.motion) * of_simulator.parameters;
+Eigen::VectorXd beyond_terms(Recording const& recording, Motion const& motion, Regressor const& regressor,
+                             Eigen::VectorXd const& parameters) {
+  Eigen::VectorXd beyond = recording.simulated_torque - regressor.columns(motion) * parameters;
   constexpr double no_margin = 0.0;
-  bridge(beyond, moving_samples(of_simulator.motion.dq, recording.rate_hz, no_margin));
+  bridge(beyond, moving_samples(motion.dq, recording.rate_hz, no_margin));
   return beyond;
+}
+
+Recording less(Eigen::VectorXd beyond, Recording recording) {
+  recording.simulated_torque.resize(0);
+  recording.torque -= torque_to_hold(beyond);
+  recording.gear_load = std::move(beyond);
+  return recording;
 }
 
 }  // namespace
@@ -59,10 +66,18 @@ SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& 
   double const left = (of_joint.residual - of_simulator.residual).squaredNorm();
   gap.parameter_share = difference > 0.0 ? 1.0 - left / difference : 0.0;
 
-  gap.recording = recording;
-  gap.recording.simulated_torque.resize(0);
-  gap.recording.torque -= torque_to_hold(beyond_terms(recording, of_simulator, pipeline.model().regressor()));
+  gap.recording = less(
+      beyond_terms(recording, of_simulator.motion, pipeline.model().regressor(), of_simulator.parameters), recording);
   return gap;
+}
+
+Recording without_simulator(Recording recording, RecordPipeline const& pipeline,
+                            Eigen::VectorXd const& simulator_parameters) {
+  if (recording.simulated_torque.size() == 0) return recording;
+  TORQUESCOPE_EXPECT(recording.simulated_torque.size() == recording.torque.size());
+  Motion const motion = pipeline.prepare(recording).motion;
+  Eigen::VectorXd beyond = beyond_terms(recording, motion, pipeline.model().regressor(), simulator_parameters);
+  return less(std::move(beyond), std::move(recording));
 }
 
 }  // namespace torquescope

@@ -6,6 +6,7 @@
 //            up to what the filter carries over from rests and reversals, where `beyond` is bridged by a straight line
 // Bias       the joint's parameters carry the bias of noise, filter and held torque; the simulator's do not
 // Noise      the simulator's torque carries the noise of its motion; it counts as noise of the torque channel
+// Load       `beyond` passes the gear all the same: recording.gear_load, for laws that follow the load
 // Requires   recording.simulated_torque; the pipeline of that recording
 // Units      SI
 // Errors     as RecordPipeline
@@ -26,5 +27,10 @@ struct SimulatorGap {
 };
 
 SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& pipeline);
+
+// another recording, told apart by the parameters of the training recording's gap; as it is without a simulated torque
+// pipeline: of that recording, without effects
+Recording without_simulator(Recording recording, RecordPipeline const& pipeline,
+                            Eigen::VectorXd const& simulator_parameters);
 
 }  // namespace torquescope

@@ -1,5 +1,9 @@
 #include "engine/run/diagnosis_input.hpp"
 
+#include <map>
+#include <string>
+#include <variant>
+
 #include "engine/run/job_sections.hpp"
 
 namespace torquescope {
@@ -18,6 +22,16 @@ Recording const& training_recording(Experiment::Parts const& parts) {
   return recordings.front();
 }
 
+// of the position, as the file calls it; a simulated recording has none
+std::string position_column(Job const& job) {
+  Section const recording = section_or_empty(job, "recording");
+  Setting const* columns = recording.find("columns");
+  if (columns == nullptr) return {};
+  auto const* names = std::get_if<std::map<std::string, std::string>>(&columns->value);
+  auto const position = names ? names->find("position") : std::map<std::string, std::string>::const_iterator{};
+  return names && position != names->end() ? position->second : std::string();
+}
+
 }  // namespace
 
 JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange)
@@ -31,6 +45,7 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* ex
   input_.twins = static_cast<std::size_t>(parts.diagnose.twins);
   input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input_.threads = threads;
+  input_.joint_name = position_column(parts.job);
   input_.exchange = exchange;
   input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.region_consistency,
                      parts.diagnose.twin_noise, parts.diagnose.whitening};

@@ -86,6 +86,21 @@ Json advice_json(ExcitationAdvice const& advice) {
   return {{"lacks", advice.lacks}, {"would_separate", advice.would_separate}};
 }
 
+Json left_out_json(LeftOut const& left_out) {
+  return {{"time_share", number(left_out.time)},
+          {"energy_share", number(left_out.energy)},
+          {"relerr_all_rows", number(left_out.relerr)},
+          {"augmented_relerr_all_rows", number(left_out.augmented_relerr)}};
+}
+
+Json held_out_json(HeldOutTest const& test) {
+  return {{"rows", test.rows},
+          {"change", test.change},
+          {"t", number(test.t)},
+          {"asked_for", number(test.asked_for)},
+          {"blocks", test.blocks}};
+}
+
 Json joint_json(JointDiagnosis const& joint) {
   Json mismatch = Json::array();
   for (auto const& axis : joint.map)
@@ -93,6 +108,7 @@ Json joint_json(JointDiagnosis const& joint) {
   auto const effect = [&](NamedEffect const& one) { return effect_json(one, joint.twins); };
   auto const candidate = [&](Candidate const& one) { return candidate_json(one, joint.twins); };
   return {{"joint", joint.joint},
+          {"name", joint.name},
           {"twins", joint.twins},
           {"baseline",
            {{"parameters", list(joint.baseline, parameter_json)},
@@ -106,6 +122,9 @@ Json joint_json(JointDiagnosis const& joint) {
             {"validation_relerr", number(joint.augmented_validation_relerr)},
             {"floor_relerr", number(joint.floor_relerr)},
             {"parameters", list(joint.augmented, parameter_json)}}},
+          {"left_out",
+           {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
+          {"held_out", held_out_json(joint.held_out)},
           {"budget",
            {{"parameter_error", number(joint.budget.parameter_error)},
             {"missing_physics", number(joint.budget.missing_physics)},

@@ -223,6 +223,7 @@ void read_lists(Objects const& in, std::string const& group, JointDiagnosis& joi
 
 void read_joint_attributes(Objects const& in, std::string const& group, JointDiagnosis& joint) {
   joint.joint = static_cast<int>(in.whole(group, "joint"));
+  joint.name = in.text(group, "name");
   joint.unit_position = in.text(group, "unit_position");
   joint.unit_torque = in.text(group, "unit_torque");
   joint.train_relerr = in.number(group, "train_relerr");
@@ -233,6 +234,15 @@ void read_joint_attributes(Objects const& in, std::string const& group, JointDia
   joint.augmented_cv_relerr = in.number(group, "augmented_cv_relerr");
   joint.floor_relerr = in.number(group, "floor_relerr");
   joint.train_floor_relerr = in.number(group, "train_floor_relerr");
+  auto const left_out = [&](std::string const& name) -> LeftOut {
+    return {in.number(group, name + "_left_out_time"), in.number(group, name + "_left_out_energy"),
+            in.number(group, name + "_relerr_all_rows"), in.number(group, "augmented_" + name + "_relerr_all_rows")};
+  };
+  joint.train_left_out = left_out("train");
+  joint.validation_left_out = left_out("validation");
+  joint.held_out = {in.text(group, "held_out_rows"), in.text(group, "held_out_change"), in.number(group, "held_out_t"),
+                    in.number(group, "held_out_t_asked_for"),
+                    static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "held_out_blocks")))};
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");

@@ -203,6 +203,7 @@ void write_lists(ResultWriter& writer, std::string const& group, JointDiagnosis 
 
 void write_joint_attributes(ResultWriter& writer, std::string const& group, JointDiagnosis const& joint) {
   writer.attribute(group, "joint", std::int64_t{joint.joint});
+  writer.attribute(group, "name", joint.name);
   writer.attribute(group, "unit_position", joint.unit_position);
   writer.attribute(group, "unit_torque", joint.unit_torque);
   writer.attribute(group, "train_relerr", joint.train_relerr);
@@ -213,6 +214,19 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "augmented_cv_relerr", joint.augmented_cv_relerr);
   writer.attribute(group, "floor_relerr", joint.floor_relerr);
   writer.attribute(group, "train_floor_relerr", joint.train_floor_relerr);
+  auto const write_left_out = [&](std::string const& name, LeftOut const& left_out) {
+    writer.attribute(group, name + "_left_out_time", left_out.time);
+    writer.attribute(group, name + "_left_out_energy", left_out.energy);
+    writer.attribute(group, name + "_relerr_all_rows", left_out.relerr);
+    writer.attribute(group, "augmented_" + name + "_relerr_all_rows", left_out.augmented_relerr);
+  };
+  write_left_out("train", joint.train_left_out);
+  write_left_out("validation", joint.validation_left_out);
+  writer.attribute(group, "held_out_rows", joint.held_out.rows);
+  writer.attribute(group, "held_out_change", joint.held_out.change);
+  writer.attribute(group, "held_out_t", joint.held_out.t);
+  writer.attribute(group, "held_out_t_asked_for", joint.held_out.asked_for);
+  writer.attribute(group, "held_out_blocks", static_cast<std::int64_t>(joint.held_out.blocks));
   writer.attribute(group, "budget_parameter_error", joint.budget.parameter_error);
   writer.attribute(group, "budget_missing_physics", joint.budget.missing_physics);
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);

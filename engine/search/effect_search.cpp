@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/search/candidate_table.hpp"
 #include "engine/search/joint_refinement.hpp"
+#include "engine/search/reached_bound.hpp"
 #include "engine/search/torque_itself.hpp"
 
 namespace torquescope {
@@ -271,6 +272,10 @@ bool EffectSearch::take(Trial const& trial) {
   }
   if (is_far_too_large(*whole, before->reference().scales)) {
     note_refusal(effect, "would have to be more than twice as large as it can be");
+    return false;
+  }
+  if (auto const bound = bound_of_last(*whole)) {
+    note_refusal(effect, bound_words(*effect, *bound, setting_.regressor.joint()));
     return false;
   }
   double const unit = selection_.energy_unit;

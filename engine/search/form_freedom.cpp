@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/contract.hpp"
 #include "engine/locate/map_axes.hpp"
 #include "engine/statistics/hat_functions.hpp"
 
@@ -60,6 +61,15 @@ bool is_form_of(ShapedEffect const& shaped, double named_gain, RefinedEffect con
   CandidateColumns beside = columns;
   beside.add_nuisance(forms_of(named, stage));
   return gain_of(candidate, beside, mismatch) < most_beside_it * gain_of(candidate, columns, mismatch);
+}
+
+std::optional<std::size_t> form_of_named(std::span<double const> gains, RefinedEffect const& candidate,
+                                         ModelStage const& stage, CandidateColumns const& columns) {
+  auto const& effects = stage.model().effects();
+  TORQUESCOPE_EXPECT(gains.size() == effects.size());
+  for (std::size_t i = 0; i < gains.size(); ++i)
+    if (is_form_of(effects[i], gains[i], candidate, stage, columns)) return i;
+  return std::nullopt;
 }
 
 }  // namespace torquescope

@@ -9,6 +9,7 @@
 #include "engine/search/backward_selection.hpp"
 #include "engine/search/buildup_trial.hpp"
 #include "engine/search/joint_refinement.hpp"
+#include "engine/search/reached_bound.hpp"
 #include "engine/statistics/multiple_testing.hpp"
 
 namespace torquescope {
@@ -140,7 +141,7 @@ class SecondLook {
     auto next = make_stage(own, draft->model());
     auto baseline = baseline_with_reversals();
     progress_told(setting_.twins);
-    if (!next || !baseline || is_far_too_large(*next, before().reference().scales) ||
+    if (!next || !baseline || is_far_too_large(*next, before().reference().scales) || bound_of_last(*next) ||
         energy_about_true_mean(*next) > energy_about_true_mean(*baseline) - confirmed_share * refined.gain)
       return false;
     put(trial, found, std::move(*baseline), std::move(*next));

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/pipeline/joint_bounds.hpp"
+#include "engine/pipeline/motion_limits.hpp"
 #include "engine/statistics/scaled_solution.hpp"
 #include "engine/twin/twin_whitening.hpp"
 
@@ -90,9 +91,12 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
 
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model) {
   bool const is_plain = model.effects().empty();
+  model.load_as_in(recording);
   RecordPipeline pipeline(std::move(model), setting.filter, recording.rate_hz, recording.position.size(),
                           setting.filter_section);
   if (setting.keeps_reversals) pipeline.keep_reversals();
+  auto saturated = saturated_samples(recording, pipeline.cutoff_hz());
+  if (std::find(saturated.begin(), saturated.end(), true) != saturated.end()) pipeline.leave_out(std::move(saturated));
   if (is_plain && setting.least_inertia_share > 0.0) pipeline.hold_inertia_below(setting.least_inertia_share);
   return pipeline;
 }
@@ -110,7 +114,7 @@ BaselineReference ModelStage::reference() const {
       fitted_baseline(regressor, {own.data(), regressor.size()}, twin->record.motion,
                       pipeline->cutoff_hz() > 0.0 ? pipeline->cutoff_hz() : 0.4 * pipeline->kept_rate_hz(),
                       twin->loop.loop.encoder_step);
-  return {baseline.scales, own};
+  return {baseline.scales, own, model().reference().gear_load};
 }
 
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model) {

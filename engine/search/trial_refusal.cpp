@@ -6,6 +6,7 @@
 
 #include "engine/search/effect_search.hpp"
 #include "engine/search/form_freedom.hpp"
+#include "engine/search/reached_bound.hpp"
 #include "engine/search/torque_itself.hpp"
 
 namespace torquescope {
@@ -40,6 +41,9 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
   if (may_be_another_loop(*effect, gain, trial.refined.parameters))
     return "is too small to be told, where twins have no loop of the recording's, from what another loop does";
   if (!effect->is_plausible(trial.refined.shape, columns.scales())) return "its best shape is none that it could have";
+  if (auto const bound =
+          fitted_to_bound(columns, *effect, trial.refined.shape, trial.refined.parameters, stage().mismatch()))
+    return bound_words(*effect, *bound, columns.joint());
   RegionConsistency const region = region_of(columns, trial.refined);
   trial.region_share = region.share;
   if (!region.holds() && setting_.ablation.region_consistency)
@@ -54,11 +58,10 @@ std::optional<std::string> EffectSearch::refusal(CandidateColumns const& columns
     return fmt::format("happens once, and explains {:.0f} % of the whole (a quarter is asked for)",
                        100.0 * gain / whole);
   if (!is_once && !helps_elsewhere(trial.cv, gain)) return "does not help on blocks it was not fitted to";
-  for (auto const& one : selection_.accepted)
-    for (auto const& shaped : stage().model().effects())
-      if (shaped.effect == one.effect &&
-          is_form_of(shaped, one.gain * selection_.energy_unit, trial.refined, stage(), columns))
-        return "lies within what another form of " + one.effect->name() + " would explain";
+  std::vector<double> gains;
+  for (auto const& one : selection_.accepted) gains.push_back(one.gain * selection_.energy_unit);
+  if (auto const named = form_of_named(gains, trial.refined, stage(), columns))
+    return "lies within what another form of " + selection_.accepted[*named].effect->name() + " would explain";
   return std::nullopt;
 }
 

@@ -27,14 +27,16 @@ constexpr LaneTorques none = filled(0.0), one = filled(1.0);
 class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
-                  LaneJoint const& baseline)
+                  LaneBaseline const& baseline)
       : acts_on_(effect.acts_on()),
         is_dry_friction_(effect.is_dry_friction()),
         is_partly_dry_(effect.is_partly_dry()),
         has_memory_(effect.has_memory()),
         needs_baseline_(effect.needs_baseline()),
-        has_weight_(baseline.gravity_sin != 0.0 || baseline.gravity_cos != 0.0),
-        baseline_(baseline),
+        has_weight_(baseline.joint.gravity_sin != 0.0 || baseline.joint.gravity_cos != 0.0),
+        baseline_(baseline.joint),
+        gear_load_(baseline.gear_load),
+        gear_load_rate_hz_(baseline.rate_hz),
         parameters_(parameters),
         scales_(scales) {
     if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
@@ -77,13 +79,23 @@ class CatalogueEffect final : public LaneEffect {
   LaneTorques load_torques(LaneInstant const& at) const {
     LaneTorques load{};
     if (!needs_baseline_) return load;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) load[lane] = baseline_.inertia * at.ddq[lane];
+    double const beside = gear_load_at(at.time_s);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) load[lane] = beside + baseline_.inertia * at.ddq[lane];
     if (!has_weight_) return load;
     LaneTorques sine, cosine;
     kernels::cosine_sine_of_multiple(1.0, at.q, twin_lanes, cosine.data(), sine.data());
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       load[lane] += baseline_.gravity_sin * sine[lane] + baseline_.gravity_cos * cosine[lane];
     return load;
+  }
+
+  // straight from tick to tick
+  double gear_load_at(double time_s) const {
+    if (!gear_load_) return 0.0;
+    Eigen::VectorXd const& load = *gear_load_;
+    double const tick = std::clamp(time_s * gear_load_rate_hz_, 0.0, static_cast<double>(load.size() - 1));
+    auto const before = static_cast<Eigen::Index>(tick), after = std::min(before + 1, load.size() - 1);
+    return load[before] + (tick - static_cast<double>(before)) * (load[after] - load[before]);
   }
 
   void shift(LaneInstant const& tick, double* channel) {
@@ -141,6 +153,8 @@ class CatalogueEffect final : public LaneEffect {
   ActsOn acts_on_;
   bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
   LaneJoint baseline_;
+  std::shared_ptr<Eigen::VectorXd const> gear_load_;
+  double gear_load_rate_hz_;
   std::vector<double> parameters_;
   JointScales scales_;
   // all lanes at once: a law of the instant in the joint, or what each twin remembers
@@ -153,7 +167,7 @@ class CatalogueEffect final : public LaneEffect {
 }  // namespace
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
-                            LaneJoint const& baseline) {
+                            LaneBaseline const& baseline) {
   TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear());
   TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
   return [&effect, parameters = std::move(parameters), scales, baseline] {

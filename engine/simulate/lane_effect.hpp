@@ -9,6 +9,7 @@
 // Units      SI
 // Threads    one object per group of replicates, used by one thread; a LaneEffectMaker is called from any number
 
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -45,12 +46,20 @@ class LaneEffect {
   virtual void shift_torque(LaneInstant const&, double*) {}
 };
 
+// what an effect is told of the joint it stands beside
+struct LaneBaseline {
+  LaneJoint joint{.inertia = 0.0};
+  // load that passes the gear beside inertia and weight, one per tick from time 0 on; none
+  std::shared_ptr<Eigen::VectorXd const> gear_load{};
+  double rate_hz = 0.0;  // of it
+};
+
 // a fresh object, its memory at the start of a recording
 using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
 
 // an effect of the catalogue, lane by lane, each with its own memory, at the place where it acts (Effect::acts_on);
 // parameters as Effect::runner takes them. baseline: what its load torque is made of, inertia and gravity
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
-                            LaneJoint const& baseline = {.inertia = 0.0});
+                            LaneBaseline const& baseline = {});
 
 }  // namespace torquescope

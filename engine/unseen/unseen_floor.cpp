@@ -68,7 +68,7 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
                           std::function<void(VisitedTwin const&)> const& visit) {
   RecordPipeline pipeline = pipeline_for(setting, recording, stage);
   if (rows != nullptr) pipeline.restrict_to(*rows);
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
+  CleanTwin const twin(pipeline.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());
   for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, unseen_twins, setting.threads,
                 [&](VisitedTwin const& visited) {

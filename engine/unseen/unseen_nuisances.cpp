@@ -102,20 +102,24 @@ void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen:
 
 }  // namespace
 
+bool predicts_elsewhere(Effect const& effect) {
+  bool const is_of_channel = is_of_the_clock(effect) && effect.acts_on() == ActsOn::recorded_torque;
+  return !effect.is_event() && !is_of_channel;
+}
+
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
   Eigen::VectorXd parameters = stage.parameters();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     Effect const& effect = *effects[i].effect;
-    bool const is_of_channel = is_of_the_clock(effect) && effect.acts_on() == ActsOn::recorded_torque;
-    if (!effect.is_event() && !is_of_channel) continue;
+    if (predicts_elsewhere(effect)) continue;
     parameters
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                  static_cast<Eigen::Index>(effect.n_linear()))
         .setZero();
-    nuisances.push_back(effect.name() + (is_of_channel
-                                             ? " left out: where a channel's zero goes is another in each recording"
-                                             : " left out: its instant belongs to the training recording"));
+    nuisances.push_back(effect.name() + (effect.is_event()
+                                             ? " left out: its instant belongs to the training recording"
+                                             : " left out: where a channel's zero goes is another in each recording"));
   }
   return parameters;
 }

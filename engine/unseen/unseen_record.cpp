@@ -26,15 +26,18 @@ std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting con
   if (stage.twin->loop.source == LoopSource::tracking || recording.reference.size() != recording.position.size())
     return std::nullopt;
   return recorded_loop(recording, {}, {}, [&](std::vector<LimitedSample> const&) -> Eigen::VectorXd {
-    ProcessedRecord const record = pipeline_for(setting, recording, stage).prepare(recording);
+    RecordPipeline const pipeline = pipeline_for(setting, recording, stage);
+    ProcessedRecord const record = pipeline.prepare(recording);
     std::vector<std::string> unsaid;
     Eigen::VectorXd const parameters = transferable(stage, unsaid);  // an event of the training recording is none here
-    return stage.model().motor_torque(record.motion, record.drive, parameters).given;
+    return pipeline.model().motor_torque(record.motion, record.drive, parameters).given;
   });
 }
 
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
-  CleanTwin const twin(stage.model().twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
+  JointModel model = stage.model();
+  model.load_as_in(recording);
+  CleanTwin const twin(model.twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
                        stage.twin->twin.step_s());
   TwinGroup group;
   twin.simulate({}, 0, group);
@@ -103,6 +106,28 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
   return {left.squaredNorm(), left_with.squaredNorm(), (left - left_with).squaredNorm()};
 }
 
+struct Predictor {
+  ModelStage const& stage;
+  Eigen::VectorXd parameters;
+  double offset;
+
+  // on every kept sample
+  Eigen::VectorXd left(ProcessedRecord const& record) const {
+    return ((record.torque - record.columns * parameters).array() - offset).matrix();
+  }
+};
+
+LeftOutRows left_out_of(Recording const& recording, StageSetting const& setting, Predictor const& before,
+                        Predictor const& after, std::vector<Eigen::Index> const& kept_rows) {
+  auto const on_all_rows = [&](ModelStage const& stage) {
+    RecordPipeline pipeline = pipeline_for(setting, recording, stage);
+    pipeline.restrict_to(pipeline.all_rows());
+    return pipeline.prepare(recording);
+  };
+  ProcessedRecord const whole_before = on_all_rows(before.stage), whole_after = on_all_rows(after.stage);
+  return left_out_rows(whole_before.torque, before.left(whole_before), after.left(whole_after), kept_rows);
+}
+
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                          ModelStage const& augmented, Artefact const& artefact, MotionRange const* within) {
   UnseenPrediction result;
@@ -132,22 +157,34 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
     result.nuisances.push_back("what the filters make of reversals, as twins have it, taken out of both residuals");
   }
   Eigen::VectorXd const left_with = left_after;
+  double offset_before = 0.0, offset_after = 0.0;
   Eigen::VectorXd const velocity = plain.picked(before.motion.dq, before);
   if (augmented.model().effects().empty()) {
     left_after = left_before;  // one model: nothing to compare, nothing to refit
   } else if (double const offset = head_offset(left_after, velocity); offset != 0.0) {
     left_after.array() -= offset;
+    offset_after = offset;
     result.nuisances.push_back(fmt::format("offset of {} refitted on its first 5 %", recording.name));
     // the comparison must not gain by it: the baseline takes its own, or none if that is better
-    Eigen::VectorXd const refitted = left_before.array() - head_offset(left_before, velocity);
-    if (refitted.squaredNorm() < left_before.squaredNorm()) left_before = refitted;
+    double const own = head_offset(left_before, velocity);
+    Eigen::VectorXd const refitted = left_before.array() - own;
+    if (refitted.squaredNorm() < left_before.squaredNorm()) {
+      left_before = refitted;
+      offset_before = own;
+    }
   }
   result.torque_energy = before.torque.squaredNorm();
   result.energies = {left_before.squaredNorm(), left_after.squaredNorm(), (left_before - left_after).squaredNorm()};
   result.blocks = added_torque(left_before, left_after);
+  result.left_out = left_out_of(recording, setting, {baseline, baseline.parameters(), offset_before},
+                                {augmented, parameters, offset_after}, before.kept_rows);
+  result.kept_rows = before.kept_rows;
+  result.memory_rows = guard_rows(plain);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
     result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
+  result.left_before = std::move(left_before);
+  result.left_after = std::move(left_after);
   return result;
 }
 
@@ -187,6 +224,14 @@ ForwardSimulation simulate_forward(Recording const& recording, std::optional<Rec
   result.before_rms = position_error(recording, *loop, baseline);
   result.after_rms = position_error(recording, *loop, augmented);
   return result;
+}
+
+LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& baseline, ModelStage const& augmented) {
+  auto const fitted = [](ModelStage const& stage) {
+    return Predictor{stage, stage.comparison.recording.parameters, 0.0};
+  };
+  return left_out_of(setting.recording, setting, fitted(baseline), fitted(augmented),
+                     baseline.comparison.recording.kept_rows);
 }
 
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,

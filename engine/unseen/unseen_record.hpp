@@ -10,6 +10,7 @@
 // Threads    spreads replicates over `threads`; same bits for any number
 // Source     METHOD.md, Validation recordings
 
+#include "engine/pipeline/left_out_rows.hpp"
 #include "engine/pipeline/motion_range.hpp"
 #include "engine/search/forward_selection.hpp"
 #include "engine/unseen/unseen_refutation.hpp"
@@ -23,6 +24,10 @@ struct UnseenPrediction {
   std::vector<Eigen::Index> within{};     // the rows, where there is a range
   PredictionEnergies energies{};          // of all effects together
   std::vector<AddedTorque> blocks{};
+  std::vector<Eigen::Index> kept_rows{};        // of the residuals, among the kept samples
+  Eigen::VectorXd left_before{}, left_after{};  // residuals
+  LeftOutRows left_out{};                       // by the mask
+  Eigen::Index memory_rows = 1;                 // that repeat each other (guard_rows())
   std::vector<PredictionEnergies> by_effect{};  // without and with each, no offset refitted in either
   TorqueTrace trace{};
   std::vector<std::string> nuisances{};
@@ -69,6 +74,9 @@ class UnseenSum {
 // the measured motion: unknown
 ForwardSimulation simulate_forward(Recording const& recording, std::optional<RecordedLoop> const& loop,
                                    ModelStage const& baseline, ModelStage const& augmented);
+
+// of the setting's own recording, with the parameters fitted to it
+LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& baseline, ModelStage const& augmented);
 
 // torque and residuals on all kept samples; NaN where the mask has none
 TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipeline, ProcessedRecord const& before,

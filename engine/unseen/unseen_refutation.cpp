@@ -89,15 +89,4 @@ bool speak_against_a_part(UnseenEnergies const& energies) {
   return speak_against(energies) || breaks_promise(energies, half);
 }
 
-// not what is of the very recording: its clock, its zero
-bool must_carry_over(Effect const& effect) {
-  auto const& families = effect.families();
-  return !effect.is_event() && std::find(families.begin(), families.end(), EffectFamily::time) == families.end();
-}
-
-bool must_carry_over(std::vector<AcceptedEffect> const& accepted) {
-  return !accepted.empty() &&
-         std::all_of(accepted.begin(), accepted.end(), [](auto const& one) { return must_carry_over(*one.effect); });
-}
-
 }  // namespace torquescope

@@ -4,7 +4,7 @@
 // Equation   share = <e, r> / |e|^2; e: what the accepted effects change in the prediction, r: the baseline's residual
 // Null       the same share in replicates that have the effects; refuted only below their mean less three deviations
 // A part     where training says that the effects are not all, half of the promised improvement must be kept
-// Not asked  events, and laws of the time of the training recording
+// Asked      of all names together: laws that predict nothing elsewhere have moved the parameters beside them
 // Energies   of residuals, summed over rows and recordings
 // Threads    free functions
 // Source     METHOD.md, Validation recordings
@@ -43,9 +43,5 @@ std::vector<AddedTorque> added_torque(Eigen::VectorXd const& left_before, Eigen:
 
 // the sums, twin by twin; empty where those of one recording are
 std::vector<PredictionEnergies> over_recordings(std::vector<std::vector<PredictionEnergies>> const& twins);
-
-// whether a law, or all that was accepted, must hold in another recording too
-bool must_carry_over(Effect const& effect);
-bool must_carry_over(std::vector<AcceptedEffect> const& accepted);
 
 }  // namespace torquescope

@@ -34,7 +34,8 @@ Without without_each(StageSetting const& setting, std::span<Recording const> uns
   return sum;
 }
 
-// the effect that spoils most, by what it gains for each unit of energy it moves
+// the effect that spoils most, by what it gains for each unit of energy it moves; events too, for their torque is left
+// out on both sides, and what they did to the parameters beside them is not
 std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<Recording const> unseen,
                                          Selection const& selection) {
   Without const sum = without_each(setting, unseen, selection);
@@ -42,7 +43,7 @@ std::optional<std::size_t> worst_spoiler(StageSetting const& setting, std::span<
   double least = 0.0;
   for (std::size_t i = 0; i < sum.effects.size(); ++i) {
     PredictionEnergies const& found = sum.effects[i];
-    if (!must_carry_over(*selection.accepted[i].effect) || found.moved < enough_moved * sum.residual) continue;
+    if (found.moved < enough_moved * sum.residual) continue;
     if (found.gain() >= least * found.moved || is_as_in_twins(setting, unseen, selection, i, found)) continue;
     least = found.gain() / found.moved;
     worst = i;

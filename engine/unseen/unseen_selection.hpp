@@ -4,8 +4,8 @@
 // Equation   e: what the effect changes in the prediction, the other terms refitted without it; gain / |e|^2 is 1 for
 //            the joint's law and -1 for none, but for noise
 // Rule       removed when it makes the prediction worse, moves a tenth of the residual's energy, and does worse than in
-//            replicates that have it; unless the rest is then unexplained. Events, laws of time and the last effect are
-//            not asked
+//            replicates that have it; unless the rest is then unexplained. No kind of law is spared; the last effect is
+//            judged by held_out_judgement.hpp
 // Threads    as the stages
 // Source     METHOD.md, Validation recordings
 

@@ -1,6 +1,7 @@
 #include "engine/verdict/diagnosis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/effects/effect.hpp"
 #include "engine/effects/effect_traits.hpp"
@@ -47,6 +48,16 @@ bool is_fault(NamedEffect const& effect) {
            Effect const* known = find_effect(name);
            return known && known->acts_on() == ActsOn::joint;
          });
+}
+
+std::string which_joint(JointDiagnosis const& joint) {
+  return joint.name.empty() ? "joint " + std::to_string(joint.joint) : "the joint of " + joint.name;
+}
+
+bool looks_at_less_than_half(JointDiagnosis const& joint) {
+  constexpr double half = 0.5;
+  LeftOut const& unseen = joint.validation_left_out;
+  return (std::isfinite(unseen.energy) ? unseen.energy : joint.train_left_out.energy) > half;
 }
 
 }  // namespace torquescope

@@ -161,8 +161,23 @@ struct UnseenBeyond {
   double relerr = unknown, usual = unknown, most = unknown;  // its own; of twins on average and at most
 };
 
+// what the mask leaves out of an error, and the error over all rows
+struct LeftOut {
+  double time = unknown, energy = unknown;              // shares; energy: of the baseline's residual over all rows
+  double relerr = unknown, augmented_relerr = unknown;  // over all rows
+};
+
+// the paired test on rows that nothing was fitted to (held_out_gain.hpp)
+struct HeldOutTest {
+  std::string rows{};    // "unseen", "cross-validated"; "": not made
+  std::string change{};  // "lower", "not lower", "undecided"
+  double t = unknown, asked_for = unknown;
+  std::size_t blocks = 0;
+};
+
 struct JointDiagnosis {
   int joint = 1;
+  std::string name{};                      // of its position column; "": the joint's number stands for it
   std::string unit_position, unit_torque;  // "rad", "N m"
   std::vector<ParameterEstimate> baseline{};
   double train_relerr = unknown, validation_relerr = unknown, cv_relerr = unknown;
@@ -173,6 +188,8 @@ struct JointDiagnosis {
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double floor_relerr = unknown;  // what a complete model would leave, unseen recording (or training)
   double train_floor_relerr = unknown;
+  LeftOut train_left_out{}, validation_left_out{};
+  HeldOutTest held_out{};
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::string refutation{};  // why validation refuted the effects: a clause of the reason, not stored
@@ -183,6 +200,7 @@ struct JointDiagnosis {
   std::vector<ForwardSimulation> forward{};
   // how it was found
   std::string rows = "moving one way";  // or "with reversals" (friction_buildup.hpp): what errors and pictures are of
+  std::vector<std::string> remarks{};   // what the motion closed or merged: sentences, in the reason, not stored
   std::string timing_sentence{};        // what was done to the torque channel's time; in the reason, not stored
   bool differs_at_reversals = false;    // on rows that are left out; in the reason of none, not stored
   std::string loop_source;              // "identified", "approximated", "tracking"
@@ -200,6 +218,11 @@ struct JointDiagnosis {
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };
+
+// "joint 1", or "the joint of q5_rad" where its position column is known
+std::string which_joint(JointDiagnosis const& joint);
+// whether the rows that were looked at hold less than half of the residual's energy: of unseen rows, else of training
+bool looks_at_less_than_half(JointDiagnosis const& joint);
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;

@@ -63,6 +63,17 @@ std::string floor_words(double relerr, double floor) {
   return fmt::format(", at the floor (about {}: what clean twins leave on average)", text);
 }
 
+std::string left_out_clause(LeftOut const& left_out) {
+  if (!(left_out.time > 0.0) || !std::isfinite(left_out.energy)) return "";
+  std::string errors = percent_text(left_out.relerr);
+  if (std::isfinite(left_out.augmented_relerr) && left_out.augmented_relerr != left_out.relerr)
+    errors += " to " + percent_text(left_out.augmented_relerr);
+  return fmt::format(
+      "{} of the time with {} of the residual's energy, near reversals and rests, is left out of that; "
+      "with it the relerr is {}",
+      percent_text(left_out.time), percent_text(left_out.energy), errors);
+}
+
 std::string gain_sentence(JointDiagnosis const& joint) {
   bool const unseen = std::isfinite(joint.validation_relerr) && std::isfinite(joint.augmented_validation_relerr);
   double const before = unseen ? joint.validation_relerr : joint.cv_relerr;
@@ -70,7 +81,9 @@ std::string gain_sentence(JointDiagnosis const& joint) {
   if (!std::isfinite(before) || !std::isfinite(after)) return "";
   std::string const text = fmt::format("{} relerr {} to {}", unseen ? "Unseen" : "Cross-validated",
                                        percent_text(before), percent_text(after));
-  return text + floor_words(after, joint.floor_relerr) + "." +
+  std::string left_out = left_out_clause(unseen ? joint.validation_left_out : joint.train_left_out);
+  if (!left_out.empty() && !unseen) left_out += " in training";
+  return text + floor_words(after, joint.floor_relerr) + (left_out.empty() ? "" : "; " + left_out) + "." +
          (unseen && keeps_little(before, after, joint.floor_relerr)
               ? " That is less than a quarter of what twins with these names promise: something else is missing there."
               : "");
@@ -111,13 +124,14 @@ std::string way_out_of_a_fault(JointDiagnosis const& joint) {
 }
 
 std::string likeness_sentence(JointDiagnosis const& joint) {
-  if (joint.twins == 0) return fmt::format("Nothing is missing in the model of joint {}.", joint.joint);
+  if (joint.twins == 0) return fmt::format("Nothing is missing in the model of {}.", which_joint(joint));
   std::string const p = omnibus_text(joint);
   if (!(joint.omnibus_p < usual_p) || !std::isfinite(joint.mismatch_share))
-    return fmt::format("The residual of joint {} looks like that of {} clean twins ({}).", joint.joint, joint.twins, p);
+    return fmt::format("The residual of {} looks like that of {} clean twins ({}).", which_joint(joint), joint.twins,
+                       p);
   std::string const larger =
-      fmt::format("The residual of joint {} is larger than that of {} clean twins ({}), but only by {} of the torque",
-                  joint.joint, joint.twins, p, percent_text(joint.mismatch_share));
+      fmt::format("The residual of {} is larger than that of {} clean twins ({}), but only by {} of the torque",
+                  which_joint(joint), joint.twins, p, percent_text(joint.mismatch_share));
   if (joint.mismatch_share <= smallest_mismatch_share) return larger + ": too little to look for.";
   return fmt::format(
       "{}, which is not enough beside how much the twins differ from one another; and no known effect of {} explains "
@@ -130,12 +144,12 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
   Candidate const* refused = surest_refused(joint);
   bool const is_for_one = joint.refutation.empty() && joint.omnibus_p >= usual_p && refused && refused->q < usual_p;
   if (!is_for_one)
-    return fmt::format("The residual of joint {} is not what clean twins have ({}), but {}.", joint.joint,
+    return fmt::format("The residual of {} is not what clean twins have ({}), but {}.", which_joint(joint),
                        omnibus_text(joint), nothing_fits);
   return fmt::format(
-      "The residual of joint {} is no larger than that of clean twins ({}), but {} explains more of it than of theirs "
+      "The residual of {} is no larger than that of clean twins ({}), but {} explains more of it than of theirs "
       "(beyond chance). It gets no name: {}.",
-      joint.joint, omnibus_text(joint), refused->name, refused->reason);
+      which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
 }
 
 }  // namespace torquescope

@@ -73,13 +73,13 @@ std::string joint_clause(JointDiagnosis const& joint, NamedEffect const& effect)
   Effect const* known = find_effect(effect.name);
   std::string const size = amount(joint, effect);
   bool const opposes_motion = known && known->parity() == Parity::odd;
-  if (!opposes_motion) return fmt::format("joint {} deviates by {} from the model", joint.joint, size);
+  if (!opposes_motion) return fmt::format("{} deviates by {} from the model", which_joint(joint), size);
   auto const linear = linear_parameters(effect);
   bool const adds = std::all_of(linear.begin(), linear.end(), [](auto const& one) { return one.value >= 0.0; });
   bool const takes = std::all_of(linear.begin(), linear.end(), [](auto const& one) { return one.value <= 0.0; });
-  if (adds) return fmt::format("joint {} loses {} extra", joint.joint, size);
-  if (takes) return fmt::format("joint {} loses {} less", joint.joint, size);
-  return fmt::format("the friction of joint {} differs by {}", joint.joint, size);
+  if (adds) return fmt::format("{} loses {} extra", which_joint(joint), size);
+  if (takes) return fmt::format("{} loses {} less", which_joint(joint), size);
+  return fmt::format("the friction of {} differs by {}", which_joint(joint), size);
 }
 
 MapCell range_of(JointDiagnosis const& joint, SignatureAxis axis) {
@@ -129,18 +129,18 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
     if (!linear.empty() && linear[0].unit == "s") {
       std::string const time = quantity_text(std::abs(linear[0].value), "s");
       if (linear[0].value >= 0.0)
-        return fmt::format("the torque of joint {} comes {} after the motion{}", joint.joint, time, fault);
+        return fmt::format("the torque of {} comes {} after the motion{}", which_joint(joint), time, fault);
       // no cause comes after what it does: the motion is told late, or the torque too early
       return fmt::format(
-          "the torque of joint {} comes {} before the motion, because the position channel is late or because a row "
+          "the torque of {} comes {} before the motion, because the position channel is late or because a row "
           "holds a command that the drive follows late (actuator lag)",
-          joint.joint, time);
+          which_joint(joint), time);
     }
-    return fmt::format("the torque{} of joint {} is off by {}{}{}", fault.empty() ? "" : " channel", joint.joint,
+    return fmt::format("the torque{} of {} is off by {}{}{}", fault.empty() ? "" : " channel", which_joint(joint),
                        amount(joint, effect), at, fault);
   }
   if (effect.acts_on == word(ActsOn::recorded_position))
-    return fmt::format("the position of joint {} is misread{}, as if {} were missing{}", joint.joint, at,
+    return fmt::format("the position of {} is misread{}, as if {} were missing{}", which_joint(joint), at,
                        amount(joint, effect), fault);
   return joint_clause(joint, effect) + at;
 }
@@ -190,7 +190,15 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
 }
 
 std::string none_reason(JointDiagnosis const& joint) {
-  std::string text = likeness_sentence(joint);
+  std::string text;
+  bool const is_unseen = std::isfinite(joint.validation_left_out.energy);
+  std::string const left_out = left_out_clause(is_unseen ? joint.validation_left_out : joint.train_left_out);
+  double const relerr = is_unseen ? joint.validation_relerr : joint.train_relerr;
+  if (looks_at_less_than_half(joint))
+    text = "Only the rows that were looked at are meant, which hold less than half of the residual's energy.";
+  append(text, likeness_sentence(joint));
+  if (!left_out.empty() && std::isfinite(relerr))
+    append(text, fmt::format("{} relerr {}; {}.", is_unseen ? "Unseen" : "Training", percent_text(relerr), left_out));
   append(text, joint.power_sentence);
   if (joint.differs_at_reversals)
     append(
@@ -212,8 +220,9 @@ std::string unexplained_reason(JointDiagnosis const& joint) {
   } else {
     UnexplainedPart const& part = joint.unexplained.front();
     std::string const where = place_phrase(joint, part.where);
-    text = fmt::format("{} of the residual of joint {} lies{}, more than clean twins have there, but {}.",
-                       percent_text(part.energy_share), joint.joint, where.empty() ? "" : " " + where, nothing_fits);
+    text = fmt::format("{} of the residual of {} lies{}, more than clean twins have there, but {}.",
+                       percent_text(part.energy_share), which_joint(joint), where.empty() ? "" : " " + where,
+                       nothing_fits);
   }
   // what could be named all the same
   for (auto const& effect : joint.effects) append(text, effect_clauses(joint, effect, false));

@@ -29,10 +29,12 @@ std::string beyond_training_clause(JointDiagnosis const& joint, MotionRange cons
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;
-  std::string text =
-      fmt::format("{}, which would explain it, {} the unseen relerr from {} to {}", name_list(names, "and"),
-                  is_one ? "takes" : "take", percent_text(joint.validation_relerr),
-                  percent_text(joint.augmented_validation_relerr));
+  bool const is_unseen = std::isfinite(joint.validation_relerr);
+  std::string text = fmt::format(
+      "{}, which would explain it, {} the {} relerr from {} to {}", name_list(names, "and"), is_one ? "takes" : "take",
+      is_unseen ? "unseen" : "cross-validated", percent_text(is_unseen ? joint.validation_relerr : joint.cv_relerr),
+      percent_text(is_unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr));
+  if (!is_unseen) return text;
   std::string const with = is_one ? "it" : "them";
   if (twins_ran_away)
     return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);

@@ -68,6 +68,17 @@ def figure_name(study, joint, base):
     return base if len(study.diagnosis.joints) == 1 else f"{base}_joint_{joint.joint}"
 
 
+def which_joint(joint):
+    """As the verdict's sentences call it (engine/words/name_list.hpp)."""
+    return f"the joint of {joint.name}" if joint.name else f"joint {joint.joint}"
+
+
+def looks_at_less_than_half(joint):
+    """Of the residual's energy: of unseen rows, else of training."""
+    unseen = joint.validation_left_out_energy
+    return (unseen if math.isfinite(unseen) else joint.train_left_out_energy) > 0.5
+
+
 def has_after(joint):
     """Something was put into the model: there is an after to set beside the before."""
     after = joint.augmented_train_relerr

@@ -152,6 +152,7 @@ class Forward:
 @dataclass
 class Joint:
     joint: int
+    name: str  # of its position column; "" unknown
     unit_position: str
     unit_torque: str
     train_relerr: float
@@ -162,6 +163,14 @@ class Joint:
     augmented_cv_relerr: float
     floor_relerr: float
     train_floor_relerr: float
+    train_left_out_time: float  # share of the rows that the mask leaves out, and of the baseline's residual energy
+    train_left_out_energy: float
+    train_relerr_all_rows: float
+    augmented_train_relerr_all_rows: float
+    validation_left_out_time: float
+    validation_left_out_energy: float
+    validation_relerr_all_rows: float
+    augmented_validation_relerr_all_rows: float
     budget_parameter_error: float
     budget_missing_physics: float
     budget_unexplained: float

@@ -29,6 +29,8 @@ def verdict(study):
     # the class that keeps the verdict from a single name
     several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
     headlines, evidence = _set(found)
+    if found.verdict == "none" and any(diagnosed.looks_at_less_than_half(joint) for joint in found.joints):
+        word += " on the rows looked at"
     word = word.format(count=q.count_word(several[0]) if several else "several")
     if found.verdict in ("named", "class") and any(
         diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects
@@ -72,7 +74,7 @@ def _capital(text):
 
 def head(study):
     joints = study.diagnosis.joints
-    which = f"joint {joints[0].joint}" if len(joints) == 1 else q.count(len(joints), "joint")
+    which = diagnosed.which_joint(joints[0]) if len(joints) == 1 else q.count(len(joints), "joint")
     return head_of_recordings(study, f"{which}, {study.model.joint}")
 
 
@@ -133,6 +135,22 @@ def candidates_answer(joint):
         "blocks of "
         "time that nothing was fitted to; –: not tried."
     )
+
+
+def left_out_note(joint):
+    """What the mask leaves out of the errors, and the errors with it; empty where nothing is left out."""
+    said = []
+    for name, where in (("train", "training"), ("validation", "unseen")):
+        time, energy = getattr(joint, f"{name}_left_out_time"), getattr(joint, f"{name}_left_out_energy")
+        before = getattr(joint, f"{name}_relerr_all_rows")
+        after = getattr(joint, f"augmented_{name}_relerr_all_rows")
+        if not time > 0 or not math.isfinite(energy):
+            continue
+        errors = q.percent(before) + (f" before, {q.percent(after)} after"
+                                      if math.isfinite(after) and after != before else "")
+        said.append(f"{where}: {q.percent(time)} of the time with {q.percent(energy)} of the residual's energy; "
+                    f"error over all rows {errors}")
+    return f"Left out of these errors near reversals and rests, {'; '.join(said)}." if said else ""
 
 
 def fit_answer(study, joint):

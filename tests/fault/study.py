@@ -156,8 +156,8 @@ class FaultTest(unittest.TestCase):
         return ("--threads", self.chance.choice("12"), "--save-every", self.chance.choice(("0.005", "0.02", "0.1")))
 
     def assert_same(self, folder, result="r.h5", ended=None):
-        """`cmp` says nothing; nothing unfinished is left, but what `ended` says that it left, as it cannot tell whose it
-        is."""
+        """`cmp` says nothing; nothing unfinished is left, but what `ended` says that it left, as it cannot tell whose
+        it is."""
         with open(self.whole / "r.h5", "rb") as one, open(folder / result, "rb") as other:
             self.assertTrue(one.read() == other.read(), f"{result} differs from the uninterrupted one")
         left = set(os.listdir(folder.path)) - {"job.toml", result, result + ".made.json"}

@@ -37,7 +37,15 @@ struct DiagnoseArguments {
   int threads = 0;  // 0: not given
   bool all = false;
   bool allow_full_disk = false;
+  bool exit_code = false;
 };
+
+// whatever the verdict, the diagnosis itself succeeded: that the recording is to blame is told by a code only where
+// somebody asks
+ExitCode code_of(DiagnoseArguments const& arguments, Diagnosis const& diagnosis) {
+  bool const is_blamed = diagnosis.verdict == Verdict::data_fault || diagnosis.verdict == Verdict::insufficient;
+  return arguments.exit_code && is_blamed ? ExitCode::bad_data : ExitCode::ok;
+}
 
 constexpr StopWords words_of_one{
     "stopping after the running step of the search",
@@ -53,6 +61,10 @@ void print_baseline(Session const& session, Diagnosis const& diagnosis) {
         fmt::format("{} parameters; error {} train", joint.baseline.size(), percent_text(joint.train_relerr));
     if (std::isfinite(joint.validation_relerr))
       line += fmt::format(", {} unseen", percent_text(joint.validation_relerr));
+    LeftOut const& left_out = std::isfinite(joint.validation_relerr) ? joint.validation_left_out : joint.train_left_out;
+    if (left_out.time > 0.0)
+      line += fmt::format("; {} over all rows, of which {} with {} of the residual's energy are left out",
+                          percent_text(left_out.relerr), percent_text(left_out.time), percent_text(left_out.energy));
     session.note(session.topic_line("baseline", line));
   }
 }
@@ -98,10 +110,11 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
     read_verdict_json(there);
   });
   ResultReader const reader(output);
-  print_diagnosis(session, read_diagnosis(reader), read_verdict_json(reader), arguments.all);
+  Diagnosis const diagnosis = read_diagnosis(reader);
+  print_diagnosis(session, diagnosis, read_verdict_json(reader), arguments.all);
   note_whereabouts(session, "kept", output, session.options().json);
   tidy_up(session, output, inputs_sha256);
-  return ExitCode::ok;
+  return code_of(arguments, diagnosis);
 }
 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
@@ -153,8 +166,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   print_stages(session, phases.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
   note_whereabouts(session, "wrote", output, session.options().json);
-  // whatever the verdict: the diagnosis itself succeeded
-  return ExitCode::ok;
+  return code_of(arguments, diagnosis);
 }
 
 }  // namespace
@@ -172,6 +184,10 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
   command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
+  command
+      ->add_flag("--exit-code", arguments->exit_code,
+                 "end with 65 when the verdict blames the recording (data fault, insufficient); 0 otherwise")
+      ->group("results");
   command
       ->add_option("--columns", arguments->columns,
                    "write the columns of every effect on the job's recordings here (HDF5) and make no diagnosis: for "

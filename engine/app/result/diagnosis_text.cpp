@@ -63,7 +63,6 @@ std::string with_each(std::string text, std::string const& old_words, std::strin
   return text;
 }
 
-
 std::string joined(std::vector<std::string> const& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -168,6 +167,16 @@ std::string interval_text(ParameterEstimate const& one) {
   return value + " +- " + two_digits(half);
 }
 
+// errors over all rows, and what the others leave out
+void add_left_out(TextTable& table, std::string const& where, LeftOut const& left_out) {
+  if (!(left_out.time > 0.0)) return;
+  table.row({"error, " + where + ", all rows", "", share_cell(left_out.relerr), share_cell(left_out.augmented_relerr)});
+  table.row({"left out, " + where, "",
+             fmt::format("{} of the time, {} of the residual's energy", share_cell(left_out.time),
+                         share_cell(left_out.energy)),
+             ""});
+}
+
 ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& parameters, std::string const& name) {
   auto const found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](ParameterEstimate const& one) { return one.name == name; });
@@ -178,7 +187,10 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 
 std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
   VerdictWords const words = words_of(diagnosis.verdict);
-  std::string const lead = fmt::format("{} {}", utf8 ? words.mark : "*", words.word);
+  bool const of_few_rows = diagnosis.verdict == Verdict::none &&
+                           std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), looks_at_less_than_half);
+  std::string const lead =
+      fmt::format("{} {}{}", utf8 ? words.mark : "*", words.word, of_few_rows ? " ON THE ROWS LOOKED AT" : "");
   std::string inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
   if (has_fault(diagnosis)) inked += ink.warning(" + DATA FAULT");
   // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
@@ -194,7 +206,7 @@ std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const
         where_text(joint, options.utf8) + candidates_text(joint, options.all_candidates) + next_text(joint);
     if (part.empty()) continue;
     text += "\n";
-    if (diagnosis.joints.size() > 1) text += ink.bold(fmt::format("joint {}", joint.joint)) + "\n";
+    if (diagnosis.joints.size() > 1) text += ink.bold(which_joint(joint)) + "\n";
     text += part;
   }
   return text;
@@ -219,7 +231,9 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
     table.row({"error, train", "", share_cell(joint.train_relerr), share_cell(joint.augmented_train_relerr)});
     table.row(
         {"error, unseen", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
-    text += ink.bold(fmt::format("model of joint {} (+- 95 %)", joint.joint)) + "\n" + table.text(page_width);
+    add_left_out(table, "train", joint.train_left_out);
+    add_left_out(table, "unseen", joint.validation_left_out);
+    text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width);
   }
   return text;
 }

@@ -14,7 +14,7 @@ namespace {
 
 // what clips has been there: its limit is the extreme of the record, but for noise behind the limit
 EffectParameter limit(char const* name, RelativeTo extreme) {
-  return shape_parameter(name, "N m", "N", {0.8, extreme}, {1.0, extreme}, Spacing::linear);
+  return law_at_upper(shape_parameter(name, "N m", "N", {0.8, extreme}, {1.0, extreme}, Spacing::linear));
 }
 
 class Clipping final : public InstantEffect {
@@ -25,7 +25,7 @@ class Clipping final : public InstantEffect {
                        .equation = "recorded torque + c (clamp(tau_motor, -M, L) - tau_motor)",
                        .source = "definition of saturation",
                        .separated_by = "a gentler motion, and a log of the saturation flag",
-                       .parameters = {{"clipping", "1", "1", {0.0}, {1.0}},
+                       .parameters = {law_at_upper({"clipping", "1", "1", {0.0}, {1.0}}),
                                       limit("clipping_limit", RelativeTo::torque_highest),
                                       limit("clipping_limit_negative", RelativeTo::torque_lowest)},
                        .families = {EffectFamily::measurement, EffectFamily::load},

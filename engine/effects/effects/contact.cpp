@@ -17,19 +17,20 @@ namespace {
 class Contact final : public InstantEffect {
  public:
   Contact()
-      : InstantEffect({.name = "contact",
-                       .title = "a push from outside for a while",
-                       .equation = "a sin^2(pi (t - t_0) / w), t_0 < t < t_0 + w",
-                       .source = "De Luca, Mattone 2005",
-                       .separated_by = "the same lap again",
-                       .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
-                                      shape_parameter("contact_start", "s", "s", {0.02, RelativeTo::instant},
-                                                      {0.98, RelativeTo::instant}, Spacing::linear),
-                                      shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
-                                                      {0.2, RelativeTo::duration}, Spacing::logarithmic)},
-                       .families = {EffectFamily::outside, EffectFamily::time},
-                       .signature = {SignatureAxis::time},
-                       .parity = Parity::even}) {}
+      : InstantEffect(
+            {.name = "contact",
+             .title = "a push from outside for a while",
+             .equation = "a sin^2(pi (t - t_0) / w), t_0 < t < t_0 + w",
+             .source = "De Luca, Mattone 2005",
+             .separated_by = "the same lap again",
+             .parameters = {{"contact", "N m", "N", {-10.0, RelativeTo::torque}, {10.0, RelativeTo::torque}},
+                            shape_parameter("contact_start", "s", "s", {0.02, RelativeTo::instant},
+                                            {0.98, RelativeTo::instant}, Spacing::linear),
+                            law_at_lower(shape_parameter("contact_width", "s", "s", {5.0, RelativeTo::filter_time},
+                                                         {0.2, RelativeTo::duration}, Spacing::logarithmic))},
+             .families = {EffectFamily::outside, EffectFamily::time},
+             .signature = {SignatureAxis::time},
+             .parity = Parity::even}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {

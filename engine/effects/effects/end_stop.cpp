@@ -20,20 +20,21 @@ namespace {
 class EndStop final : public InstantEffect {
  public:
   EndStop()
-      : InstantEffect({.name = "end_stop",
-                       .title = "elastic stop at one end of the travel",
-                       .equation = "(k x |x / x_r|^(p - 1) + d dq) [q beyond q_c], x = q - q_c, x_r 1 % of the travel",
-                       .source = "Hunt, Crossley 1975",
-                       .separated_by = "a slow approach to the stop, and the same positions left again",
-                       .parameters = {{"end_stop", "N m/rad", "N/m", {0.0}},
-                                      {"end_stop_damping", "N m s/rad", "N s/m", {0.0}},
-                                      shape_parameter("end_stop_position", "rad", "m", {-0.49, RelativeTo::position},
-                                                      {0.49, RelativeTo::position}, Spacing::linear),
-                                      shape_parameter("end_stop_power", "1", "1", {1.0}, {2.0}, Spacing::linear)},
-                       .families = {EffectFamily::static_position},
-                       .signature = {SignatureAxis::position},
-                       .parity = Parity::neither,
-                       .is_of_extremes = true}) {}
+      : InstantEffect(
+            {.name = "end_stop",
+             .title = "elastic stop at one end of the travel",
+             .equation = "(k x |x / x_r|^(p - 1) + d dq) [q beyond q_c], x = q - q_c, x_r 1 % of the travel",
+             .source = "Hunt, Crossley 1975",
+             .separated_by = "a slow approach to the stop, and the same positions left again",
+             .parameters = {{"end_stop", "N m/rad", "N/m", {0.0}},
+                            {"end_stop_damping", "N m s/rad", "N s/m", {0.0}},
+                            shape_parameter("end_stop_position", "rad", "m", {-0.49, RelativeTo::position},
+                                            {0.49, RelativeTo::position}, Spacing::linear),
+                            law_at_both(shape_parameter("end_stop_power", "1", "1", {1.0}, {2.0}, Spacing::linear))},
+             .families = {EffectFamily::static_position},
+             .signature = {SignatureAxis::position},
+             .parity = Parity::neither,
+             .is_of_extremes = true}) {}
 
   bool is_plausible(std::span<double const> shape, JointScales const& scales) const override {
     constexpr double outer = 0.3;  // of the range, from the centre

@@ -19,21 +19,22 @@ namespace {
 class LoadDependentFriction final : public InstantEffect {
  public:
   LoadDependentFriction()
-      : InstantEffect({.name = "load_dependent_friction",
-                       .title = "dry friction in proportion to the load",
-                       .equation = "s mu (sqrt(l^2 + p^2) - p), l = tau_load - (1 - k) J ddq",
-                       .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3; Palmgren 1959 (preload)",
-                       .separated_by = "the same motion with another payload",
-                       .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
-                                      shape_parameter("load_friction_inertia_share", "1", "1",
-                                                      {1.0, RelativeTo::bears_only_inertia}, {1.0}, Spacing::linear),
-                                      shape_parameter("load_friction_preload", "N m", "N", {0.0},
-                                                      {1.0, RelativeTo::torque}, Spacing::linear)},
-                       .families = {EffectFamily::load},
-                       .signature = {SignatureAxis::load, SignatureAxis::velocity},
-                       .parity = Parity::odd,
-                       .needs_baseline = true,
-                       .is_dry_friction = true}) {}
+      : InstantEffect(
+            {.name = "load_dependent_friction",
+             .title = "dry friction in proportion to the load",
+             .equation = "s mu (sqrt(l^2 + p^2) - p), l = tau_load - (1 - k) J ddq",
+             .source = "Hamon, Gautier, Garrec, Janot 2010; BAM model M3; Palmgren 1959 (preload)",
+             .separated_by = "the same motion with another payload",
+             .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
+                            law_at_both(shape_parameter("load_friction_inertia_share", "1", "1",
+                                                        {1.0, RelativeTo::bears_only_inertia}, {1.0}, Spacing::linear)),
+                            shape_parameter("load_friction_preload", "N m", "N", {0.0}, {1.0, RelativeTo::torque},
+                                            Spacing::linear)},
+             .families = {EffectFamily::load},
+             .signature = {SignatureAxis::load, SignatureAxis::velocity},
+             .parity = Parity::odd,
+             .needs_baseline = true,
+             .is_dry_friction = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

@@ -25,7 +25,8 @@ class Stribeck final : public InstantEffect {
              .parameters = {{"stribeck", "N m", "N", {0.0}, {2.0, RelativeTo::coulomb}},
                             shape_parameter("stribeck_speed", "rad/s", "m/s", {0.002, RelativeTo::peak_speed},
                                             {0.2, RelativeTo::peak_speed}, Spacing::logarithmic),
-                            shape_parameter("stribeck_exponent", "1", "1", {0.5}, {2.0}, Spacing::linear)},
+                            law_at_upper(
+                                shape_parameter("stribeck_exponent", "1", "1", {0.5}, {2.0}, Spacing::linear))},
              .families = {EffectFamily::reversal, EffectFamily::velocity_law},
              .signature = {SignatureAxis::velocity, SignatureAxis::since_velocity_reversal},
              .parity = Parity::odd,

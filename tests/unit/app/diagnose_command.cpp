@@ -131,6 +131,29 @@ TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
   EXPECT_EQ(run({"--shard", "0/1"}).code, ExitCode::stopped) << "of no shard it is a stop";
 }
 
+TEST_F(DiagnoseCommand, EndsWithACodeForABlamedRecordingWhereSomebodyAsks) {
+  for (auto const& [diagnosis, is_blamed] :
+       std::vector<std::pair<Diagnosis, bool>>{{example::invented_diagnosis(), false},
+                                               {example::invented_none(), false},
+                                               {example::invented_unexplained(), false},
+                                               {example::invented_insufficient(), true},
+                                               {example::invented_data_fault(), true}}) {
+    std::filesystem::remove(result());
+    found = diagnosis;
+    ExitCode const code = is_blamed ? ExitCode::bad_data : ExitCode::ok;
+    EXPECT_EQ(run({"--exit-code"}).code, code) << word(diagnosis.verdict);
+    EXPECT_EQ(run({"--exit-code"}).code, code) << "shown again";
+    EXPECT_EQ(run().code, ExitCode::ok);
+  }
+}
+
+TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
+  found.joints[0].validation_left_out = {0.71, 0.98, 0.46, 0.42};
+  EXPECT_THAT(
+      run({"--progress", "none"}).err,
+      HasSubstr("12.1 % unseen; 46 % over all rows, of which 71 % with 98 % of the residual's energy are left"));
+}
+
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
   for (auto const& diagnosis : {example::invented_none(), example::invented_unexplained(),
                                 example::invented_insufficient(), example::invented_data_fault()}) {

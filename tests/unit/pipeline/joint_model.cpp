@@ -120,6 +120,23 @@ TEST(JointModel, TellsEffectsTheReferenceWhateverIsFitted) {
   EXPECT_EQ(told.scales.peak_speed, 3.0);
 }
 
+// the load that a simulator knows of presses the gear beside the baseline's own
+TEST(JointModel, TellsEffectsTheGearLoadOfItsRecording) {
+  Recording recording = simulated(stribeck_torque, 3);
+  recording.gear_load = 2.0 * recording.position;
+  JointModel model(clean_regressor(), reference(), {{find_effect("load_dependent_friction"), {1.0, 0.0}}});
+  Eigen::ArrayXd const inertia = 0.036 * motion().ddq.array(), sign = motion().dq.array().sign();
+  Eigen::ArrayXd const without = model.columns(motion(), {}).col(4).array();
+  EXPECT_LT((without - sign * inertia.abs()).abs().maxCoeff(), 1e-9);
+  model.load_as_in(recording);
+  Eigen::ArrayXd const with_load = model.columns(motion(), {}).col(4).array();
+  EXPECT_LT((with_load - sign * (inertia + recording.gear_load.array()).abs()).abs().maxCoeff(), 1e-9);
+  // of another recording, its own
+  recording.gear_load.resize(0);
+  model.load_as_in(recording);
+  EXPECT_LT((model.columns(motion(), {}).col(4).array() - without).abs().maxCoeff(), 1e-12);
+}
+
 constexpr std::size_t twins = 48;
 constexpr Eigen::Index n_parameters = 5;
 

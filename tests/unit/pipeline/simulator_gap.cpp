@@ -111,6 +111,45 @@ TEST(SimulatorGap, ASimulatorWithPhysicsTheJointLacksShowsToo) {
   EXPECT_GT(gap.beyond_rms, 0.01);
 }
 
+// what the simulator holds beyond the model's terms leaves an unseen recording as it leaves the training one
+TEST(SimulatorGap, TakesTheSameOfACopyGivenAsUnseen) {
+  auto [recording, motion, truth] = bench();
+  recording.simulated_torque = simulator(motion, 0.9 * truth) + 0.4 * motion.q;
+  recording.torque += 0.4 * motion.q;
+  auto const pipeline = clean_pipeline(recording);
+  auto const gap = gap_to_simulator(recording, pipeline);
+  Recording const unseen = without_simulator(recording, pipeline, gap.simulator_parameters);
+  EXPECT_EQ(unseen.torque, gap.recording.torque);
+  EXPECT_EQ(unseen.gear_load, gap.recording.gear_load);
+  EXPECT_EQ(unseen.simulated_torque.size(), 0);
+
+  Recording plain = recording;
+  plain.simulated_torque.resize(0);
+  EXPECT_EQ(without_simulator(plain, pipeline, gap.simulator_parameters).torque, recording.torque);
+}
+
+// a spring that the simulator has and the model has not presses the gear as a term of the model would
+TEST(SimulatorGap, KeepsWhatPassesTheGearAsItsLoad) {
+  auto [recording, motion, truth] = bench();
+  recording.simulated_torque = simulator(motion, truth) + 0.4 * motion.q;
+  auto const pipeline = clean_pipeline(recording);
+  auto const gap = gap_to_simulator(recording, pipeline);
+  ASSERT_EQ(gap.recording.gear_load.size(), motion.q.size());
+  // what the terms take of a spring on this motion is in their own load
+  Eigen::VectorXd const load = gap.recording.gear_load + gap.simulator_parameters[0] * motion.ddq,
+                        whole = truth[0] * motion.ddq + 0.4 * motion.q;
+  auto const rows = pipeline.process(recording).kept_rows;
+  double const step = recording.rate_hz / pipeline.kept_rate_hz();
+  double apart = 0.0, size = 0.0;
+  Eigen::Index const edge = (recording.position.size() - static_cast<Eigen::Index>(step) * pipeline.kept_samples()) / 2;
+  for (Eigen::Index const row : rows) {
+    auto const k = edge + static_cast<Eigen::Index>(step * static_cast<double>(row));
+    apart += std::pow(load[k] - whole[k], 2);
+    size += std::pow(whole[k], 2);
+  }
+  EXPECT_LT(std::sqrt(apart / size), 0.25);
+}
+
 TEST(SimulatorGap, DoesNotChatterWhereTheJointRests) {
   // three strokes, a second of rest with an encoder that flickers between two steps, three strokes
   Recording recording = bench().recording;

@@ -121,6 +121,26 @@ TEST(DiagnosisFile, KeepsTheTextsOfThePoorVerdicts) {
             "A 5 % Stribeck effect would have shown.");
 }
 
+TEST(DiagnosisFile, KeepsWhatIsLeftOutAndTheTestOnHeldOutRows) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.name = "q5_rad";
+  joint.train_left_out = {0.71, 0.98, 0.46, 0.42};
+  joint.validation_left_out = {0.70, 0.95, 0.48, unknown};
+  joint.held_out = {"unseen", "not lower", 0.4, 1.67, 60};
+  JointDiagnosis const kept = written_and_read(diagnosis).joints[0];
+  EXPECT_EQ(kept.name, "q5_rad");
+  EXPECT_EQ(kept.train_left_out.time, 0.71);
+  EXPECT_EQ(kept.train_left_out.augmented_relerr, 0.42);
+  EXPECT_EQ(kept.validation_left_out.energy, 0.95);
+  EXPECT_EQ(kept.validation_left_out.relerr, 0.48);
+  EXPECT_TRUE(std::isnan(kept.validation_left_out.augmented_relerr));
+  EXPECT_EQ(kept.held_out.rows, "unseen");
+  EXPECT_EQ(kept.held_out.change, "not lower");
+  EXPECT_EQ(kept.held_out.asked_for, 1.67);
+  EXPECT_EQ(kept.held_out.blocks, 60U);
+}
+
 TEST(DiagnosisFile, EqualDiagnosesHaveEqualContent) {
   test::TemporaryFolder const folder;
   EXPECT_EQ(example::write_diagnosis_file(folder / "a.h5", example::invented_diagnosis()),

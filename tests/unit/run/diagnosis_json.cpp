@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 Json const pattern = Json::parse(R"({
   "schema": 1, "verdict": "", "reason": "", "findings": [],
   "joints": [{
-    "joint": 1, "twins": 0,
+    "joint": 1, "name": "", "twins": 0,
     "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}],
                  "train_relerr": 0, "validation_relerr": 0},
     "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0,
@@ -34,6 +34,10 @@ Json const pattern = Json::parse(R"({
                     "p_is_extrapolated": false, "q": 0, "gain": 0, "cv_gain": 0}],
     "augmented": {"train_relerr": 0, "validation_relerr": 0, "floor_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
+    "left_out": {"train": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0, "augmented_relerr_all_rows": 0},
+                 "validation": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0,
+                                "augmented_relerr_all_rows": 0}},
+    "held_out": {"rows": "", "change": "", "t": 0, "asked_for": 0, "blocks": 0},
     "budget": {"parameter_error": 0, "missing_physics": 0, "unexplained": 0, "noise": 0},
     "unexplained": [{"axis": "", "from": 0, "to": 0, "energy_share": 0}],
     "excitation": [{"lacks": "", "would_separate": [""]}]}]})");

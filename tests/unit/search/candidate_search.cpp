@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 #include "engine/search/form_freedom.hpp"
@@ -119,6 +120,25 @@ TEST_F(CandidateSearch, TellsAWaveOfTheSameOrderAsAnotherFormOfTheNamedOne) {
   EXPECT_FALSE(is_form_of_cogging(25.5 * wave, 5.0)) << "an order of its own";
   EXPECT_FALSE(is_form_of({find_effect("torque_ripple"), {24.0 * wave}}, 5.0, ripple, stage, columns))
       << "of the same kind: waves of one effect stand each for itself";
+}
+
+// a second wave of one name is judged by what it explained itself, not by what the first one did
+TEST_F(CandidateSearch, HoldsEachWaveOfOneNameAgainstItsOwnGain) {
+  double const wave = bound_value({1.0, RelativeTo::lowest_order}, columns.scales());
+  StageSetting setting{recording, clean_regressor(), filter, section, 16, 1, 2};
+  Effect const* cogging = find_effect("cogging");
+  ModelStage const two = make_stage(setting, JointModel(clean_regressor(), stage.reference(),
+                                                        {{cogging, {24.0 * wave}}, {cogging, {60.0 * wave}}}))
+                             .value();
+  CandidateColumns const beside{*two.pipeline, two.comparison, two.reference(), two.parameters()};
+  RefinedEffect ripple;
+  ripple.effect = find_effect("torque_ripple");
+  ripple.gain = 1.0;
+  ripple.shape = {60.0 * wave};
+  std::vector<double> const gains{20.0, 2.0};
+  EXPECT_FALSE(form_of_named(gains, ripple, two, beside).has_value()) << "half of what its own order explained";
+  ripple.shape = {24.0 * wave};
+  EXPECT_EQ(form_of_named(gains, ripple, two, beside), std::optional<std::size_t>(0));
 }
 
 }  // namespace candidate_search_test

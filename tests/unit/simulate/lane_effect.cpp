@@ -123,6 +123,22 @@ TEST(LaneEffect, OfAJointAddsToNoChannel) {
   }
 }
 
+// as in the columns of the model, between two ticks as a straight line
+TEST(LaneEffect, FollowsTheGearLoadOfItsRecording) {
+  LaneInstant at = some_instant();
+  at.time_s = 0.25;
+  auto const load = std::make_shared<Eigen::VectorXd const>(Eigen::Vector3d(1.0, 3.0, -5.0));
+  double const mu = 0.1;
+  auto const forward_at = [&](double time_s) {
+    at.time_s = time_s;
+    return answer(lane_effect(*find_effect("load_dependent_friction"), {mu, 1.0, 0.0}, {}, {{}, load, 2.0}), at)
+        .demand.forward[0];
+  };
+  EXPECT_NEAR(forward_at(0.25), mu * 2.0, rounding);
+  EXPECT_NEAR(forward_at(1.0), mu * 5.0, rounding);
+  EXPECT_NEAR(forward_at(7.0), mu * 5.0, rounding) << "as at the end";
+}
+
 TEST(SensorDrift, ShiftsTheLoggedTorqueAndNothingElse) {
   // in a closed loop: a controller that saw it would answer
   TwinGroup const plain = simulated(closed_loop(), track(0.8), {}),

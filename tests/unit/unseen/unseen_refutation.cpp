@@ -8,10 +8,7 @@
 #include <limits>
 #include <random>
 
-using torquescope::AcceptedEffect;
 using torquescope::added_torque;
-using torquescope::find_effect;
-using torquescope::must_carry_over;
 using torquescope::over_recordings;
 using torquescope::speak_against;
 using torquescope::speak_against_a_part;
@@ -96,17 +93,4 @@ TEST(UnseenRefutation, WithoutAFloorOnlyAWorsePredictionSpeaksAgainstNames) {
   EXPECT_TRUE(speak_against({{4.0, 9.0, 9.0}, unknown}));
   EXPECT_FALSE(speak_against({{4.0, 3.9, 3.0}, unknown})) << "no promise, none broken";
   EXPECT_FALSE(speak_against({{4.0, 4.1, 0.5}, unknown})) << "hardly another one";
-}
-
-TEST(UnseenRefutation, AsksNothingOfWhatBelongsToOneRecording) {
-  auto const accepted = [](char const* name) {
-    AcceptedEffect one;
-    one.effect = find_effect(name);
-    return one;
-  };
-  EXPECT_TRUE(must_carry_over({accepted("stribeck")}));
-  EXPECT_TRUE(must_carry_over({accepted("periodic_disturbance")})) << "its phase is turned";
-  for (auto const* name : {"contact", "payload_change", "sensor_drift", "thermal_friction"})
-    EXPECT_FALSE(must_carry_over({accepted("stribeck"), accepted(name)})) << name;
-  EXPECT_FALSE(must_carry_over({}));
 }

@@ -124,5 +124,41 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
   }
 }
 
+TEST(LeftOutClause, TellsTimeEnergyAndTheErrorWithIt) {
+  LeftOut left_out{0.71, 0.98, 0.46, 0.38};
+  EXPECT_EQ(
+      left_out_clause(left_out),
+      "71 % of the time with 98 % of the residual's energy, near reversals and rests, is left out of that; with it "
+      "the relerr is 46 % to 38 %");
+  left_out.augmented_relerr = unknown;
+  EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the relerr is 46 %"));
+  left_out.time = 0.0;
+  EXPECT_EQ(left_out_clause(left_out), "");
+  EXPECT_EQ(left_out_clause({}), "");
+}
+
+TEST(ReasonSentence, TellsWhatIsLeftOutBesideTheErrors) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].validation_left_out = {0.12, 0.3, 0.2, 0.15};
+  EXPECT_THAT(reason_sentence(diagnosis),
+              HasSubstr("floor 6.0 %; 12 % of the time with 30 % of the residual's energy"));
+}
+
+// nothing is missing where it was looked, which is not everywhere
+TEST(ReasonSentence, OfNothingMissingSaysWhenLessThanHalfOfTheResidualWasLookedAt) {
+  Diagnosis diagnosis = example::invented_none();
+  JointDiagnosis& joint = diagnosis.joints[0];
+  joint.validation_left_out = {0.71, 0.98, 0.46, unknown};
+  EXPECT_THAT(reason_sentence(diagnosis),
+              ::testing::StartsWith("Only the rows that were looked at are meant, which hold less than half of the "
+                                    "residual's energy. The residual of joint 1"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("with it the relerr is 46 %"));
+  joint.validation_left_out.energy = 0.3;
+  EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("less than half")));
+  joint.validation_left_out = {};
+  joint.train_left_out = {0.71, 0.98, 0.46, unknown};
+  EXPECT_TRUE(looks_at_less_than_half(joint)) << "of training where nothing unseen was recorded";
+}
+
 }  // namespace error_words_test
 }  // namespace torquescope

@@ -52,6 +52,27 @@ TEST(ReasonSentence, IsTheOneOfTheSpecification) {
       "cannot be excluded). Unseen relerr 12.1 % to 6.2 %, floor 6.0 %.");
 }
 
+TEST(ReasonSentence, CallsTheJointByItsColumn) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].name = "q5_rad";
+  EXPECT_THAT(reason_sentence(diagnosis), StartsWith("The joint of q5_rad loses 0.35 N m extra"));
+  EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("oint 1")));
+  for (auto diagnosed : {example::invented_none(), example::invented_unexplained(), example::invented_class()}) {
+    diagnosed.joints[0].name = "q5_rad";
+    EXPECT_THAT(reason_sentence(diagnosed), AllOf(HasSubstr("joint of q5_rad"), Not(HasSubstr("oint 1"))));
+  }
+}
+
+TEST(ReasonSentence, OfRefutedNamesWithoutUnseenDataTellsBlocks) {
+  JointDiagnosis refuted = example::invented_unexplained().joints[0];
+  refuted.effects = {effect_of(*find_effect("backlash"), 0.2)};
+  refuted.validation_relerr = unknown;
+  refuted.cv_relerr = 0.027;
+  refuted.augmented_cv_relerr = 0.0271;
+  EXPECT_EQ(refutation_clause(refuted, false),
+            "backlash, which would explain it, takes the cross-validated relerr from 2.7 % to 2.7 %");
+}
+
 TEST(ReasonSentence, TellsTwoEffectsAndNamesTheOthers) {
   Diagnosis diagnosis = example::invented_diagnosis();
   EXPECT_THAT(reason_sentence(diagnosis),

@@ -1,0 +1,99 @@
+#include "engine/pipeline/motion_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace torquescope {
+namespace {
+
+constexpr double one_direction = 0.995;  // of moving time
+constexpr double one_speed = 1.3;        // 95th over 10th percentile
+constexpr double at_limit = 0.05;        // of time
+constexpr double no_relation = 0.9;      // relerr of a model that explains a fifth of the torque's energy
+
+bool remembers_reversals(Effect const& law) {
+  auto const& axes = law.signature();
+  return std::any_of(axes.begin(), axes.end(), [](SignatureAxis axis) {
+    return axis == SignatureAxis::since_velocity_reversal || axis == SignatureAxis::since_torque_reversal;
+  });
+}
+
+}  // namespace
+
+MotionLimits limits_of(Excitation const& facts, double relerr) {
+  MotionLimits limits;
+  limits.has_one_direction = std::max(facts.forward_share, 1.0 - facts.forward_share) > one_direction;
+  limits.has_one_speed = facts.speed_spread < one_speed;
+  limits.is_saturated = facts.torque_limit_share > at_limit;
+  limits.has_no_relation = relerr > no_relation;
+  return limits;
+}
+
+bool closes(MotionLimits const& limits, Effect const& law) {
+  if (limits.has_one_direction && law.family() == EffectFamily::reversal && remembers_reversals(law)) return true;
+  auto const& families = law.families();
+  bool const is_of_velocity = std::find(families.begin(), families.end(), EffectFamily::velocity_law) != families.end();
+  return limits.has_one_speed && is_of_velocity;
+}
+
+std::string closed_sentences(MotionLimits const& limits, Excitation const& facts) {
+  std::string text;
+  auto const add = [&](std::string const& sentence) { text += (text.empty() ? "" : " ") + sentence; };
+  if (limits.has_one_direction)
+    add("Only one direction of motion was recorded: Coulomb friction and offset are one number, and nothing is known "
+        "of "
+        "laws that need reversals.");
+  if (limits.has_one_speed) add("Only one speed was recorded: nothing is known of laws of the velocity.");
+  if (limits.is_saturated)
+    add(fmt::format("The torque sits at its limit {:.0f} % of the time; those rows are left out.",
+                    100.0 * facts.torque_limit_share));
+  return text;
+}
+
+std::optional<Hopeless> blamed_for_silence(MotionLimits const& limits, Excitation const& facts, double relerr) {
+  if (limits.has_no_relation)
+    return Hopeless{
+        Verdict::data_fault,
+        fmt::format("the model explains almost nothing of the torque (relerr {:.0f} %), and no known effect "
+                    "explains what is left",
+                    100.0 * relerr),
+        "check recording.columns and torque_per_unit: the column may hold another signal or another joint"};
+  if (limits.has_one_direction)
+    return Hopeless{Verdict::insufficient,
+                    "only one direction of motion was recorded: viscous, Coulomb friction and offset cannot be "
+                    "separated, and laws that need reversals cannot be seen",
+                    "record both directions over the same positions"};
+  if (limits.has_one_speed)
+    return Hopeless{Verdict::insufficient, "only one speed was recorded: laws of velocity cannot be told apart",
+                    "record at least four speeds in both directions"};
+  if (limits.is_saturated)
+    return Hopeless{
+        Verdict::insufficient,
+        fmt::format("the torque sits at its limit {:.0f} % of the time: nothing is missing on the other rows",
+                    100.0 * facts.torque_limit_share),
+        "widen the range of the torque channel, or record a gentler motion"};
+  return check_silence(facts);
+}
+
+std::vector<bool> saturated_samples(Recording const& recording, double cutoff_hz) {
+  constexpr double reach_in_periods = 0.5;  // of the cut-off: within it the filter's weight is largest
+  Eigen::Index const n = recording.torque.size();
+  double const most = recording.torque.maxCoeff(), least = recording.torque.minCoeff();
+  std::vector<bool> left_out(static_cast<std::size_t>(n), false);
+  auto const reach =
+      cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(reach_in_periods / cutoff_hz * recording.rate_hz)) : 0;
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (recording.torque[k] != most && recording.torque[k] != least) continue;
+    ++count;
+    for (Eigen::Index i = std::max<Eigen::Index>(0, k - reach); i <= std::min(n - 1, k + reach); ++i)
+      left_out[static_cast<std::size_t>(i)] = true;
+  }
+  if (static_cast<double>(count) <= at_limit * static_cast<double>(n))
+    std::fill(left_out.begin(), left_out.end(), false);
+  return left_out;
+}
+
+}  // namespace torquescope

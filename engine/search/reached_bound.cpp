@@ -1,0 +1,112 @@
+#include "engine/search/reached_bound.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/search/shape_grid.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double bound_rounding = 1e-3;  // of the range: the step of a shape's tangent
+constexpr double further_inside = 0.1;   // of the range
+
+// a size in units of the joint may be twice what its scale says (is_far_too_large())
+bool is_size_of_joint(EffectParameter const& parameter, Bound const& bound) {
+  return !parameter.is_shape && bound.to != RelativeTo::absolute && bound.to != RelativeTo::sample_period;
+}
+
+bool is_spared(EffectParameter const& parameter, BoundSide side) {
+  Bound const& bound = side == BoundSide::lower ? parameter.lower : parameter.upper;
+  if (bound.factor == 0.0 || !std::isfinite(bound.factor) || is_size_of_joint(parameter, bound)) return true;
+  return side == BoundSide::lower ? parameter.none_at_lower || parameter.law_at_lower : parameter.law_at_upper;
+}
+
+std::optional<BoundSide> side_of(ParameterRange const& range, double value) {
+  if (!(range.upper > range.lower)) return std::nullopt;  // fixed by the joint
+  if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) {
+    if (value == range.lower) return BoundSide::lower;
+    if (value == range.upper) return BoundSide::upper;
+    return std::nullopt;
+  }
+  double const unit = to_unit(range, value);
+  if (unit <= bound_rounding) return BoundSide::lower;
+  if (unit >= 1.0 - bound_rounding) return BoundSide::upper;
+  return std::nullopt;
+}
+
+double gain_of(CandidateColumns const& columns, Effect const& effect, std::span<double const> shape,
+               Eigen::VectorXd const& mismatch) {
+  OrthonormalGroup const group = columns.group(effect, shape);
+  auto const bounds = effect.linear_bounds(columns.scales());
+  Eigen::VectorXd least(static_cast<Eigen::Index>(bounds.size())), most(least.size());
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    least[static_cast<Eigen::Index>(k)] = bounds[k].lower;
+    most[static_cast<Eigen::Index>(k)] = bounds[k].upper;
+  }
+  return boxed_gain(group, group.q.transpose() * mismatch, least, most).gain;
+}
+
+// what chance gives one parameter more, at 95 %
+double by_chance(CandidateColumns const& columns) {
+  constexpr double chi_squared_95 = 3.841;
+  auto const& rows = columns.comparison().rows;
+  auto const m = static_cast<double>(rows.n_twins());
+  double const noise = (rows.twins.colwise() - rows.twin_mean).squaredNorm() / (m - 1.0);
+  return chi_squared_95 * noise / static_cast<double>(rows.size());
+}
+
+}  // namespace
+
+std::optional<ReachedBound> reached_bound(Effect const& effect, std::span<double const> shape,
+                                          Eigen::VectorXd const& linear, JointScales const& scales) {
+  auto const linear_ranges = effect.linear_bounds(scales), shape_ranges = effect.shape_bounds(scales);
+  for (std::size_t k = 0; k < linear_ranges.size(); ++k) {
+    double const value = linear[static_cast<Eigen::Index>(k)];
+    auto const side = side_of(linear_ranges[k], value);
+    if (side && !is_spared(effect.parameters()[k], *side)) return ReachedBound{k, *side, value};
+  }
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    auto const side = side_of(shape_ranges[k], shape[k]);
+    std::size_t const parameter = effect.n_linear() + k;
+    if (side && !is_spared(effect.parameters()[parameter], *side)) return ReachedBound{parameter, *side, shape[k]};
+  }
+  return std::nullopt;
+}
+
+std::optional<ReachedBound> fitted_to_bound(CandidateColumns const& columns, Effect const& effect,
+                                            std::span<double const> shape, Eigen::VectorXd const& linear,
+                                            Eigen::VectorXd const& mismatch) {
+  auto const bound = reached_bound(effect, shape, linear, columns.scales());
+  if (!bound || bound->parameter < effect.n_linear()) return bound;
+  std::size_t const k = bound->parameter - effect.n_linear();
+  std::vector<double> moved(shape.begin(), shape.end());
+  moved[k] = from_unit(effect.shape_bounds(columns.scales())[k],
+                       bound->side == BoundSide::lower ? further_inside : 1.0 - further_inside);
+  double const lost = gain_of(columns, effect, shape, mismatch) - gain_of(columns, effect, moved, mismatch);
+  return lost > by_chance(columns) ? bound : std::nullopt;
+}
+
+std::optional<ReachedBound> bound_of_last(ModelStage const& stage) {
+  auto const& effects = stage.model().effects();
+  if (effects.empty()) return std::nullopt;
+  std::size_t const last = effects.size() - 1;
+  auto const& [effect, shape] = effects[last];
+  CandidateColumns const beside(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), last);
+  Eigen::VectorXd const linear = stage.parameters().segment(
+      static_cast<Eigen::Index>(stage.model().first_parameter(last)), static_cast<Eigen::Index>(effect->n_linear()));
+  Eigen::VectorXd const signal = stage.mismatch() + beside.columns(*effect, shape) * linear;
+  return fitted_to_bound(beside, *effect, shape, linear, signal);
+}
+
+std::string bound_words(Effect const& effect, ReachedBound const& bound, JointKind joint) {
+  EffectParameter const& parameter = effect.parameters()[bound.parameter];
+  std::string name = parameter.name;
+  for (char& letter : name)
+    if (letter == '_') letter = ' ';
+  return "its " + name + " ends at the " + (bound.side == BoundSide::lower ? "least" : "most") + " it can be, " +
+         quantity_text(bound.value, parameter.unit_for(joint)) + ": the law is none of the catalogue";
+}
+
+}  // namespace torquescope
