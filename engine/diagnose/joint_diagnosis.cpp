@@ -88,7 +88,8 @@ class JointWork {
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
     std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
-    why = verdict_of(Verdict::data_fault, [&]() -> std::optional<Hopeless> {
+    // its faults are known by now: what stops the search is a motion that cannot carry it
+    why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       selection_ = search_in_time(setting, recording, selection, progress_, torque_late_s_);
       return std::nullopt;
     });
