@@ -221,15 +221,19 @@ Experiment::Experiment(Experiment&&) noexcept = default;
 Experiment::~Experiment() = default;
 
 Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpose) {
+  return load(read_job(job_file), purpose);
+}
+
+Experiment Experiment::load(Job text, Purpose purpose) {
   auto parts = std::make_unique<Parts>();
-  parts->job = read_job(job_file);
+  parts->job = std::move(text);
   Job const& job = parts->job;
 
   // everything the text alone can be refused for
   std::vector<Problem> problems;
   check_section_names(job, problems);
   parts->experiment = read_options<ExperimentOptions>(job, problems);
-  if (parts->experiment.name.empty()) parts->experiment.name = job_file.stem().string();
+  if (parts->experiment.name.empty()) parts->experiment.name = job.path.stem().string();
   parts->output = read_options<OutputOptions>(job, problems);
   parts->filter = read_options<FilterOptions>(job, problems);
   auto const recording = read_options<RecordingOptions>(job, problems);
