@@ -12,6 +12,7 @@
 #include "engine/health/make_recording.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_recordings.hpp"
@@ -221,7 +222,7 @@ Experiment::Experiment(Experiment&&) noexcept = default;
 Experiment::~Experiment() = default;
 
 Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpose) {
-  return load(read_job(job_file), purpose);
+  return load(read_job_file(job_file), purpose);
 }
 
 Experiment Experiment::load(Job text, Purpose purpose) {

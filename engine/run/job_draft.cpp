@@ -11,6 +11,7 @@
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/job/job.hpp"
 #include "engine/run/draft_text.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/gravity_evidence.hpp"
 #include "engine/run/recording_draft.hpp"
 #include "engine/run/recording_guess.hpp"
@@ -199,6 +200,7 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
 
 JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
                    std::size_t joint) {
+  for (auto const& recording : recordings) refuse_no_recording(recording);
   RecordingGuess const train = guess_recording(recordings.front(), joint);
   validate(train.columns.joint <= train.columns.joints, [&] {
     Problem problem;
