@@ -276,11 +276,6 @@ Experiment Experiment::load(Job text, Purpose purpose) {
     findings.insert(findings.end(), found.begin(), found.end());
     if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);
   }
-  if (!simulates) {
-    auto found = fit_findings(*parts, recording);
-    auto& findings = parts->train.recordings.front().findings;
-    findings.insert(findings.end(), found.begin(), found.end());
-  }
   if (purpose != Purpose::identify) parts->reductions = {};
   if (purpose == Purpose::identify && wants_statistics(*parts))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);

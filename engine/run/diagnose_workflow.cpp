@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fmt/format.h>
-#include <algorithm>
-
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -91,32 +88,6 @@ Error stopped(DiagnoseRequest const& request, Shard const* shard) {
   Problem problem{ExitCode::stopped, "stopped: twins so far are safe in " + segment_folder_of(request.output).string()};
   problem.help = "the same command goes on with them";
   return Error(problem);
-}
-
-// A fault that the examination found is the verdict: physics found in such rows would be the fault's
-Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts) {
-  Diagnosis diagnosis;
-  diagnosis.verdict = Verdict::data_fault;
-  diagnosis.finding = fmt::format("{}: {}", fault.recording, sentence_of(fault));
-  diagnosis.way_out = cure_of(fault);
-  JointDiagnosis joint;
-  bool const revolute = parts.regressor->joint() == JointKind::revolute;
-  joint.unit_position = revolute ? "rad" : "m";
-  joint.unit_torque = revolute ? "N m" : "N";
-  diagnosis.joints.push_back(std::move(joint));
-  diagnosis.seed = static_cast<std::uint64_t>(parts.experiment.seed);
-  diagnosis.q = parts.diagnose.q;
-  diagnosis.reason = reason_sentence(diagnosis);
-  return diagnosis;
-}
-
-Diagnosis diagnose_examined(Experiment const& experiment, DiagnosisInput const& input, StageSink const& sink) {
-  auto const findings = experiment.findings();
-  auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
-  Diagnosis diagnosis =
-      fault != findings.end() ? verdict_of_fault(*fault, experiment.parts()) : diagnose_joint(input, sink);
-  diagnosis.findings = findings;
-  return diagnosis;
 }
 
 // A fault that the examination found is the verdict: physics found in such rows would be the fault's

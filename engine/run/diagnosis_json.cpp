@@ -5,8 +5,6 @@
 
 #include "engine/health/finding_text.hpp"
 
-#include "engine/health/finding_text.hpp"
-
 namespace torquescope {
 
 namespace {
@@ -124,20 +122,12 @@ Json finding_json(Finding const& finding) {
           {"text", sentence_of(finding)},   {"cure", cure_of(finding)}};
 }
 
-Json finding_json(Finding const& finding) {
-  return {{"code", code_of(finding.kind)},  {"grade", grade_word(finding.grade)},
-          {"recording", finding.recording}, {"column", finding.column},
-          {"rows", finding.count},          {"lines", finding.lines},
-          {"text", sentence_of(finding)},   {"cure", cure_of(finding)}};
-}
-
 }  // namespace
 
 std::string diagnosis_json(Diagnosis const& diagnosis) {
   Json const document = {{"schema", 1},
                          {"verdict", word(diagnosis.verdict)},
                          {"reason", diagnosis.reason},
-                         {"findings", list(diagnosis.findings, finding_json)},
                          {"findings", list(diagnosis.findings, finding_json)},
                          {"joints", list(diagnosis.joints, joint_json)}};
   // texts of a job may hold anything: broken UTF-8 is replaced, not refused

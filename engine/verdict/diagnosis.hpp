@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/data/finding.hpp"
+
 namespace torquescope {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -204,7 +206,6 @@ struct Diagnosis {
   std::string reason;     // one sentence for a person
   std::string finding{};  // data_fault, insufficient: what is wrong with the recording, a clause without full stop
   std::string way_out{};  // data_fault, insufficient: what to do
-  std::vector<Finding> findings{};  // of the examination of the recordings
   std::vector<Finding> findings{};  // of the examination of the recordings
   std::vector<JointDiagnosis> joints{};
   std::uint64_t seed = 0;
