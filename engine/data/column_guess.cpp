@@ -29,8 +29,8 @@ ChannelGuess describe(RawTable const& table, LikelyColumn const& likely) {
     any = true;
   }
   guess.is_constant = !(guess.most > guess.least);
-  bool const says_si = likely.name.unit && likely.name.unit->si != 0.0;
-  bool const says_counts = likely.name.unit && likely.name.unit->kind == UnitKind::counts;
+  bool const says_si = likely.name.unit && tells_si(*likely.name.unit);
+  bool const says_counts = likely.name.unit && likely.name.unit->quantity == Quantity::counts;
   guess.counts = says_counts || (!says_si && guess.most - guess.least > range_of_counts && whole_numbers(values));
   return guess;
 }

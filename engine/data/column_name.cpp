@@ -27,7 +27,7 @@ std::string take_bracketed_unit(std::string& name) {
     if (to == std::string::npos) continue;
     std::string unit = name.substr(from + 1, to - from - 1);
     std::erase(unit, ' ');
-    if (!column_unit(lowered(unit))) continue;
+    if (!known_unit(lowered(unit))) continue;
     name.erase(from, to - from + 1);
     return unit;
   }
@@ -40,7 +40,7 @@ std::vector<std::string> pieces_of(std::string const& name) {
   std::string piece;
   auto const flush = [&] {
     if (piece.empty()) return;
-    if (column_unit(lowered(piece))) {
+    if (known_unit(lowered(piece))) {
       pieces.push_back(piece);
     } else {
       std::string part;
@@ -79,7 +79,7 @@ void join_rates(std::vector<std::string>& pieces) {
   auto const joined = [&](std::size_t at, std::string const& ending) {
     std::string const base = lowered(pieces[at]);
     if (base != "rad" && base != "deg" && base != "m" && base != "mm") return;
-    if (!column_unit(base + ending)) return;
+    if (!known_unit(base + ending)) return;
     pieces.resize(at);
     pieces.push_back(base + ending);
   };
@@ -113,14 +113,15 @@ ColumnName parse_column_name(std::string const& name) {
     for (std::size_t i = pieces.size(); i-- > 1;) {
       std::string const word = lowered(pieces[i]);
       bool const is_last = i + 1 == pieces.size() || (i + 2 == pieces.size() && is_digit(pieces.back().front()));
-      if (!column_unit(word) || (is_short_unit(word) && !is_last)) continue;
+      if (!known_unit(word) || (word.size() == 1 && !is_last)) continue;
+      if (word == "raw" || word == "enc") continue;  // words, and no better units than others in the name
       if (word == "m" && is_angle_word(lowered(pieces.front()))) continue;
       parsed.unit_text = pieces[i];
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
       break;
     }
   }
-  parsed.unit = column_unit(lowered(parsed.unit_text));
+  parsed.unit = known_unit(lowered(parsed.unit_text));
 
   for (auto const& piece : pieces) {
     if (is_digit(piece.front())) {
@@ -141,23 +142,24 @@ namespace {
 // a unit says what the words left open, or said wrongly: "qd_rad" is no speed, "v_mps" no voltage
 WordKind quantity_by_unit(ColumnName const& name, WordKind by_words) {
   if (!name.unit) return by_words;
-  switch (name.unit->kind) {
-    case UnitKind::time:
+  switch (name.unit->quantity) {
+    case Quantity::time:
       return WordKind::time;
-    case UnitKind::angle:
-    case UnitKind::length:
+    case Quantity::angle:
+    case Quantity::length:
       return WordKind::position;
-    case UnitKind::counts:
-      return by_words;  // "loop_count" counts as well
-    case UnitKind::angular_speed:
-    case UnitKind::linear_speed:
+    case Quantity::angular_speed:
+    case Quantity::speed:
       return WordKind::velocity;
-    case UnitKind::acceleration:
+    case Quantity::acceleration:
       return WordKind::acceleration;
-    case UnitKind::torque:
-    case UnitKind::force:
+    case Quantity::torque:
+    case Quantity::force:
       return WordKind::torque;
-    case UnitKind::drive:
+    case Quantity::counts:  // "loop_count" counts as well
+    case Quantity::current:
+    case Quantity::voltage:
+    case Quantity::ratio:
       return by_words;
   }
   return by_words;

@@ -1,5 +1,5 @@
 #pragma once
-// A column's name taken apart: "Axis2.ActPos[Inc]" is act, pos; unit "inc"; joint 2; and "axis" says nothing.
+// A column's name taken apart: "Axis2.ActPos[Inc]" is act, pos; unit Inc; joint 2; and "axis" says nothing.
 //
 // Words      lower case, split at all that is no letter and where a capital follows a small letter; "qref" and "ides"
 //            are two: a quantity and whether it was commanded
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/data/column_unit.hpp"
 #include "engine/data/column_word.hpp"
+#include "engine/data/unit_of_name.hpp"
 
 namespace torquescope {
 
@@ -21,7 +21,7 @@ struct ColumnName {
   std::string rest;               // the others, joined: "left arm"
   std::string number;             // "2", or empty
   std::string unit_text;          // as written: "mA"
-  std::optional<ColumnUnit> unit{};
+  std::optional<NamedUnit> unit{};
 };
 
 ColumnName parse_column_name(std::string const& name);

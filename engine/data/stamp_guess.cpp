@@ -13,14 +13,14 @@ namespace {
 
 constexpr double shortest_step_s = 1e-5, longest_step_s = 0.5;
 
-// some pairs of rows may stand the wrong way round; a clock goes on all the same
+// some rows may stand in the wrong order, and a counter may start anew: a clock all the same
 bool runs_forwards(std::vector<double> const& stamps) {
   std::size_t forwards = 0, backwards = 0;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     forwards += stamps[i] > stamps[i - 1];
     backwards += stamps[i] < stamps[i - 1];
   }
-  return forwards > 0 && 10 * backwards < forwards && stamps.back() > stamps.front();
+  return 10 * backwards < forwards;
 }
 
 // of the steps that are steps: stamps may repeat
@@ -58,10 +58,10 @@ StampUnit by_step(double step) {
 
 void guess_unit(StampGuess& guess, LikelyColumn const& likely, double first, double step) {
   auto const& unit = likely.name.unit;
-  bool const named = unit && unit->kind == UnitKind::time;
+  bool const named = unit && unit->quantity == Quantity::time;
   if (named && suits_a_recording(step * unit->si)) {
     guess.per_unit = unit->si;
-    guess.why = fmt::format("the name says {}", unit->meaning);
+    guess.why = fmt::format("the name says {}", unit->word);
     return;
   }
   auto const epoch = since_1970(first);
@@ -72,7 +72,7 @@ void guess_unit(StampGuess& guess, LikelyColumn const& likely, double first, dou
                     : fmt::format("a step of {:.4g} suits {}", step, likely_unit.name);
   bool const may_count_rows = step == 1.0;
   if (named || may_count_rows) guess.unit = Certainty::doubtful;
-  if (named) guess.why += fmt::format(", though the name says {}", unit->meaning);
+  if (named) guess.why += fmt::format(", though the name says {}", unit->word);
   if (may_count_rows) guess.why += "; it may count rows";
 }
 

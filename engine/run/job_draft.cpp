@@ -131,9 +131,9 @@ class JobDrafter {
   void write_model() {
     auto const& position = train_.columns.position;
     text_.section("[model]");
-    bool const by_unit = position.name.unit && position.name.unit->kind != UnitKind::counts;
+    bool const by_unit = position.name.unit && position.name.unit->quantity != Quantity::counts;
     text_.setting("joint", prismatic_ ? "\"prismatic\"" : "\"revolute\"",
-                  by_unit      ? fmt::format("guessed from the unit, {}", position.name.unit->meaning)
+                  by_unit      ? fmt::format("guessed from the unit, {}", position.name.unit->word)
                   : prismatic_ ? "guessed: the torque column is a force"
                                : "assumed: no unit says so");
     auto list = terms();
@@ -166,6 +166,12 @@ class JobDrafter {
   JobDraft draft_{};
 };
 
+// a fault that the draft has a line to edit for is said already
+bool is_line_to_edit(CheckLine const& fault, JobDraft const& draft) {
+  return (fault.topic == "position_in_counts" && draft.text.find("\n# position_per_unit") != std::string::npos) ||
+         (fault.topic == "unit_of_current" && draft.text.find("\n# torque_per_unit") != std::string::npos);
+}
+
 // what `torquescope check` will say of the draft, said now
 void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::path const& job_file) {
   bool const said_already =
@@ -176,7 +182,10 @@ void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::
     return;
   }
   try {
-    Experiment::load(parse_job(draft.text, job_file), Experiment::Purpose::check);
+    auto const experiment = Experiment::load(parse_job(draft.text, job_file), Experiment::Purpose::check);
+    for (auto const& line : experiment.check(1))
+      if (line.level == CheckLine::Level::fault && !is_line_to_edit(line, draft))
+        draft.warnings.push_back(fmt::format("{}: {}", line.topic, line.text));
   } catch (Error const& refused) {
     for (auto const& problem : refused.problems())
       draft.warnings.push_back(fmt::format("this job does not run yet: {}{}", problem.what,

@@ -12,11 +12,6 @@ namespace torquescope {
 
 namespace {
 
-bool recording_has_key(std::string const& key) {
-  auto const options = RecordingOptions::table().describe();
-  return std::any_of(options.begin(), options.end(), [&](auto const& option) { return option.key == key; });
-}
-
 std::string path_from(std::filesystem::path const& job_file, std::filesystem::path const& recording) {
   if (recording.is_absolute()) return recording.string();
   auto const folder = std::filesystem::absolute(job_file).parent_path();
@@ -24,6 +19,21 @@ std::string path_from(std::filesystem::path const& job_file, std::filesystem::pa
 }
 
 std::string listed(std::vector<std::string> const& texts) { return fmt::format("{}", fmt::join(texts, ", ")); }
+
+// what a torque column is in when its unit tells no N m
+std::string drive_words(ColumnName const& name) {
+  if (!name.unit) return "in an unknown unit";
+  switch (name.unit->quantity) {
+    case Quantity::current:
+      return "a current in " + name.unit->word;
+    case Quantity::voltage:
+      return "a voltage in " + name.unit->word;
+    case Quantity::ratio:
+      return name.unit->word + " of a rated value";
+    default:
+      return "in " + name.unit->word;
+  }
+}
 
 class RecordingDraft {
  public:
@@ -54,7 +64,6 @@ class RecordingDraft {
     write_rate();
     write_position_unit();
     write_torque_unit();
-    if (train_.fills_gaps) text_.setting("gaps", "\"fill\"", "some values are missing");
   }
 
   void write_validation() {
@@ -82,16 +91,15 @@ class RecordingDraft {
     if (!other.refusal.empty()) return other.refusal;
     if (!train_.recording || !other.recording) return {};
     if (other.recording->sha256 == train_.recording->sha256) return "it is the same recording as train";
-    double const rate = train_.recording->rate_hz, its_rate = other.recording->rate_hz;
-    constexpr double same = 1e-3;
-    return std::fabs(its_rate - rate) <= same * rate ? std::string()
-                                                     : fmt::format("it has {:.6g} Hz, train {:.6g} Hz", its_rate, rate);
+    // a job has one rate: a much lower one would cost the others what lies above half of it
+    constexpr double about_the_same = 0.1;
+    double const rate_hz = train_.recording->rate_hz, its_rate_hz = other.recording->rate_hz;
+    bool const fits = std::fabs(its_rate_hz - rate_hz) <= about_the_same * std::min(its_rate_hz, rate_hz);
+    return fits ? std::string() : fmt::format("it has {:.6g} Hz, train {:.6g} Hz", its_rate_hz, rate_hz);
   }
 
-  bool names_time() const {
-    if (!train_.stamps || !train_.stamps->nanoseconds.empty()) return false;
-    return train_.stamps->per_unit == 1.0 || recording_has_key("time_per_unit");
-  }
+  // stamps in two columns are no channel of a job
+  bool names_time() const { return train_.stamps && train_.stamps->nanoseconds.empty(); }
 
   void write_rate() {
     if (!train_.stamps) {
@@ -110,11 +118,9 @@ class RecordingDraft {
       return;
     }
     if (!train_.recording) return;
-    auto const columns = stamps.nanoseconds.empty()
-                             ? fmt::format("\"{}\"", stamps.column)
-                             : fmt::format("\"{}\" and \"{}\"", stamps.column, stamps.nanoseconds);
+    auto const columns = fmt::format("\"{}\" and \"{}\"", stamps.column, stamps.nanoseconds);
     text_.setting("rate_hz", toml_number(train_.recording->rate_hz),
-                  fmt::format("from the stamps {} ({}), which are no seconds", columns, stamps.why));
+                  fmt::format("from the stamps {}: time is one column in a job", columns));
     constexpr double even = 0.05;
     if (train_.jitter > even)
       warn(fmt::format("stamps {} are uneven by {:.0f} % of a step; the job takes them as even at {:.6g} Hz", columns,
@@ -134,7 +140,7 @@ class RecordingDraft {
     if (position.name.unit) {
       if (train_.position_per_unit != 1.0)
         text_.setting("position_per_unit", toml_number(train_.position_per_unit),
-                      fmt::format("the name says {}", position.name.unit->meaning));
+                      fmt::format("the name says {}", position.name.unit->word));
       return;
     }
     constexpr double many_turns = 30.0;
@@ -152,7 +158,7 @@ class RecordingDraft {
     if (torque_unit_is_known(torque)) {
       if (train_.torque_per_unit != 1.0)
         text_.setting("torque_per_unit", toml_number(train_.torque_per_unit),
-                      fmt::format("the name says {}", torque.name.unit->meaning));
+                      fmt::format("the name says {}", torque.name.unit->word));
       return;
     }
     std::string const unit = torque.name.unit_text.empty() ? "unit" : torque.name.unit_text;
@@ -160,8 +166,7 @@ class RecordingDraft {
                   fmt::format("EDIT: 1 until then, and every parameter is in {} for {}",
                               unit == "unit" ? "units of the column" : unit, torque_unit()));
     warn(fmt::format("torque \"{}\" is {}: write recording.torque_per_unit, {} per {}", torque.column,
-                     torque.name.unit ? std::string(torque.name.unit->meaning) : "in an unknown unit", torque_unit(),
-                     unit));
+                     drive_words(torque.name), torque_unit(), unit));
   }
 
   void write_columns() {
@@ -200,14 +205,14 @@ class RecordingDraft {
 
   std::string position_comment() const {
     auto const& position = train_.columns.position;
-    if (position.name.unit) return fmt::format("guessed from the name and its unit, {}", position.name.unit->meaning);
+    if (position.name.unit) return fmt::format("guessed from the name and its unit, {}", position.name.unit->word);
     return position.counts ? "guessed from the name; whole numbers, so counts"
                            : fmt::format("guessed from the name; no unit there, taken as {}", position_unit());
   }
 
   std::string torque_comment() const {
     auto const& torque = train_.columns.torque;
-    if (torque.name.unit) return fmt::format("guessed from the name and its unit, {}", torque.name.unit->meaning);
+    if (torque.name.unit) return fmt::format("guessed from the name and its unit, {}", torque.name.unit->word);
     return torque_unit_is_known(torque)
                ? fmt::format("guessed from the name; no unit there, taken as {}", torque_unit())
                : "guessed from the name; its unit is unknown";

@@ -5,24 +5,37 @@
 
 #include "engine/base/error.hpp"
 #include "engine/data/recording_reader.hpp"
-#include "engine/data/sampling.hpp"
+#include "engine/health/make_recording.hpp"
 
 namespace torquescope {
 
 namespace {
 
-RecordingOptions options_of(RecordingGuess const& guess, std::string const& time_column) {
+RecordingOptions options_of(RecordingGuess const& guess) {
   RecordingOptions options;
-  options.columns = {
-      {"time", time_column}, {"position", guess.columns.position.column}, {"torque", guess.columns.torque.column}};
+  options.columns = {{"time", guess.stamps->column},
+                     {"position", guess.columns.position.column},
+                     {"torque", guess.columns.torque.column}};
   if (reference_serves(guess.columns)) options.columns["reference"] = guess.columns.reference.column;
+  options.time_per_unit = guess.stamps->per_unit;
   options.position_per_unit = guess.position_per_unit;
   options.torque_per_unit = guess.torque_per_unit;
-  options.gaps = guess.fills_gaps ? "fill" : "error";
   return options;
 }
 
-// the stamps in seconds, as a column of their own
+// as if the job had written what is not 1: the examination asks whether a unit was stated
+Section written(RecordingOptions const& options) {
+  Section section{"recording", {}, {}};
+  auto const add = [&](char const* key, double value) {
+    if (value != 1.0) section.settings.push_back({key, value});
+  };
+  add("time_per_unit", options.time_per_unit);
+  add("position_per_unit", options.position_per_unit);
+  add("torque_per_unit", options.torque_per_unit);
+  return section;
+}
+
+// stamps in two columns, put together as a column of their own
 std::string add_seconds(RawTable& table, StampGuess const& stamps) {
   std::string name = stamps.column + " in s";
   table.names.push_back(name);
@@ -39,28 +52,19 @@ void read_as_guessed(RecordingGuess& guess, RawTable table) {
     guess.refusal = "the rows have no time stamps that run forwards";
     return;
   }
-  auto const time_column = add_seconds(table, *guess.stamps);
-  auto const attempt = [&] {
-    guess.recording = make_recording(table, options_of(guess, time_column), {"recording", {}, {}});
-  };
+  auto options = options_of(guess);
+  if (!guess.stamps->nanoseconds.empty()) options.columns["time"] = add_seconds(table, *guess.stamps);
   try {
-    attempt();
+    guess.recording = make_recording(table, options, written(options));
+    guess.jitter = guess.recording->rows.jitter;
   } catch (Error const& refused) {
     guess.refusal = refused.problems().front().what;
-    guess.fills_gaps = true;
-    try {
-      attempt();
-      guess.refusal.clear();
-    } catch (Error const&) {
-      guess.fills_gaps = false;
-    }
   }
-  if (guess.recording) guess.jitter = guess.recording->rows.jitter;
 }
 
 void take_units(RecordingGuess& guess) {
   auto const& position = guess.columns.position;
-  if (position.name.unit && position.name.unit->si != 0.0) guess.position_per_unit = position.name.unit->si;
+  if (position.name.unit && tells_si(*position.name.unit)) guess.position_per_unit = position.name.unit->si;
   auto const& torque = guess.columns.torque;
   if (torque_unit_is_known(torque) && torque.name.unit) guess.torque_per_unit = torque.name.unit->si;
 }
@@ -70,13 +74,13 @@ void take_units(RecordingGuess& guess) {
 bool is_prismatic(ColumnGuess const& columns) {
   auto const& position = columns.position.name.unit;
   auto const& torque = columns.torque.name.unit;
-  if (position && position->kind == UnitKind::length) return true;
-  bool const turns = position && position->kind == UnitKind::angle;
-  return !turns && torque && torque->kind == UnitKind::force;
+  if (position && position->quantity == Quantity::length) return true;
+  bool const turns = position && position->quantity == Quantity::angle;
+  return !turns && torque && torque->quantity == Quantity::force;
 }
 
 bool torque_unit_is_known(ChannelGuess const& torque) {
-  if (torque.name.unit) return torque.name.unit->si != 0.0;
+  if (torque.name.unit) return tells_si(*torque.name.unit);
   return torque.role.quantity == WordKind::torque && !torque.counts;
 }
 
@@ -85,7 +89,7 @@ bool reference_serves(ColumnGuess const& columns) {
   if (reference.column.empty() || reference.is_constant) return false;
   auto const& unit = reference.name.unit;
   auto const& position = columns.position.name.unit;
-  return !unit || !position || (unit->kind == position->kind && unit->si == position->si);
+  return !unit || !position || (unit->quantity == position->quantity && unit->si == position->si);
 }
 
 RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint) {

@@ -21,7 +21,6 @@ struct RecordingGuess {
   std::optional<StampGuess> stamps{};
   std::vector<std::string> names{};                       // all columns of the file
   std::vector<UnusableColumn> unusable{};                 // of them, those that hold text
-  bool fills_gaps = false;                                // some values are missing
   double position_per_unit = 1.0, torque_per_unit = 1.0;  // 1 where the unit does not tell
   std::optional<Recording> recording{};                   // in SI units as far as they are known
   std::string refusal{};                                  // why there is none
