@@ -34,6 +34,7 @@ struct Command {
 };
 
 constexpr Command commands[] = {
+    {"init", add_init},
     {"check", add_check},
     {"run", add_run},
     {"diagnose", [](CLI::App& app, ChosenCommand& chosen) { add_diagnose(app, chosen, diagnose); }},

@@ -13,6 +13,7 @@ namespace torquescope {
 std::string program_help() {
   return R"(Torquescope identifies robot joints from recordings of position and torque.
 
+  torquescope init     REC.csv > JOB.toml    a job for your own recording
   torquescope check    JOB.toml      is everything there?       (seconds)
   torquescope run      JOB.toml      identify; killed? run it again: it goes on
   torquescope diagnose JOB.toml      find the physics the model lacks

@@ -3,89 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <map>
 
 namespace torquescope {
 namespace {
 
-struct UsualName {
-  std::string stem;       // before the unit, without digits
-  bool is_torque = true;  // or something a motor makes torque of
-};
-
-std::map<std::string, std::vector<UsualName>> const& usual_names() {
-  static std::map<std::string, std::vector<UsualName>> const names{
-      {"time", {{"t"}, {"time"}, {"timestamp"}, {"stamp"}}},
-      {"position", {{"q"}, {"pos"}, {"position"}, {"theta"}, {"angle"}, {"qm"}, {"x"}}},
-      {"velocity", {{"qd"}, {"dq"}, {"vel"}, {"velocity"}, {"speed"}, {"omega"}}},
-      {"acceleration", {{"qdd"}, {"ddq"}, {"acc"}, {"acceleration"}}},
-      {"reference", {{"ref"}, {"reference"}, {"qref"}, {"q_ref"}, {"qg"}, {"q_goal"}, {"setpoint"}}},
-      {"torque",
-       {{"tau"},
-        {"torque"},
-        {"trq"},
-        {"f"},
-        {"force"},
-        {"i", false},
-        {"iq", false},
-        {"current", false},
-        {"u", false},
-        {"v", false}}}};
-  return names;
-}
-
-bool is_unit(std::string const& word) {
-  static std::vector<std::string> const units{"s", "ms", "rad", "deg", "m",     "mm", "nm",
-                                              "n", "a",  "ma",  "v",   "radps", "mps"};
-  return std::find(units.begin(), units.end(), word) != units.end();
-}
-
-struct NameParts {
-  std::string stem;  // lower case, without joint numbers
-  std::string unit;  // as written
-};
-
-// "joint/q1_rad" -> "q", "rad"
-NameParts parts_of(std::string const& name) {
-  NameParts parts;
-  std::string const last = name.substr(name.find_last_of('/') + 1);
-  auto const lowered = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-  };
-  parts.stem = lowered(last);
-  auto const break_at = last.find_last_of('_');
-  if (break_at != std::string::npos && is_unit(lowered(last.substr(break_at + 1)))) {
-    parts.unit = last.substr(break_at + 1);
-    parts.stem = lowered(last.substr(0, break_at));
-  }
-  std::erase_if(parts.stem, [](unsigned char c) { return std::isdigit(c) != 0; });
-  return parts;
+bool serves(std::string const& channel, ColumnRole const& role) {
+  if (channel == "time") return role.quantity == WordKind::time;
+  if (channel == "position") return role.quantity == WordKind::position && !role.commanded;
+  if (channel == "reference") return role.quantity == WordKind::position && role.commanded;
+  if (channel == "velocity") return role.quantity == WordKind::velocity && !role.commanded;
+  if (channel == "acceleration") return role.quantity == WordKind::acceleration && !role.commanded;
+  return channel == "torque" && (role.quantity == WordKind::torque || role.quantity == WordKind::drive);
 }
 
 }  // namespace
 
+std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names) {
+  constexpr int a_command_is_no_torque = 50;  // what a drive was asked for: only where nothing was measured
+  std::vector<LikelyColumn> likely;
+  for (auto const& column : names) {
+    auto const name = parse_column_name(column);
+    auto role = column_role(name);
+    if (!serves(channel, role)) continue;
+    if (channel == "torque" && role.commanded) role.score -= a_command_is_no_torque;
+    if (role.score > 0) likely.push_back({column, name, role});
+  }
+  std::stable_sort(likely.begin(), likely.end(),
+                   [](LikelyColumn const& a, LikelyColumn const& b) { return a.role.score > b.role.score; });
+  return likely;
+}
+
 std::string likely_column(std::string const& channel, std::vector<std::string> const& names) {
-  auto const usual = usual_names().find(channel);
-  if (usual == usual_names().end()) return {};
-  for (auto const& candidate : usual->second)
-    for (auto const& name : names)
-      if (parts_of(name).stem == candidate.stem) return name;
-  return {};
+  auto const likely = likely_columns(channel, names);
+  return likely.empty() ? "" : likely.front().column;
 }
 
 std::string mapping_advice(std::string const& channel, std::vector<std::string> const& names) {
-  auto const column = likely_column(channel, names);
-  if (column.empty()) return {};
-  auto const parts = parts_of(column);
-  auto const& usual = usual_names().at(channel);
-  bool const is_torque =
-      std::any_of(usual.begin(), usual.end(), [&](auto const& n) { return n.stem == parts.stem && n.is_torque; });
-  if (channel != "torque" || is_torque) return fmt::format("{} = \"{}\"", channel, column);
-  return fmt::format("{} = \"{}\" with torque_per_unit = <N m per {}>", channel, column,
-                     parts.unit.empty() ? "unit" : parts.unit);
+  auto const likely = likely_columns(channel, names);
+  if (likely.empty()) return {};
+  auto const& best = likely.front();
+  if (best.role.quantity != WordKind::drive) return fmt::format("{} = \"{}\"", channel, best.column);
+  return fmt::format("{} = \"{}\" with torque_per_unit = <N m per {}>", channel, best.column,
+                     best.name.unit_text.empty() ? "unit" : best.name.unit_text);
 }
 
 std::string columns_advice(std::vector<std::string> const& names) {

@@ -1,14 +1,26 @@
 #pragma once
-// Which column of a file is likely meant for a channel: only ever a help in a message, never taken by itself.
+// Which columns are likely meant for a channel, by their names: for the advice of messages and for `torquescope init`.
 //
+// Order      best first: by what the words of the name say and whether its unit fits (column_name.hpp)
 // Threads    functions of their arguments
 
 #include <string>
 #include <vector>
 
+#include "engine/data/column_name.hpp"
+
 namespace torquescope {
 
-// the first column whose name begins like the channel is usually called ("q1_rad" for position), or ""
+struct LikelyColumn {
+  std::string column;  // its name in the file
+  ColumnName name;
+  ColumnRole role;
+};
+
+// all that may serve as the channel: time, position, torque, reference, velocity, acceleration
+std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names);
+
+// the best of them, or ""
 std::string likely_column(std::string const& channel, std::vector<std::string> const& names);
 
 // what to write for a channel: `torque = "i_A" with torque_per_unit = <N m per A>`, or "" without a likely column

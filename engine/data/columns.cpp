@@ -144,6 +144,11 @@ class ColumnPicker {
 
 std::string file_name(RawTable const& table) { return std::filesystem::path(table.path).filename().string(); }
 
+std::vector<double> const& values_of(RawTable const& table, std::string const& column) {
+  auto const at = std::find(table.names.begin(), table.names.end(), column) - table.names.begin();
+  return table.columns.at(static_cast<std::size_t>(at));
+}
+
 Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section) {
   return ColumnPicker(table, options, section).pick();
 }

@@ -24,5 +24,7 @@ using Channels = std::map<std::string, Channel>;
 Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section);
 
 std::string file_name(RawTable const& table);  // without its folder
+// Requires   `column` is one of the table's names, whole
+std::vector<double> const& values_of(RawTable const& table, std::string const& column);
 
 }  // namespace torquescope

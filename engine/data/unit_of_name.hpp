@@ -9,7 +9,20 @@
 
 namespace torquescope {
 
-enum class Quantity { time, angle, length, angular_speed, speed, torque, force, current, voltage, ratio, counts };
+enum class Quantity {
+  time,
+  angle,
+  length,
+  angular_speed,
+  speed,
+  acceleration,
+  torque,
+  force,
+  current,
+  voltage,
+  ratio,
+  counts
+};
 
 struct NamedUnit {
   std::string word;  // as a person writes it: "deg", "ms", "per mille"
@@ -19,5 +32,11 @@ struct NamedUnit {
 
 // `units`: what a row of units says of this column, "" without one
 std::optional<NamedUnit> unit_of_name(std::string const& column, std::string const& units = "");
+
+// of a unit alone, in lower case: "deg", "n m"
+std::optional<NamedUnit> known_unit(std::string const& word);
+
+// whether one unit has a value in SI units: what a count, an ampere or a percent makes depends on the drive
+bool tells_si(NamedUnit const& unit);
 
 }  // namespace torquescope

@@ -9,10 +9,12 @@
 
 #include "engine/base/stack_limit.hpp"
 #include "engine/data/change_of_rate.hpp"
+#include "engine/data/filter_suggestion.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/health/make_recording.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
@@ -174,6 +176,24 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   }
 }
 
+// Of a job without [filter]: unfiltered, an encoder's steps differentiated twice drown the acceleration
+void choose_filter(Experiment::Parts& parts) {
+  double shortest_s = std::numeric_limits<double>::infinity();
+  auto const look = [&](DataSet const& set) {
+    for (auto const& one : set.recordings)
+      shortest_s = std::min(shortest_s, static_cast<double>(one.position.size()) / one.rate_hz);
+  };
+  look(parts.train);
+  if (parts.validate) look(*parts.validate);
+  FilterSuggestion const suggestion = suggest_filter(parts.train.recordings.front(), shortest_s);
+  if (parts.job.find("filter") == nullptr) {
+    parts.filter = suggestion.options;
+    parts.filter_is_chosen = true;
+  }
+  parts.motion_hz = suggestion.motion_hz;
+  parts.noise_hz = suggestion.noise_hz;
+}
+
 bool searches(Experiment::Parts const& parts) {
   auto const& plans = parts.estimators;
   return std::any_of(plans.begin(), plans.end(), [](EstimatorPlan const& plan) { return !plan.is_closed_form(); });
@@ -239,16 +259,20 @@ Experiment::Experiment(Experiment&&) noexcept = default;
 Experiment::~Experiment() = default;
 
 Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpose) {
+  return load(read_job_file(job_file), purpose);
+}
+
+Experiment Experiment::load(Job text, Purpose purpose) {
   refuse_small_stack();
   auto parts = std::make_unique<Parts>();
-  parts->job = read_job(job_file);
+  parts->job = std::move(text);
   Job const& job = parts->job;
 
   // everything the text alone can be refused for
   std::vector<Problem> problems;
   check_section_names(job, problems);
   parts->experiment = read_options<ExperimentOptions>(job, problems);
-  if (parts->experiment.name.empty()) parts->experiment.name = job_file.stem().string();
+  if (parts->experiment.name.empty()) parts->experiment.name = job.path.stem().string();
   check_name(job, parts->experiment.name, problems);
   parts->output = read_options<OutputOptions>(job, problems);
   parts->filter = read_options<FilterOptions>(job, problems);
@@ -280,6 +304,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
     use_simulation(*parts, plan, channels);
   else
     use_files(*parts, recording);
+  if (!simulates) choose_filter(*parts);
   prepare(parts->train, *parts, channels);
   if (parts->validate) prepare(*parts->validate, *parts, channels);
   auto const& rows = parts->train.regression;

@@ -41,6 +41,19 @@ CheckLine::Level level_of(Grade grade) {
 
 double seconds_of(DataSet const& set) { return static_cast<double>(samples_of(set)) / set.recordings.front().rate_hz; }
 
+// a cut-off that takes the motion away, or lets the noise of its acceleration through
+std::string ruin_words(FilterOptions const& filter, double motion_hz, double noise_hz) {
+  constexpr double far_above = 3.0;
+  if (filter.cutoff_hz > 0.0 && filter.cutoff_hz < motion_hz)
+    return fmt::format("cutoff_hz = {:g} cuts into the motion itself, which goes up to {:.3g} Hz", filter.cutoff_hz,
+                       motion_hz);
+  if (noise_hz > 0.0 && (filter.cutoff_hz == 0.0 || filter.cutoff_hz > far_above * noise_hz))
+    return fmt::format("{}: above {:.3g} Hz the noise of the position, differentiated twice, drowns the acceleration",
+                       filter.cutoff_hz > 0.0 ? fmt::format("cutoff_hz = {:g}", filter.cutoff_hz) : "no cutoff_hz",
+                       noise_hz);
+  return {};
+}
+
 }  // namespace
 
 void Experiment::forget_motion() {
@@ -132,6 +145,7 @@ std::string ablation_words(DiagnoseOptions const& options) {
 std::string Experiment::filter_warning() const {
   FilterOptions const& filter = parts_->filter;
   double const parallel_hz = parallel_cutoff_of(filter);
+  if (std::string const words = ruin_words(filter, parts_->motion_hz, parts_->noise_hz); !words.empty()) return words;
   if (!(filter.cutoff_hz > 0.0) || parallel_hz <= filter.cutoff_hz) return {};
   return fmt::format(
       "parallel_cutoff_hz = {:g} is above cutoff_hz = {:g}: between the two the torque keeps what the motion has lost, "
@@ -165,6 +179,11 @@ std::vector<std::string> Experiment::remarks() const {
   std::vector<std::string> lines;
   for (auto const& finding : findings())
     if (finding.grade == Grade::note) lines.push_back(fmt::format("{}: {}", finding.recording, sentence_of(finding)));
+  if (parts_->filter_is_chosen)
+    lines.push_back(fmt::format(
+        "filter (no [filter]): cutoff_hz = {:g}, parallel_cutoff_hz = {:g}, decimate_to_hz = {:g}, chosen from {}",
+        parts_->filter.cutoff_hz, parts_->filter.parallel_cutoff_hz, parts_->filter.decimate_to_hz,
+        parts_->train.recordings.front().name));
   if (parts_->box_is_default)
     lines.push_back("search box (no [model.bounds]): " + box_words(parts_->regressor->names(), parts_->box));
   // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what

@@ -43,13 +43,15 @@ struct Experiment::Parts {
   ExperimentOptions experiment;
   OutputOptions output;
   FilterOptions filter;
-  std::optional<Regressor> regressor;  // always there once loaded
+  bool filter_is_chosen = false;           // the job has no [filter]
+  double motion_hz = 0.0, noise_hz = 0.0;  // of the first recording (filter_suggestion.hpp); 0: not known
+  std::optional<Regressor> regressor;      // always there once loaded
   DataSet train;
   std::optional<DataSet> validate;
   Reductions reductions;  // of the training rows, until the floor of their squared errors is known
   RegressorHealth health;
   Bounds box;
-  bool box_is_default = false;  // the job has no [model.bounds]: search_box.hpp
+  bool box_is_default = false;                           // the job has no [model.bounds]: search_box.hpp
   Eigen::VectorXd truth;                                 // NaN where unknown
   std::vector<EstimatorPlan> estimators;                 // may be empty unless loaded for identify
   std::optional<SufficientStatistics> statistics;        // of the training rows, when an estimator would use them

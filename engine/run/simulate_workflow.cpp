@@ -7,6 +7,7 @@
 
 #include "engine/effects/model_options.hpp"
 #include "engine/job/job_options.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/workflows.hpp"
@@ -47,7 +48,7 @@ void write_hdf5(SimulatedRecording const& recording, std::string const& job_name
 }  // namespace
 
 SimulateReport simulate_recording(std::filesystem::path const& job_file, std::filesystem::path const& output) {
-  Job const job = read_job(job_file);
+  Job const job = read_job_file(job_file);
   std::vector<Problem> problems;
   check_section_names(job, problems);
   auto experiment = read_options<ExperimentOptions>(job, problems);

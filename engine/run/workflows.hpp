@@ -14,6 +14,7 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/data/finding.hpp"
+#include "engine/job/job.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/written_result.hpp"
 #include "engine/verdict/diagnosis.hpp"
@@ -39,6 +40,7 @@ class Experiment {
   enum class Purpose { identify, diagnose, check };
   // Errors: 66, 65, 78 with everything that can be refused before starting
   static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
+  static Experiment load(Job job, Purpose purpose);  // of a text that need not be a file yet
   Experiment(Experiment&&) noexcept;
   ~Experiment();
 

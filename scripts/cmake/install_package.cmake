@@ -7,9 +7,12 @@ install(EXPORT torquescope_targets NAMESPACE torquescope:: DESTINATION ${CMAKE_I
 install(DIRECTORY engine kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base)
-# the Python page builder, where the installed program looks for it
-install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope FILES_MATCHING
-        PATTERN "*.py" PATTERN "*.html" PATTERN "*.css" PATTERN "*.js")
+# the page builder with its templates, where the installed program looks for it
+install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope
+        PATTERN "__pycache__" EXCLUDE)
+# jobs that need no recording of anybody else
+install(FILES jobs/clean_joint.toml jobs/concealed_stribeck.toml jobs/crs_a465_joint.toml jobs/smoke.toml
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)

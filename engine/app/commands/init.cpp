@@ -1,0 +1,102 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/terminal/plain_text.hpp"
+#include "engine/run/job_draft.hpp"
+
+namespace torquescope {
+
+namespace {
+
+struct InitArguments {
+  std::vector<std::string> recordings{};
+  std::string out{};
+  int joint = 0;
+};
+
+// only ever a new file: a job may hold a day's work
+void write_new_file(std::string const& name, std::string const& text) {
+  int const file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  validate(file >= 0, [&] {
+    Problem problem;
+    problem.code = errno == EEXIST ? ExitCode::exists : ExitCode::io;
+    problem.what = errno == EEXIST ? fmt::format("{} exists", name)
+                                   : fmt::format("cannot write {}: {}", name, std::strerror(errno));
+    problem.help =
+        errno == EEXIST ? fmt::format("--out another name, or delete {}", name) : "choose another place for --out";
+    return problem;
+  });
+  ssize_t const written = ::write(file, text.data(), text.size());
+  bool const closed = ::close(file) == 0;
+  validate(written == static_cast<ssize_t>(text.size()) && closed, [&] {
+    Problem problem;
+    problem.code = ExitCode::io;
+    problem.what = fmt::format("cannot write {}: {}", name, std::strerror(errno));
+    problem.help = "free space or choose another place for --out";
+    return problem;
+  });
+}
+
+// `> arm.toml`: the job's paths are relative to that file, and messages name it; "job.toml" for a pipe or a terminal
+std::string file_behind_stdout() {
+  std::error_code none;
+  auto const file = std::filesystem::read_symlink("/proc/self/fd/1", none);
+  if (none || !std::filesystem::is_regular_file(file, none)) return "job.toml";
+  return std::filesystem::proximate(file, none).string();
+}
+
+ExitCode init_job(InitArguments const& arguments, Session const& session) {
+  std::string const job = arguments.out.empty() ? file_behind_stdout() : arguments.out;
+  JobDraft const draft = draft_job({arguments.recordings.begin(), arguments.recordings.end()}, job,
+                                   static_cast<std::size_t>(arguments.joint));
+  if (arguments.out.empty())
+    session.verdict(draft.text);
+  else
+    write_new_file(arguments.out, draft.text);
+  for (auto const& guess : draft.guesses) session.note(session.topic_line("guessed", guess));
+  for (auto const& warning : draft.warnings) session.note(session.topic_line("warning", warning));
+  if (!arguments.out.empty()) session.note(session.topic_line("wrote", arguments.out));
+  session.note(session.topic_line("next", fmt::format("torquescope check {0}, torquescope diagnose {0}", job)));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_init(CLI::App& app, ChosenCommand& chosen) {
+  auto const arguments = std::make_shared<InitArguments>();
+  CLI::App* command = app.add_subcommand(
+      "init", "Drafts a job for your own recordings: guesses columns, units, filters; comments say how sure.");
+  command->footer(
+      "  torquescope init arm.csv > arm.toml\n"
+      "  torquescope init monday.csv tuesday.csv > arm.toml\n"
+      "  torquescope init arm.csv --joint 2 --out joint2.toml\n");
+  command
+      ->add_option("REC.csv", arguments->recordings,
+                   "recordings, CSV, HDF5 or MATLAB; the first trains the model, the others validate it")
+      ->required();
+  command->add_option("--joint", arguments->joint, "of a file with several joints, counted from 1 [1]")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->group("recording");
+  command->add_option("--out", arguments->out, "the job, a file that does not exist yet [standard output]")
+      ->type_name("JOB.toml")
+      ->group("results");
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback([arguments, &chosen] {
+    chosen.work = [arguments](Session const& session) { return init_job(*arguments, session); };
+  });
+}
+
+}  // namespace torquescope

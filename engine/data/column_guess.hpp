@@ -1,0 +1,39 @@
+#pragma once
+// Which columns of a table are likely the channels of one joint, and what its units make of them.
+//
+// Joints     columns belong together when their number and the words that say nothing are the same; where that leaves
+//            no joint with position and torque, the number alone; then all columns are one joint
+// Order      joints as their position columns stand in the file; `joint` counts them from 1
+// Values     a column that never changes serves only where no other does; whole numbers without a unit are counts
+// Threads    free function
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/data/column_suggestion.hpp"
+#include "engine/data/recording_reader.hpp"
+
+namespace torquescope {
+
+struct ChannelGuess {
+  std::string column;  // "": none
+  ColumnName name;
+  ColumnRole role;
+  bool is_constant = false;
+  bool counts = false;                // whole numbers, by unit or values: rad or m of one is unknown
+  std::vector<std::string> others{};  // that could serve as well, best first
+  double least = 0.0, most = 0.0;
+};
+
+struct ColumnGuess {
+  ChannelGuess position, torque, reference, velocity;
+  std::size_t joint = 1, joints = 1;
+  std::size_t moving_joints = 1;     // of them: over a twentieth of the largest range, and more
+  std::size_t joint_that_moves = 1;  // `joint`, or where that hardly moves the one with the largest range
+};
+
+// joint: from 1; 0 for the first. One beyond the file's gives no position and no torque
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0);
+
+}  // namespace torquescope

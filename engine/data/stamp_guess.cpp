@@ -1,0 +1,113 @@
+#include "engine/data/stamp_guess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/data/column_suggestion.hpp"
+#include "engine/data/columns.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double shortest_step_s = 1e-5, longest_step_s = 0.5;
+
+// some rows may stand in the wrong order, and a counter may start anew: a clock all the same
+bool runs_forwards(std::vector<double> const& stamps) {
+  std::size_t forwards = 0, backwards = 0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    forwards += stamps[i] > stamps[i - 1];
+    backwards += stamps[i] < stamps[i - 1];
+  }
+  return 10 * backwards < forwards;
+}
+
+// of the steps that are steps: stamps may repeat
+double median_step(std::vector<double> const& stamps) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i)
+    if (stamps[i] > stamps[i - 1]) steps.push_back(stamps[i] - stamps[i - 1]);
+  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+bool suits_a_recording(double step_s) { return step_s >= shortest_step_s && step_s < longest_step_s; }
+
+struct StampUnit {
+  double per_unit;
+  char const* name;
+};
+constexpr StampUnit stamp_units[] = {
+    {1.0, "seconds"}, {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
+
+// stamps of this century count up from 1970
+std::optional<StampUnit> since_1970(double stamp) {
+  constexpr double year_2001 = 1e9, year_2096 = 4e9;
+  for (auto const& unit : stamp_units)
+    if (stamp * unit.per_unit >= year_2001 && stamp * unit.per_unit < year_2096) return unit;
+  return {};
+}
+
+StampUnit by_step(double step) {
+  if (step < longest_step_s) return stamp_units[0];
+  if (step < 100.0) return stamp_units[1];
+  return step < 1e5 ? stamp_units[2] : stamp_units[3];
+}
+
+void guess_unit(StampGuess& guess, LikelyColumn const& likely, double first, double step) {
+  auto const& unit = likely.name.unit;
+  bool const named = unit && unit->quantity == Quantity::time;
+  if (named && suits_a_recording(step * unit->si)) {
+    guess.per_unit = unit->si;
+    guess.why = fmt::format("the name says {}", unit->word);
+    return;
+  }
+  auto const epoch = since_1970(first);
+  auto const likely_unit = epoch && suits_a_recording(step * epoch->per_unit) ? *epoch : by_step(step);
+  guess.per_unit = likely_unit.per_unit;
+  guess.unit = epoch ? Certainty::sure : Certainty::by_values;
+  guess.why = epoch ? fmt::format("{} since 1970", likely_unit.name)
+                    : fmt::format("a step of {:.4g} suits {}", step, likely_unit.name);
+  bool const may_count_rows = step == 1.0;
+  if (named || may_count_rows) guess.unit = Certainty::doubtful;
+  if (named) guess.why += fmt::format(", though the name says {}", unit->word);
+  if (may_count_rows) guess.why += "; it may count rows";
+}
+
+std::string nanoseconds_beside(std::vector<LikelyColumn> const& likely, LikelyColumn const& whole) {
+  if (!whole.name.unit || whole.name.unit->si != 1.0) return {};
+  for (auto const& part : likely)
+    if (part.name.unit && part.name.unit->si == 1e-9 && part.name.rest == whole.name.rest) return part.column;
+  return {};
+}
+
+}  // namespace
+
+std::optional<StampGuess> guess_stamps(RawTable const& table) {
+  auto const likely = likely_columns("time", table.names);
+  for (auto const& candidate : likely) {
+    StampGuess guess;
+    guess.column = candidate.column;
+    auto stamps = values_of(table, candidate.column);
+    if (stamps.size() < 3) continue;
+    if (auto const part = nanoseconds_beside(likely, candidate); !part.empty()) {
+      auto const& nanoseconds = values_of(table, part);
+      double const first = stamps.front();
+      for (std::size_t i = 0; i < stamps.size(); ++i) stamps[i] = stamps[i] - first + 1e-9 * nanoseconds[i];
+      if (!runs_forwards(stamps)) continue;
+      guess.nanoseconds = part;
+      guess.why = "seconds and nanoseconds";
+    } else {
+      if (!runs_forwards(stamps)) continue;
+      guess_unit(guess, candidate, stamps.front(), median_step(stamps));
+    }
+    double const first = stamps.front();
+    for (double stamp : stamps) guess.seconds.push_back((stamp - first) * guess.per_unit);
+    return guess;
+  }
+  return {};
+}
+
+}  // namespace torquescope

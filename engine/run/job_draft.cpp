@@ -1,0 +1,230 @@
+#include "engine/run/job_draft.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "engine/base/error.hpp"
+#include "engine/data/excitation.hpp"
+#include "engine/data/filter_suggestion.hpp"
+#include "engine/job/job.hpp"
+#include "engine/run/draft_text.hpp"
+#include "engine/run/foreign_file.hpp"
+#include "engine/run/gravity_evidence.hpp"
+#include "engine/run/recording_draft.hpp"
+#include "engine/run/recording_guess.hpp"
+#include "engine/run/workflows.hpp"
+
+namespace torquescope {
+
+namespace {
+
+// "Monday_3" of "logs/Monday 3.csv.gz"
+std::string name_of(std::filesystem::path const& file) {
+  std::string name = file.filename().string();
+  name = name.substr(0, name.find('.', 1));
+  for (char& letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
+  return name.empty() ? "recording" : name;
+}
+
+class JobDrafter {
+ public:
+  JobDrafter(RecordingGuess const& train, std::vector<RecordingGuess> const& others,
+             std::filesystem::path const& job_file)
+      : train_(train), others_(others), job_file_(job_file), prismatic_(is_prismatic(train.columns)) {}
+
+  JobDraft draft() {
+    choose_filter();
+    write_head();
+    draft_recording_sections(train_, others_, job_file_, text_, draft_.warnings);
+    write_filter();
+    write_model();
+    write_work();
+    draft_.text = text_.text();
+    return std::move(draft_);
+  }
+
+ private:
+  void warn(std::string text) { draft_.warnings.push_back(std::move(text)); }
+
+  void write_head() {
+    auto const name = job_file_.filename().string();
+    text_.comment(
+        fmt::format("Drafted by `torquescope init` from {}. The comments say what was guessed and how sure "
+                    "it is; correct what is wrong.",
+                    train_.file.filename().string()));
+    text_.comment(
+        fmt::format("torquescope check {} looks at everything, torquescope diagnose {} says what the model "
+                    "lacks.",
+                    name, name));
+    text_.section("[experiment]");
+    text_.setting("name", toml_text(name_of(train_.file)), "of the result file as well");
+    text_.setting("seed", "1", "of every random number");
+  }
+
+  double seconds_of_shortest() const {
+    double shortest = 0.0;
+    auto const count = [&](RecordingGuess const& guess) {
+      if (!guess.recording || !(guess.refusal.empty())) return;
+      double const seconds = static_cast<double>(guess.recording->position.size()) / guess.recording->rate_hz;
+      shortest = shortest > 0 ? std::min(shortest, seconds) : seconds;
+    };
+    count(train_);
+    for (auto const& other : others_) count(other);
+    return shortest;
+  }
+
+  void choose_filter() {
+    if (!train_.recording) return;
+    filter_ = suggest_filter(*train_.recording, seconds_of_shortest());
+    try {
+      auto const motion = differentiate(*train_.recording, filter_.options, {"filter", {}, {}});
+      auto const facts = measure_excitation(*train_.recording, motion, filter_.options);
+      constexpr double hardly = 0.01;
+      both_ways_ = facts.forward_share > hardly && facts.forward_share < 1 - hardly;
+      if (!prismatic_) gravity_ = measure_gravity(*train_.recording, filter_.options, terms());
+    } catch (Error const& refused) {
+      warn(refused.problems().front().what);
+    }
+  }
+
+  void write_filter() {
+    text_.section("[filter]");
+    if (filter_.options.cutoff_hz == 0) {
+      text_.comment("Not chosen, because the recording cannot be read yet. Ten times the fastest motion suits:");
+      text_.to_edit("cutoff_hz", "<Hz>", "EDIT: of the position, before it is differentiated");
+      text_.to_edit("parallel_cutoff_hz", "<Hz>", "EDIT: half of it, of the torque and every column");
+      return;
+    }
+    using Limit = FilterSuggestion::Limit;
+    auto const reason = [&]() -> std::string {
+      switch (filter_.limit) {
+        case Limit::motion:
+          return fmt::format("ten times the motion, which lies below {:.2g} Hz", filter_.motion_hz);
+        case Limit::noise:
+          return "above it the acceleration drowns in the position's noise";
+        case Limit::slow_motion:
+          return fmt::format("the motion lies below {:.2g} Hz, friction at reversals above", filter_.motion_hz);
+        case Limit::length:
+          return "the recording is too short for less: edges are dropped";
+        case Limit::rate:
+          return "an eighth of the sampling rate";
+      }
+      return {};
+    };
+    text_.setting("cutoff_hz", toml_number(filter_.options.cutoff_hz), "guessed from the motion: " + reason());
+    text_.setting("parallel_cutoff_hz", toml_number(filter_.options.parallel_cutoff_hz), "half of it, a convention");
+    if (filter_.options.decimate_to_hz > 0)
+      text_.setting("decimate_to_hz", toml_number(filter_.options.decimate_to_hz),
+                    "2.5 to 4 times that: rows in between say nothing new");
+  }
+
+  std::vector<std::string> terms() const {
+    std::vector<std::string> list{"inertia", "viscous", "coulomb"};
+    if (both_ways_) list.emplace_back("offset");
+    return list;
+  }
+
+  void write_model() {
+    auto const& position = train_.columns.position;
+    text_.section("[model]");
+    bool const by_unit = position.name.unit && position.name.unit->quantity != Quantity::counts;
+    text_.setting("joint", prismatic_ ? "\"prismatic\"" : "\"revolute\"",
+                  by_unit      ? fmt::format("guessed from the unit, {}", position.name.unit->word)
+                  : prismatic_ ? "guessed: the torque column is a force"
+                               : "assumed: no unit says so");
+    auto list = terms();
+    if (gravity_.is_plain()) list.emplace_back("gravity");
+    std::string texts;
+    for (auto const& term : list) texts += (texts.empty() ? "" : ", ") + toml_text(term);
+    text_.setting("terms", "[" + texts + "]", "what a joint has at least; a diagnosis finds the rest");
+    if (gravity_.is_plain())
+      text_.comment(fmt::format("gravity: it takes away {:.0f} % of the squared residual over {:.2g} rad",
+                                100 * gravity_.share, gravity_.range_rad));
+    if (!both_ways_) text_.comment("no offset: the joint moves one way, and friction looks like one");
+  }
+
+  void write_work() {
+    text_.section("[[estimator]]");
+    text_.setting("name", "\"ols\"", "of torquescope run: least squares");
+    text_.section("[diagnose]");
+    text_.setting("effects", "\"all\"", "look for everything in the catalogue (torquescope list effects)");
+    text_.setting("twins", "200", "clean simulated recordings that say what chance does");
+  }
+
+  RecordingGuess const& train_;
+  std::vector<RecordingGuess> const& others_;
+  std::filesystem::path const& job_file_;
+  bool prismatic_;
+  bool both_ways_ = true;
+  FilterSuggestion filter_{};
+  GravityEvidence gravity_{};
+  DraftText text_{};
+  JobDraft draft_{};
+};
+
+// a fault that the draft has a line to edit for is said already
+bool is_line_to_edit(CheckLine const& fault, JobDraft const& draft) {
+  return (fault.topic == "position_in_counts" && draft.text.find("\n# position_per_unit") != std::string::npos) ||
+         (fault.topic == "unit_of_current" && draft.text.find("\n# torque_per_unit") != std::string::npos);
+}
+
+// what `torquescope check` will say of the draft, said now
+void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::path const& job_file) {
+  bool const said_already =
+      !train.stamps || train.columns.position.column.empty() || train.columns.torque.column.empty();
+  if (said_already) return;
+  if (!train.recording) {
+    draft.warnings.push_back(fmt::format("this job does not run yet: {}", train.refusal));
+    return;
+  }
+  try {
+    auto const experiment = Experiment::load(parse_job(draft.text, job_file), Experiment::Purpose::check);
+    for (auto const& line : experiment.check(1))
+      if (line.level == CheckLine::Level::fault && !is_line_to_edit(line, draft))
+        draft.warnings.push_back(fmt::format("{}: {}", line.topic, line.text));
+  } catch (Error const& refused) {
+    for (auto const& problem : refused.problems())
+      draft.warnings.push_back(fmt::format("this job does not run yet: {}{}", problem.what,
+                                           problem.help.empty() ? "" : "; " + problem.help));
+  }
+}
+
+void list_guesses(JobDraft& draft, RecordingGuess const& train) {
+  auto const& columns = train.columns;
+  std::vector<std::string> channels;
+  if (train.stamps) channels.push_back("time " + train.stamps->column);
+  if (!columns.position.column.empty()) channels.push_back("position " + columns.position.column);
+  if (!columns.torque.column.empty()) channels.push_back("torque " + columns.torque.column);
+  if (reference_serves(columns)) channels.push_back("reference " + columns.reference.column);
+  if (!channels.empty()) draft.guesses.push_back(fmt::format("{}", fmt::join(channels, ", ")));
+  if (columns.joints > 1)
+    draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another", columns.joint, columns.joints));
+}
+
+}  // namespace
+
+JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
+                   std::size_t joint) {
+  for (auto const& recording : recordings) refuse_no_recording(recording);
+  RecordingGuess const train = guess_recording(recordings.front(), joint);
+  validate(train.columns.joint <= train.columns.joints, [&] {
+    Problem problem;
+    problem.code = ExitCode::usage;
+    problem.what = fmt::format("{} has {} joint{}, no joint {}", recordings.front().string(), train.columns.joints,
+                               train.columns.joints == 1 ? "" : "s", train.columns.joint);
+    problem.help = "--joint counts from 1, in the order of the file's position columns";
+    return problem;
+  });
+  std::vector<RecordingGuess> others;
+  for (std::size_t k = 1; k < recordings.size(); ++k) others.push_back(guess_like(recordings[k], train));
+  JobDraft draft = JobDrafter(train, others, job_file).draft();
+  list_guesses(draft, train);
+  check_draft(draft, train, job_file);
+  return draft;
+}
+
+}  // namespace torquescope

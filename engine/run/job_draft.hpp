@@ -1,0 +1,25 @@
+#pragma once
+// A job file for recordings that nobody has described yet: what is guessed, how sure that is, what a person must say.
+//
+// Text       TOML with a comment behind every guess; what cannot be guessed is a commented line to edit and a warning
+// Paths      relative to the folder of `job_file`; absolute ones stay
+// Errors     66, 65 of the readers; 64 when the file has no such joint
+// Threads    free function
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+struct JobDraft {
+  std::string text;
+  std::vector<std::string> guesses{};   // one line each: columns, rate, filter
+  std::vector<std::string> warnings{};  // what to edit, and what `torquescope check` would refuse
+};
+
+// recordings: the first trains, the others validate. joint: from 1; 0 for the first of the file
+JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
+                   std::size_t joint = 0);
+
+}  // namespace torquescope

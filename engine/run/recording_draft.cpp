@@ -1,0 +1,261 @@
+#include "engine/run/recording_draft.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/data/recording_reader.hpp"
+
+namespace torquescope {
+
+namespace {
+
+std::string path_from(std::filesystem::path const& job_file, std::filesystem::path const& recording) {
+  if (recording.is_absolute()) return recording.string();
+  auto const folder = std::filesystem::absolute(job_file).parent_path();
+  return std::filesystem::absolute(recording).lexically_normal().lexically_relative(folder.lexically_normal()).string();
+}
+
+std::string listed(std::vector<std::string> const& texts) { return fmt::format("{}", fmt::join(texts, ", ")); }
+
+// what a torque column is in when its unit tells no N m
+std::string drive_words(ColumnName const& name) {
+  if (!name.unit) return "in an unknown unit";
+  switch (name.unit->quantity) {
+    case Quantity::current:
+      return "a current in " + name.unit->word;
+    case Quantity::voltage:
+      return "a voltage in " + name.unit->word;
+    case Quantity::ratio:
+      return name.unit->word + " of a rated value";
+    default:
+      return "in " + name.unit->word;
+  }
+}
+
+class RecordingDraft {
+ public:
+  RecordingDraft(RecordingGuess const& train, std::vector<RecordingGuess> const& others,
+                 std::filesystem::path const& job_file, DraftText& text, std::vector<std::string>& warnings)
+      : train_(train),
+        others_(others),
+        job_file_(job_file),
+        prismatic_(is_prismatic(train.columns)),
+        text_(text),
+        warnings_(warnings) {}
+
+  void write() {
+    write_options();
+    write_columns();
+  }
+
+ private:
+  char const* torque_unit() const { return prismatic_ ? "N" : "N m"; }
+  char const* position_unit() const { return prismatic_ ? "m" : "rad"; }
+
+  void warn(std::string text) { warnings_.push_back(std::move(text)); }
+
+  void write_options() {
+    text_.section("[recording]");
+    text_.setting("train", toml_text(path_from(job_file_, train_.file)), "the parameters are fitted to it");
+    write_validation();
+    write_rate();
+    write_position_unit();
+    write_torque_unit();
+  }
+
+  void write_validation() {
+    std::vector<std::string> usable;
+    for (auto const& other : others_) {
+      auto const path = path_from(job_file_, other.file);
+      auto const why = why_not(other);
+      if (why.empty()) {
+        usable.push_back(path);
+        continue;
+      }
+      text_.comment(fmt::format("left out: {}: {}", path, why));
+      warn(fmt::format("{} is left out: {}", other.file.string(), why));
+    }
+    if (!usable.empty()) {
+      text_.setting("validate", toml_list(usable), "no fit sees it: it judges the result");
+      return;
+    }
+    text_.comment(
+        "One recording: nothing says how good the model is on data it was not fitted to. Record a second one:");
+    text_.to_edit("validate", "\"ANOTHER.csv\"", "no fit sees it: it judges the result");
+  }
+
+  std::string why_not(RecordingGuess const& other) const {
+    if (!other.refusal.empty()) return other.refusal;
+    if (!train_.recording || !other.recording) return {};
+    if (other.recording->sha256 == train_.recording->sha256) return "it is the same recording as train";
+    // a job has one rate: a much lower one would cost the others what lies above half of it
+    constexpr double about_the_same = 0.1;
+    double const rate_hz = train_.recording->rate_hz, its_rate_hz = other.recording->rate_hz;
+    bool const fits = std::fabs(its_rate_hz - rate_hz) <= about_the_same * std::min(its_rate_hz, rate_hz);
+    return fits ? std::string() : fmt::format("it has {:.6g} Hz, train {:.6g} Hz", its_rate_hz, rate_hz);
+  }
+
+  // stamps in two columns are no channel of a job
+  bool names_time() const { return train_.stamps && train_.stamps->nanoseconds.empty(); }
+
+  void write_rate() {
+    if (!train_.stamps) {
+      std::string why = "no column has time stamps that run forwards";
+      if (auto const text = text_column("time"); !text.empty()) why = text;
+      text_.to_edit("rate_hz", "<samples per second>", "EDIT: " + why);
+      warn(fmt::format("the sampling rate is unknown ({}): write recording.rate_hz", why));
+      return;
+    }
+    auto const& stamps = *train_.stamps;
+    bool const odd_unit = stamps.unit == Certainty::by_values && stamps.per_unit != 1.0;
+    if (stamps.unit == Certainty::doubtful || odd_unit)
+      warn(fmt::format("time stamps \"{}\": {}", stamps.column, stamps.why));
+    if (names_time()) {
+      if (stamps.per_unit != 1.0) text_.setting("time_per_unit", toml_number(stamps.per_unit), stamps.why);
+      return;
+    }
+    if (!train_.recording) return;
+    auto const columns = fmt::format("\"{}\" and \"{}\"", stamps.column, stamps.nanoseconds);
+    text_.setting("rate_hz", toml_number(train_.recording->rate_hz),
+                  fmt::format("from the stamps {}: time is one column in a job", columns));
+    constexpr double even = 0.05;
+    if (train_.jitter > even)
+      warn(fmt::format("stamps {} are uneven by {:.0f} % of a step; the job takes them as even at {:.6g} Hz", columns,
+                       100 * train_.jitter, train_.recording->rate_hz));
+  }
+
+  void write_position_unit() {
+    auto const& position = train_.columns.position;
+    if (position.column.empty()) return;
+    if (position.counts) {
+      text_.to_edit("position_per_unit", fmt::format("<{} per count>", position_unit()),
+                    "EDIT: 2 pi / (counts per turn of the joint); 1 until then");
+      warn(fmt::format("position \"{}\" is in counts: write recording.position_per_unit, {} per count", position.column,
+                       position_unit()));
+      return;
+    }
+    if (position.name.unit) {
+      if (train_.position_per_unit != 1.0)
+        text_.setting("position_per_unit", toml_number(train_.position_per_unit),
+                      fmt::format("the name says {}", position.name.unit->word));
+      return;
+    }
+    constexpr double many_turns = 30.0;
+    if (prismatic_ || position.most - position.least < many_turns) return;
+    text_.to_edit(
+        "position_per_unit", "0.0174532925",
+        fmt::format("EDIT if these are degrees: {:.4g} to {:.4g} are many turns", position.least, position.most));
+    warn(fmt::format("position \"{}\" goes from {:.4g} to {:.4g}: taken as rad, though it may be degrees",
+                     position.column, position.least, position.most));
+  }
+
+  void write_torque_unit() {
+    auto const& torque = train_.columns.torque;
+    if (torque.column.empty()) return;
+    if (torque_unit_is_known(torque)) {
+      if (train_.torque_per_unit != 1.0)
+        text_.setting("torque_per_unit", toml_number(train_.torque_per_unit),
+                      fmt::format("the name says {}", torque.name.unit->word));
+      return;
+    }
+    std::string const unit = torque.name.unit_text.empty() ? "unit" : torque.name.unit_text;
+    text_.to_edit("torque_per_unit", fmt::format("<{} per {}>", torque_unit(), unit),
+                  fmt::format("EDIT: 1 until then, and every parameter is in {} for {}",
+                              unit == "unit" ? "units of the column" : unit, torque_unit()));
+    warn(fmt::format("torque \"{}\" is {}: write recording.torque_per_unit, {} per {}", torque.column,
+                     drive_words(torque.name), torque_unit(), unit));
+  }
+
+  void write_columns() {
+    text_.section("[recording.columns]");
+    auto const& joints = train_.columns;
+    if (joints.joints > 1) {
+      if (joints.joint_that_moves != joints.joint)
+        warn(fmt::format("joint {} hardly moves beside joint {}: --joint {} takes that one", joints.joint,
+                         joints.joint_that_moves, joints.joint_that_moves));
+      text_.comment(fmt::format("The file has {} joints; this is joint {} (torquescope init --joint N takes another).",
+                                train_.columns.joints, train_.columns.joint));
+      if (train_.columns.moving_joints > 1)
+        text_.comment(fmt::format("{} of them move: what they do to this joint's torque is no part of this model.",
+                                  train_.columns.moving_joints));
+    }
+    if (names_time()) text_.setting("time", toml_text(train_.stamps->column), time_comment());
+    write_channel("position", train_.columns.position, position_comment());
+    write_channel("torque", train_.columns.torque, torque_comment());
+    if (reference_serves(train_.columns))
+      write_channel("reference", train_.columns.reference, "guessed from the name: the commanded position");
+    if (auto const& velocity = train_.columns.velocity; !velocity.column.empty())
+      text_.comment(
+          fmt::format("\"{}\" is not used: the derivative of the position serves, and lags nothing", velocity.column));
+  }
+
+  std::string time_comment() const {
+    auto const& stamps = *train_.stamps;
+    if (!train_.recording) return "guessed from the name";
+    double const rate_hz = train_.recording->rate_hz;
+    constexpr double visible = 0.005;
+    std::string const unevenness =
+        train_.jitter > visible ? fmt::format(", uneven by {:.1g} % of a step", 100 * train_.jitter) : std::string();
+    return fmt::format("sure: stamps run forwards, {:.4g} ms apart ({:.6g} Hz){}{}", 1e3 / rate_hz, rate_hz, unevenness,
+                       stamps.unit == Certainty::by_name ? "" : ", " + stamps.why);
+  }
+
+  std::string position_comment() const {
+    auto const& position = train_.columns.position;
+    if (position.name.unit) return fmt::format("guessed from the name and its unit, {}", position.name.unit->word);
+    return position.counts ? "guessed from the name; whole numbers, so counts"
+                           : fmt::format("guessed from the name; no unit there, taken as {}", position_unit());
+  }
+
+  std::string torque_comment() const {
+    auto const& torque = train_.columns.torque;
+    if (torque.name.unit) return fmt::format("guessed from the name and its unit, {}", torque.name.unit->word);
+    return torque_unit_is_known(torque)
+               ? fmt::format("guessed from the name; no unit there, taken as {}", torque_unit())
+               : "guessed from the name; its unit is unknown";
+  }
+
+  // why the column that looks like the channel cannot serve, or ""
+  std::string text_column(std::string const& channel) const {
+    std::vector<std::string> names;
+    for (auto const& column : train_.unusable) names.push_back(column.name);
+    auto const likely = likely_column(channel, names);
+    for (auto const& column : train_.unusable)
+      if (column.name == likely) return fmt::format("column \"{}\" {}", column.name, column.reason);
+    return {};
+  }
+
+  void write_channel(std::string const& channel, ChannelGuess const& guess, std::string const& comment) {
+    if (guess.column.empty()) {
+      auto const text = text_column(channel);
+      text_.to_edit(channel, "\"<column>\"", "EDIT: the file has " + listed(train_.names));
+      warn(text.empty() ? fmt::format("no column looks like the {}: write recording.columns.{}; the file has {}",
+                                      channel, channel, listed(train_.names))
+                        : text + ": correct the file, or name another column for the " + channel);
+      return;
+    }
+    text_.setting(channel, toml_text(guess.column), comment);
+    if (guess.is_constant) warn(fmt::format("{} \"{}\" never changes", channel, guess.column));
+    if (!guess.others.empty()) text_.comment(fmt::format("{} could also be: {}", channel, listed(guess.others)));
+  }
+
+  RecordingGuess const& train_;
+  std::vector<RecordingGuess> const& others_;
+  std::filesystem::path const& job_file_;
+  bool prismatic_;
+  DraftText& text_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+void draft_recording_sections(RecordingGuess const& train, std::vector<RecordingGuess> const& others,
+                              std::filesystem::path const& job_file, DraftText& text,
+                              std::vector<std::string>& warnings) {
+  RecordingDraft(train, others, job_file, text, warnings).write();
+}
+
+}  // namespace torquescope

@@ -1,0 +1,40 @@
+#pragma once
+// A recording as `torquescope init` takes it to be: its columns, units and stamps guessed, then read like any other.
+//
+// Errors     read_table()'s: 66, 65. What else is wrong with the recording stands in `refusal`
+// Threads    free functions
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/data/column_guess.hpp"
+#include "engine/data/recording.hpp"
+#include "engine/data/stamp_guess.hpp"
+
+namespace torquescope {
+
+struct RecordingGuess {
+  std::filesystem::path file;
+  std::size_t rows = 0;
+  ColumnGuess columns{};
+  std::optional<StampGuess> stamps{};
+  std::vector<std::string> names{};                       // all columns of the file
+  std::vector<UnusableColumn> unusable{};                 // of them, those that hold text
+  double position_per_unit = 1.0, torque_per_unit = 1.0;  // 1 where the unit does not tell
+  std::optional<Recording> recording{};                   // in SI units as far as they are known
+  std::string refusal{};                                  // why there is none
+  double jitter = 0.0;                                    // of the stamps
+};
+
+// joint: as guess_columns()
+RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint);
+// another recording with the columns of the first
+RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first);
+
+bool is_prismatic(ColumnGuess const& columns);
+bool torque_unit_is_known(ChannelGuess const& torque);
+// the reference counts when its unit is the position's
+bool reference_serves(ColumnGuess const& columns);
+
+}  // namespace torquescope

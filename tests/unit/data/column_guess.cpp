@@ -1,0 +1,104 @@
+#include "engine/data/column_guess.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace torquescope {
+namespace column_guess_test {
+
+using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
+
+RawTable table_of(Columns const& columns) {
+  RawTable table;
+  table.path = "arm.csv";
+  for (auto const& [name, values] : columns) {
+    table.names.push_back(name);
+    table.columns.push_back(values);
+  }
+  return table;
+}
+
+std::vector<double> wave(double amplitude, double phase = 0.0) {
+  std::vector<double> values;
+  for (int k = 0; k < 200; ++k) values.push_back(amplitude * std::sin(0.1 * k + phase));
+  return values;
+}
+
+std::vector<double> rounded(std::vector<double> values) {
+  for (double& value : values) value = std::round(value);
+  return values;
+}
+
+TEST(ColumnGuess, TakesTheChannelsOfOneJoint) {
+  auto const guess = guess_columns(
+      table_of({{"t_s", wave(1)}, {"r_rad", wave(1)}, {"q_rad", wave(1)}, {"dq", wave(2)}, {"tau_Nm", wave(3)}}));
+  EXPECT_EQ(guess.position.column, "q_rad");
+  EXPECT_EQ(guess.torque.column, "tau_Nm");
+  EXPECT_EQ(guess.reference.column, "r_rad");
+  EXPECT_EQ(guess.velocity.column, "dq");
+  EXPECT_EQ(guess.joints, 1u);
+}
+
+TEST(ColumnGuess, TellsJointsApartByNumberOrName) {
+  Columns const numbered{{"q1_rad", wave(1)}, {"q2_rad", wave(2)}, {"qd1_radps", wave(1)}, {"qd2_radps", wave(1)},
+                         {"i1_A", wave(1)},   {"i2_A", wave(1)},   {"ides1_A", wave(1)},   {"ides2_A", wave(1)}};
+  auto const second = guess_columns(table_of(numbered), 2);
+  EXPECT_EQ(second.joints, 2u);
+  EXPECT_EQ(second.position.column, "q2_rad");
+  EXPECT_EQ(second.torque.column, "i2_A");
+  EXPECT_EQ(second.velocity.column, "qd2_radps");
+  EXPECT_EQ(second.torque.others, std::vector<std::string>{"ides2_A"});
+  EXPECT_EQ(guess_columns(table_of(numbered)).position.column, "q1_rad");
+
+  auto const named = guess_columns(table_of({{"/joint_states/shoulder/position", wave(1)},
+                                             {"/joint_states/shoulder/effort", wave(1)},
+                                             {"/joint_states/elbow/position", wave(1)},
+                                             {"/joint_states/elbow/effort", wave(2)}}),
+                                   2);
+  EXPECT_EQ(named.joints, 2u);
+  EXPECT_EQ(named.position.column, "/joint_states/elbow/position");
+  EXPECT_EQ(named.torque.column, "/joint_states/elbow/effort");
+}
+
+TEST(ColumnGuess, OfAJointThatIsNotThereIsEmpty) {
+  auto const guess = guess_columns(table_of({{"q_rad", wave(1)}, {"tau_Nm", wave(1)}}), 3);
+  EXPECT_EQ(guess.joint, 3u);
+  EXPECT_EQ(guess.joints, 1u);
+  EXPECT_TRUE(guess.position.column.empty());
+}
+
+TEST(ColumnGuess, SaysWhichJointMoves) {
+  auto const guess = guess_columns(
+      table_of({{"q1_rad", wave(1e-4)}, {"q2_rad", wave(1)}, {"tau1_Nm", wave(1)}, {"tau2_Nm", wave(1)}}));
+  EXPECT_EQ(guess.joint, 1u);
+  EXPECT_EQ(guess.joint_that_moves, 2u);
+  EXPECT_EQ(guess.moving_joints, 1u);
+}
+
+TEST(ColumnGuess, PutsColumnsTogetherThatShareNoWord) {
+  auto const guess =
+      guess_columns(table_of({{"motor_position", wave(1)}, {"shaft_torque", wave(1)}, {"goal", wave(1)}}));
+  EXPECT_EQ(guess.position.column, "motor_position");
+  EXPECT_EQ(guess.torque.column, "shaft_torque");
+  EXPECT_EQ(guess.reference.column, "goal");
+}
+
+TEST(ColumnGuess, WholeNumbersWithoutAUnitAreCounts) {
+  auto const guess = guess_columns(table_of({{"present_position", rounded(wave(2000))},
+                                             {"present_current", rounded(wave(300))},
+                                             {"tau_Nm", rounded(wave(60))}}));
+  EXPECT_TRUE(guess.position.counts);
+  EXPECT_FALSE(guess.torque.counts) << "a name that says N m is believed";
+  EXPECT_FALSE(guess_columns(table_of({{"q", wave(2000)}, {"tau", wave(1)}})).position.counts);
+}
+
+TEST(ColumnGuess, AColumnThatNeverChangesServesLast) {
+  auto const guess =
+      guess_columns(table_of({{"q_rad", wave(1)}, {"tau_Nm", std::vector<double>(200, 0.0)}, {"i_A", wave(1)}}));
+  EXPECT_EQ(guess.torque.column, "i_A");
+  EXPECT_EQ(guess.torque.others, std::vector<std::string>{"tau_Nm"});
+}
+
+}  // namespace column_guess_test
+}  // namespace torquescope

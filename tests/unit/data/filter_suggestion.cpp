@@ -1,0 +1,65 @@
+#include "engine/data/filter_suggestion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/data/filter_checks.hpp"
+
+namespace torquescope {
+namespace filter_suggestion_test {
+
+// a sine of 1 rad, printed in steps
+Recording sine(double hz, double rate_hz, double seconds, double step = 1e-9) {
+  Recording recording;
+  recording.rate_hz = rate_hz;
+  auto const n = static_cast<Eigen::Index>(seconds * rate_hz);
+  recording.position.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    recording.position[k] =
+        step * std::round(std::sin(2 * std::numbers::pi * hz * static_cast<double>(k) / rate_hz) / step);
+  recording.rows.encoder_step = step;
+  return recording;
+}
+
+TEST(FilterSuggestion, IsTenTimesTheMotion) {
+  auto const found = suggest_filter(sine(3.0, 1000, 20), 20);
+  EXPECT_NEAR(found.motion_hz, 3.0, 1.0) << "of the low-pass that lets 98 % through";
+  EXPECT_NEAR(found.options.cutoff_hz, 10 * found.motion_hz, 0.15 * 10 * found.motion_hz);
+  EXPECT_EQ(found.limit, FilterSuggestion::Limit::motion);
+}
+
+TEST(FilterSuggestion, StaysBelowTheNoiseOfACoarseEncoder) {
+  auto const fine = suggest_filter(sine(8.0, 1000, 20), 20);
+  auto const coarse = suggest_filter(sine(8.0, 1000, 20, 2 * std::numbers::pi / 400), 20);
+  EXPECT_GT(coarse.noise_hz, 8.0);
+  EXPECT_LT(coarse.options.cutoff_hz, 0.8 * fine.options.cutoff_hz);
+  EXPECT_EQ(coarse.limit, FilterSuggestion::Limit::noise);
+}
+
+TEST(FilterSuggestion, LeavesFrictionAtReversalsOfASlowMotion) {
+  auto const found = suggest_filter(sine(0.1, 1000, 60), 60);
+  EXPECT_GE(found.options.cutoff_hz, 15);
+  EXPECT_EQ(found.limit, FilterSuggestion::Limit::slow_motion);
+}
+
+TEST(FilterSuggestion, KeepsWhatEveryCheckOfAJobWants) {
+  for (double rate_hz : {100.0, 187.6, 200.0, 500.0, 999.0, 1000.0, 4000.0})
+    for (double hz : {0.1, 0.5, 2.0, 6.0})
+      for (double seconds : {6.0, 30.0}) {
+        auto const options = suggest_filter(sine(hz, rate_hz, seconds), seconds).options;
+        Section const filter{"filter", {}, {}};
+        EXPECT_NO_THROW(check_cutoff("cutoff_hz", options.cutoff_hz, rate_hz, filter));
+        EXPECT_NO_THROW(decimation_factor(options, rate_hz, filter));
+        auto const edges = 2 * static_cast<double>(edge_samples(options, rate_hz));
+        EXPECT_LE(edges, 0.25 * seconds * rate_hz) << rate_hz << " " << hz << " " << seconds;
+        EXPECT_EQ(options.parallel_cutoff_hz, options.cutoff_hz / 2);
+        if (options.decimate_to_hz > 0) {
+          EXPECT_GE(options.decimate_to_hz, 2.5 * options.parallel_cutoff_hz * (1 - 1e-9));
+        }
+      }
+}
+
+}  // namespace filter_suggestion_test
+}  // namespace torquescope

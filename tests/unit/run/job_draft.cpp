@@ -1,0 +1,132 @@
+#include "engine/run/job_draft.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/job/job.hpp"
+#include "engine/run/draft_text.hpp"
+#include "engine/run/workflows.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace torquescope {
+namespace job_draft_test {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class JobDraftTest : public ::testing::Test {
+ protected:
+  // a joint with friction on two sines; `cell`: what the three columns hold, in the units of the header
+  std::filesystem::path write(std::string const& name, std::string const& header, double time_unit = 1.0,
+                              double position_unit = 1.0, double weight = 0.0, double phase = 0.0) {
+    std::string text = header + "\n";
+    for (int k = 0; k < 3000; ++k) {
+      double const t = k / 250.0, a = 2 * M_PI * 0.5, b = 2 * M_PI * 1.3;
+      double const q = 0.8 * std::sin(a * t + phase) + 0.3 * std::sin(b * t + 0.4);
+      double const dq = 0.8 * a * std::cos(a * t + phase) + 0.3 * b * std::cos(b * t + 0.4);
+      double const ddq = -0.8 * a * a * std::sin(a * t + phase) - 0.3 * b * b * std::sin(b * t + 0.4);
+      double const noise = 0.02 * std::sin(12.9898 * k * k);
+      double const tau = 0.05 * ddq + 0.1 * dq + (dq > 0 ? 0.3 : -0.2) + weight * std::sin(q) + noise;
+      text += fmt::format("{:.9g},{:.9g},{:.7g}\n", t / time_unit, q / position_unit, tau);
+    }
+    return folder_.write(name, text);
+  }
+
+  JobDraft draft(std::vector<std::filesystem::path> const& files, std::size_t joint = 0) {
+    return draft_job(files, folder_ / "job.toml", joint);
+  }
+
+  std::size_t warnings_of_check(JobDraft const& made) {
+    auto const experiment = Experiment::load(parse_job(made.text, folder_ / "job.toml"), Experiment::Purpose::check);
+    std::size_t count = 0;
+    for (auto const& line : experiment.check(1)) count += line.level == CheckLine::Level::warn;
+    return count;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(JobDraftTest, OfAnOrdinaryFilePassesCheckAsItIs) {
+  auto const made = draft({write("arm.csv", "t_s,q_rad,tau_Nm")});
+  EXPECT_THAT(made.warnings, IsEmpty());
+  EXPECT_EQ(warnings_of_check(made), 0u);
+  EXPECT_THAT(made.text, AllOf(HasSubstr("name = \"arm\""), HasSubstr("time = \"t_s\""), HasSubstr("(250 Hz)"),
+                               HasSubstr("terms = [\"inertia\", \"viscous\", \"coulomb\", \"offset\"]"),
+                               HasSubstr("# validate = "), HasSubstr("[diagnose]")));
+}
+
+TEST_F(JobDraftTest, TheFirstRecordingTrainsAndOthersValidate) {
+  auto const one = write("one.csv", "t_s,q_rad,tau_Nm"), two = write("two.csv", "t_s,q_rad,tau_Nm", 1, 1, 0, 0.7);
+  auto const made = draft({one, two});
+  EXPECT_THAT(made.text, HasSubstr("validate = " + toml_text(two.string())));
+  EXPECT_THAT(made.warnings, IsEmpty());
+  // what cannot judge the first is left out, with its reason
+  auto const other = write("other.csv", "t_s,angle,force");
+  auto const slower = write("slower.csv", "t_s,q_rad,tau_Nm", 0.5);
+  auto const left_out = draft({one, one, other, slower});
+  EXPECT_THAT(left_out.warnings, Contains(HasSubstr("it is the same recording as train")));
+  EXPECT_THAT(left_out.warnings, Contains(HasSubstr("no column \"q_rad\"")));
+  EXPECT_THAT(left_out.warnings, Contains(HasSubstr("it has 125 Hz, train 250 Hz")));
+  EXPECT_EQ(warnings_of_check(left_out), 0u);
+}
+
+TEST_F(JobDraftTest, UnitsOfTheNamesAreWritten) {
+  double const degree = M_PI / 180;
+  auto const made = draft({write("arm.csv", "Time [ms],angle [deg],torque [Nm]", 1e-3, degree)});
+  EXPECT_THAT(made.text, HasSubstr("position_per_unit = 0.0174532925"));
+  EXPECT_EQ(warnings_of_check(made), 0u);
+}
+
+TEST_F(JobDraftTest, WhatNobodyCanGuessIsALineToEditAndAWarning) {
+  auto const made = draft({write("arm.csv", "t_s,pos_cnt,i_mA", 1, 1e-4)});
+  EXPECT_THAT(made.text, AllOf(HasSubstr("# torque_per_unit = <N m per mA>"),
+                               HasSubstr("# position_per_unit = <rad per count>"), HasSubstr("EDIT")));
+  EXPECT_THAT(made.warnings, Contains(HasSubstr("torque \"i_mA\" is a current in mA")));
+  EXPECT_THAT(made.warnings, Contains(HasSubstr("position \"pos_cnt\" is in counts")));
+  EXPECT_NO_THROW(warnings_of_check(made)) << "it runs until then, in units of the columns";
+
+  auto const unknown = draft({write("odd.csv", "t_s,a,b")});
+  EXPECT_THAT(unknown.text, HasSubstr("# position = \"<column>\""));
+  EXPECT_THAT(unknown.warnings, Contains(HasSubstr("no column looks like the torque")));
+}
+
+TEST_F(JobDraftTest, AWeightIsATermWhereTheTorqueShowsIt) {
+  EXPECT_THAT(draft({write("light.csv", "t_s,q_rad,tau_Nm")}).text, Not(HasSubstr("\"gravity\"")));
+  EXPECT_THAT(draft({write("heavy.csv", "t_s,q_rad,tau_Nm", 1, 1, 2.0)}).text, HasSubstr("\"gravity\""));
+  EXPECT_THAT(draft({write("slide.csv", "t_s,q_m,F_N", 1, 1, 2.0)}).text,
+              AllOf(HasSubstr("joint = \"prismatic\""), Not(HasSubstr("\"gravity\""))));
+}
+
+TEST_F(JobDraftTest, RefusesAJointThatIsNotThere) {
+  auto const file = write("arm.csv", "t_s,q_rad,tau_Nm");
+  try {
+    draft({file}, 2);
+    ADD_FAILURE() << "accepted";
+  } catch (Error const& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_THAT(error.problems().front().what, HasSubstr("has 1 joint, no joint 2"));
+  }
+}
+
+TEST_F(JobDraftTest, PathsAreRelativeToTheJob) {
+  write("arm.csv", "t_s,q_rad,tau_Nm");
+  auto const here = std::filesystem::relative(folder_ / "arm.csv");
+  auto const made = draft_job({here}, folder_ / "jobs" / "arm.toml");
+  EXPECT_THAT(made.text, HasSubstr("train = \"../arm.csv\""));
+}
+
+TEST(DraftText, EscapesWhatTomlWouldMisread) {
+  std::string const awkward = "C:\\arm \"left\"\t.csv";
+  Job const job = parse_job("[recording]\ntrain = " + toml_text(awkward) + "\n", "job.toml");
+  EXPECT_EQ(std::get<std::string>(job.find("recording")->find("train")->value), awkward);
+}
+
+}  // namespace job_draft_test
+}  // namespace torquescope
