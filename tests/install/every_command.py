@@ -1,7 +1,7 @@
 """Every command of an installed program, away from the tree it was built in.
 
-The build is installed, the prefix is moved elsewhere and used in an empty folder: whatever the program needs at run time
-has to have come with it. Use: every_command.py BUILD_FOLDER SOURCE_FOLDER CMAKE
+The build is installed, the prefix is moved elsewhere and used in an empty folder: whatever the program needs at run
+time has to have come with it. Use: every_command.py BUILD_FOLDER SOURCE_FOLDER CMAKE
 """
 
 import os

@@ -12,7 +12,8 @@ namespace command_line_test {
 
 using ::testing::HasSubstr;
 
-std::vector<std::string> const commands{"init", "check", "run", "diagnose", "show", "report", "simulate", "list", "describe"};
+std::vector<std::string> const commands{"init",   "check",    "run",  "diagnose", "show",
+                                        "report", "simulate", "list", "describe"};
 
 Problem problem_of(std::vector<std::string> const& words) {
   ParsedCommandLine parsed;
