@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/data/signal_facts.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -79,20 +81,24 @@ std::optional<Hopeless> blamed_for_silence(MotionLimits const& limits, Excitatio
 
 std::vector<bool> saturated_samples(Recording const& recording, double cutoff_hz) {
   constexpr double reach_in_periods = 0.5;  // of the cut-off: within it the filter's weight is largest
-  Eigen::Index const n = recording.torque.size();
-  double const most = recording.torque.maxCoeff(), least = recording.torque.minCoeff();
+  Eigen::VectorXd const& torque = recording.torque;
+  Eigen::Index const n = torque.size();
   std::vector<bool> left_out(static_cast<std::size_t>(n), false);
+  double const share = recording.rows.torque_limit_share > 0.0
+                           ? recording.rows.torque_limit_share
+                           : limit_share({torque.data(), static_cast<std::size_t>(n)});
+  if (!(share > at_limit)) return left_out;
+  double const most = torque.maxCoeff(), least = torque.minCoeff();
   auto const reach =
       cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(reach_in_periods / cutoff_hz * recording.rate_hz)) : 0;
-  Eigen::Index count = 0;
+  Eigen::Index beyond = 0;  // of the last sample that is marked
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (recording.torque[k] != most && recording.torque[k] != least) continue;
-    ++count;
-    for (Eigen::Index i = std::max<Eigen::Index>(0, k - reach); i <= std::min(n - 1, k + reach); ++i)
+    if (torque[k] != most && torque[k] != least) continue;
+    Eigen::Index const end = std::min(n, k + reach + 1);
+    for (Eigen::Index i = std::max({Eigen::Index{0}, k - reach, beyond}); i < end; ++i)
       left_out[static_cast<std::size_t>(i)] = true;
+    beyond = end;
   }
-  if (static_cast<double>(count) <= at_limit * static_cast<double>(n))
-    std::fill(left_out.begin(), left_out.end(), false);
   return left_out;
 }
 

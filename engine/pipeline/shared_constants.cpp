@@ -40,6 +40,7 @@ std::vector<std::string> terms_of_velocity(Regressor const& regressor) {
 
 std::vector<std::string> terms_to_drop(Regressor const& regressor, ProcessedRecord const& prepared,
                                        bool has_one_speed) {
+  if (prepared.kept_rows.size() <= regressor.size()) return {};  // too few to say anything of
   struct Constant {
     Effect const* term;
     Eigen::Index column;
