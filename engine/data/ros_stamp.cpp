@@ -78,4 +78,14 @@ void add_ros_stamps(RawTable& table) {
   }
 }
 
+std::string stamp_with_fractions(RawTable const& table, std::string const& seconds) {
+  auto const prefix = before_word(seconds, {"sec", "secs"});
+  if (!prefix) return "";
+  auto const name = stamp_name(*prefix);
+  bool const added = std::any_of(table.remarks.begin(), table.remarks.end(), [&](std::string const& remark) {
+    return remark.starts_with(fmt::format("\"{}\" was added: \"{}\" + ", name, seconds));
+  });
+  return added ? name : "";
+}
+
 }  // namespace torquescope

@@ -13,5 +13,7 @@ namespace torquescope {
 
 // adds a column for each such pair, and a remark that names it
 void add_ros_stamps(RawTable& table);
+// the column that was added for the whole seconds of that name; "": it is none of these
+std::string stamp_with_fractions(RawTable const& table, std::string const& seconds);
 
 }  // namespace torquescope

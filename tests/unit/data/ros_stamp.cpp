@@ -44,6 +44,8 @@ TEST(RosStamp, NamesOfBothRosAreKnown) {
     ASSERT_EQ(table.names.size(), 4u) << sec;
     EXPECT_EQ(table.names[3], stamp);
     EXPECT_EQ(table.columns[3], (std::vector<double>{0, 0.001}));
+    EXPECT_EQ(stamp_with_fractions(table, sec), stamp);
+    EXPECT_EQ(stamp_with_fractions(table, "q"), "");
   }
 }
 
@@ -57,6 +59,7 @@ TEST(RosStamp, OtherColumnsAreLeftAlone) {
     add_ros_stamps(*table);
     EXPECT_EQ(table->names.size(), n);
     EXPECT_TRUE(table->remarks.empty());
+    EXPECT_EQ(stamp_with_fractions(*table, table->names.front()), "");
   }
 }
 
