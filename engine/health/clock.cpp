@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/base/order_statistic.hpp"
+#include "engine/data/ros_stamp.hpp"
 #include "engine/data/sampling.hpp"
 #include "engine/data/unit_of_name.hpp"
 
@@ -217,9 +218,20 @@ void spread_bursts(Examination& exam, std::vector<double>& stamps) {
   exam.add(FindingKind::stamps_of_arrival, Grade::warning, Repair::corrected, "time", {}, rate_hz);
 }
 
+// whole seconds whose fractions stand in a column of their own: the reader has put both together
+void take_fractions(Examination& exam) {
+  auto& time = exam.channels.at("time");
+  std::string const stamp = stamp_with_fractions(exam.table, time.column);
+  auto const at = std::find(exam.table.names.begin(), exam.table.names.end(), stamp);
+  if (stamp.empty() || at == exam.table.names.end()) return;
+  time.column = stamp;
+  time.values = exam.table.columns[static_cast<std::size_t>(at - exam.table.names.begin())];
+}
+
 }  // namespace
 
 void examine_clock(Examination& exam) {
+  take_fractions(exam);
   std::vector<double> stamps = exam.values("time");
   double const per_unit = seconds_per_unit(exam, stamps);
   // from the first row, so that nanoseconds since 1970 keep their digits

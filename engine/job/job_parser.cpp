@@ -213,8 +213,8 @@ class SectionReader {
       auto const* pair = item.as_array();
       bool const is_pair = pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number();
       if (!is_pair)
-        return refuse(key, item, fmt::format("{} holds a list that is no pair of numbers", key),
-                      fmt::format("write {} = [[1.0, 2.5], [7.0, 7.2]]", key.substr(key.find('.') + 1)));
+        return refuse(key, list, fmt::format("{} is a list of lists", key),
+                      "lists hold numbers, pairs of numbers ([[1.0, 2.5], [7.0, 7.2]]), or texts in quotes");
       for (auto const& number : *pair) numbers.push_back(*number.value<double>());
     }
     return OptionValue(std::move(numbers));

@@ -34,9 +34,10 @@ MotionLimits limits_of(Excitation const& facts, double relerr) {
 }
 
 bool closes(MotionLimits const& limits, Effect const& law) {
-  if (limits.has_one_direction && law.family() == EffectFamily::reversal && remembers_reversals(law)) return true;
   auto const& families = law.families();
   bool const is_of_velocity = std::find(families.begin(), families.end(), EffectFamily::velocity_law) != families.end();
+  bool const needs_reversals = law.family() == EffectFamily::reversal && remembers_reversals(law) && !is_of_velocity;
+  if (limits.has_one_direction && needs_reversals) return true;
   return limits.has_one_speed && is_of_velocity;
 }
 

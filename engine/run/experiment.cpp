@@ -43,8 +43,8 @@ double seconds_of(DataSet const& set) { return static_cast<double>(samples_of(se
 
 // a cut-off that takes the motion away, or lets the noise of its acceleration through
 std::string ruin_words(FilterOptions const& filter, double motion_hz, double noise_hz) {
-  constexpr double far_above = 3.0;
-  if (filter.cutoff_hz > 0.0 && filter.cutoff_hz < motion_hz)
+  constexpr double far_above = 3.0, half = 0.5;  // a low-pass at motion_hz lets 98 % of the velocity through
+  if (filter.cutoff_hz > 0.0 && filter.cutoff_hz < half * motion_hz)
     return fmt::format("cutoff_hz = {:g} cuts into the motion itself, which goes up to {:.3g} Hz", filter.cutoff_hz,
                        motion_hz);
   if (noise_hz > 0.0 && (filter.cutoff_hz == 0.0 || filter.cutoff_hz > far_above * noise_hz))

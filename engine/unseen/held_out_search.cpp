@@ -98,10 +98,12 @@ class HeldOutSearch {
     auto other = searched();
     if (!other || other->selection.accepted.empty() || !is_final(*other) || other->remainder.is_unexplained)
       return first;
-    if (gain_over(first.judgement, other->judgement).change != HeldOutChange::lower) return first;
+    // a law of the time stays only where held-out rows need it: nothing else imitates so many others
+    if (gain_over(other->judgement, first.judgement).change == HeldOutChange::lower) return first;
     for (auto const& one : accepted)
       if (is_of_time(*one.effect))
-        other->selection.rejected.push_back({one.effect, "leaves more of held-out rows than names without the time"});
+        other->selection.rejected.push_back(
+            {one.effect, "held-out rows do not need a law of the time beside the others"});
     return std::move(*other);
   }
 

@@ -6,7 +6,7 @@
 // Beyond     where unseen recordings spoil the names only beyond the training motion (unseen_range.hpp) nothing is
 //            searched on: the motion is to blame
 // Last       laws of an instant or a clock are tried last: where names with such a law hold in a model that is not
-//            adequate, a search without any of them is made too, and wins when its held-out error is clearly lower
+//            adequate, a search without any of them is made too, and wins unless its held-out error is clearly higher
 // Threads    as the stages
 
 #include <memory>

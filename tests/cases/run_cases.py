@@ -98,6 +98,7 @@ CASE_LIST = [
     Case("43_table_oddities", job="job_preamble.toml"),
     Case("43_table_oddities", job="job_iso.toml"),
     Case("43_table_oddities", job="job_clock.toml"),
+    Case("43_table_oddities", job="job_sec_nsec.toml"),
 ]
 
 

@@ -287,11 +287,11 @@ class Jobs(Folder):
         self.write("good.csv", TEXT.encode())
         outcome = self.check("good.csv")
         self.assertEqual(outcome.code, 78)
-        self.assertIn("is a table of numbers, not a job", outcome.said)
-        self.assertIn("\n    train = 'good.csv'\n", outcome.err)
+        self.assertIn("is a recording (CSV), not a job", outcome.said)
+        self.assertIn("torquescope init good.csv", outcome.said)
         for name, content, words in [
             ("arm.urdf", b"<?xml version='1.0'?>\n<robot/>\n", "is XML, not a job"),
-            ("good.csv.gz", gzip.compress(TEXT.encode()), "is packed by gzip, not a job"),
+            ("good.csv.gz", gzip.compress(TEXT.encode()), "is a recording (CSV), not a job"),
             ("good.bin", bytes(300), "holds no text, not a job"),
         ]:
             self.write(name, content)

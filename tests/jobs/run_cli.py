@@ -213,7 +213,8 @@ class BadJobFiles(Folder):
         self.assert_refused(self.run_here("check", "job.toml"), 78, ["control character"])
 
     def test_a_recording_in_place_of_the_job(self):
-        self.assert_refused(self.run_here("check", "good.csv"), 78, ["good.csv is a table of numbers, not a job"])
+        words = ["good.csv is a recording (CSV), not a job", "torquescope init good.csv"]
+        self.assert_refused(self.run_here("check", "good.csv"), 78, words)
 
     def test_twenty_problems_are_shown_and_all_are_counted(self):
         self.write("job.toml", "[experiment]\n" + "".join(f"key_{i} = {i}\n" for i in range(25)))
