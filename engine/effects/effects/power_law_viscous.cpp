@@ -2,7 +2,8 @@
 //
 // Equation   tau = k sign(dq) |dq|^alpha
 // Parameters power_law_viscous k >= 0 [N m (s/rad)^alpha; N (s/m)^alpha]: the torque at 1 rad/s
-//            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb friction
+//            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb friction;
+//            at the least, beside Coulomb friction, the logarithm of the speed (Eyring 1936, doi:10.1063/1.1749836)
 // Signature  velocity: odd, curved at middle speeds
 // Confused   stribeck with a wide speed, speed_drag
 // Source     Waiboer, Aarts, Jonker 2005
@@ -21,7 +22,8 @@ class PowerLawViscous final : public InstantEffect {
                        .source = "Waiboer, Aarts, Jonker 2005",
                        .separated_by = "speeds spaced logarithmically, from creep to the fastest",
                        .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
-                                      shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0}, Spacing::linear)},
+                                      law_at_lower(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
+                                                                   Spacing::linear))},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd}) {}
