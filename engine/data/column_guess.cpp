@@ -58,9 +58,10 @@ std::vector<std::string> labels_of(std::vector<LikelyColumn> const& likely, Labe
 }  // namespace
 
 ColumnGuess guess_columns(RawTable const& table, std::size_t joint) {
-  auto const positions = likely_columns("position", table.names), torques = likely_columns("torque", table.names),
-             references = likely_columns("reference", table.names),
-             velocities = likely_columns("velocity", table.names);
+  auto const positions = likely_columns("position", table.names, table.units),
+             torques = likely_columns("torque", table.names, table.units),
+             references = likely_columns("reference", table.names, table.units),
+             velocities = likely_columns("velocity", table.names, table.units);
   Label const by_words = [](ColumnName const& name) { return name.rest + "#" + name.number; };
   Label const by_number = [](ColumnName const& name) { return name.number; };
   Label const all_one = [](ColumnName const&) { return std::string(); };

@@ -103,25 +103,37 @@ std::vector<ColumnWord> glued(std::string const& word) {
 
 }  // namespace
 
-ColumnName parse_column_name(std::string const& name) {
+namespace {
+
+// takes the word that is a unit out of the pieces: never the first, "v" alone is a name
+std::string take_unit_word(std::vector<std::string>& pieces) {
+  join_rates(pieces);
+  for (std::size_t i = pieces.size(); i-- > 1;) {
+    std::string const word = lowered(pieces[i]);
+    bool const is_last = i + 1 == pieces.size() || (i + 2 == pieces.size() && is_digit(pieces.back().front()));
+    if (!known_unit(word) || (word.size() == 1 && !is_last)) continue;
+    if (word == "raw" || word == "enc") continue;  // words, and no better units than others in the name
+    if (word == "m" && is_angle_word(lowered(pieces.front()))) continue;
+    std::string const unit = pieces[i];
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
+    return unit;
+  }
+  return {};
+}
+
+}  // namespace
+
+ColumnName parse_column_name(std::string const& name, std::string const& units) {
   ColumnName parsed;
   std::string text = name;
   parsed.unit_text = take_bracketed_unit(text);
   auto pieces = pieces_of(text);
-  if (parsed.unit_text.empty()) {
-    join_rates(pieces);
-    for (std::size_t i = pieces.size(); i-- > 1;) {
-      std::string const word = lowered(pieces[i]);
-      bool const is_last = i + 1 == pieces.size() || (i + 2 == pieces.size() && is_digit(pieces.back().front()));
-      if (!known_unit(word) || (word.size() == 1 && !is_last)) continue;
-      if (word == "raw" || word == "enc") continue;  // words, and no better units than others in the name
-      if (word == "m" && is_angle_word(lowered(pieces.front()))) continue;
-      parsed.unit_text = pieces[i];
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
-      break;
-    }
-  }
+  if (parsed.unit_text.empty()) parsed.unit_text = take_unit_word(pieces);
   parsed.unit = known_unit(lowered(parsed.unit_text));
+  if (auto const stated = unit_of_name("", units); stated) {
+    parsed.unit = stated;
+    parsed.unit_text = stated->word;
+  }
 
   for (auto const& piece : pieces) {
     if (is_digit(piece.front())) {

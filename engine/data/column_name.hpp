@@ -3,7 +3,7 @@
 //
 // Words      lower case, split at all that is no letter and where a capital follows a small letter; "qref" and "ides"
 //            are two: a quantity and whether it was commanded
-// Unit       what stands in brackets, or the last word that is one
+// Unit       of the row of units, else what stands in brackets, or the last word that is one
 // Joint      the last number; with the words that say nothing ("left_arm") it tells joints of one file apart
 // Threads    functions of their arguments
 
@@ -24,7 +24,8 @@ struct ColumnName {
   std::optional<NamedUnit> unit{};
 };
 
-ColumnName parse_column_name(std::string const& name);
+// units: what the file's row of units says of the column, "" without one
+ColumnName parse_column_name(std::string const& name, std::string const& units = "");
 
 // what one column holds, by its name and unit alone
 struct ColumnRole {

@@ -18,11 +18,13 @@ bool serves(std::string const& channel, ColumnRole const& role) {
 
 }  // namespace
 
-std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names) {
+std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names,
+                                         std::vector<std::string> const& units) {
   constexpr int a_command_is_no_torque = 50;  // what a drive was asked for: only where nothing was measured
   std::vector<LikelyColumn> likely;
-  for (auto const& column : names) {
-    auto const name = parse_column_name(column);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    auto const& column = names[k];
+    auto const name = parse_column_name(column, k < units.size() ? units[k] : "");
     auto role = column_role(name);
     if (!serves(channel, role)) continue;
     if (channel == "torque" && role.commanded) role.score -= a_command_is_no_torque;

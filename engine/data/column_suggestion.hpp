@@ -18,7 +18,9 @@ struct LikelyColumn {
 };
 
 // all that may serve as the channel: time, position, torque, reference, velocity, acceleration
-std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names);
+// units: one per name, or none (RawTable::units)
+std::vector<LikelyColumn> likely_columns(std::string const& channel, std::vector<std::string> const& names,
+                                         std::vector<std::string> const& units = {});
 
 // the best of them, or ""
 std::string likely_column(std::string const& channel, std::vector<std::string> const& names);

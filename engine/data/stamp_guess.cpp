@@ -76,35 +76,23 @@ void guess_unit(StampGuess& guess, LikelyColumn const& likely, double first, dou
   if (may_count_rows) guess.why += "; it may count rows";
 }
 
-std::string nanoseconds_beside(std::vector<LikelyColumn> const& likely, LikelyColumn const& whole) {
-  if (!whole.name.unit || whole.name.unit->si != 1.0) return {};
-  for (auto const& part : likely)
-    if (part.name.unit && part.name.unit->si == 1e-9 && part.name.rest == whole.name.rest) return part.column;
-  return {};
+bool has_nanoseconds_beside(std::vector<LikelyColumn> const& likely, LikelyColumn const& whole) {
+  if (!whole.name.unit || whole.name.unit->si != 1.0) return false;
+  return std::any_of(likely.begin(), likely.end(), [&](LikelyColumn const& part) {
+    return part.name.unit && part.name.unit->si == 1e-9 && part.name.rest == whole.name.rest;
+  });
 }
 
 }  // namespace
 
 std::optional<StampGuess> guess_stamps(RawTable const& table) {
-  auto const likely = likely_columns("time", table.names);
+  auto const likely = likely_columns("time", table.names, table.units);
   for (auto const& candidate : likely) {
+    auto const& stamps = values_of(table, candidate.column);
+    if (has_nanoseconds_beside(likely, candidate) || !runs_forwards(stamps)) continue;
     StampGuess guess;
     guess.column = candidate.column;
-    auto stamps = values_of(table, candidate.column);
-    if (stamps.size() < 3) continue;
-    if (auto const part = nanoseconds_beside(likely, candidate); !part.empty()) {
-      auto const& nanoseconds = values_of(table, part);
-      double const first = stamps.front();
-      for (std::size_t i = 0; i < stamps.size(); ++i) stamps[i] = stamps[i] - first + 1e-9 * nanoseconds[i];
-      if (!runs_forwards(stamps)) continue;
-      guess.nanoseconds = part;
-      guess.why = "seconds and nanoseconds";
-    } else {
-      if (!runs_forwards(stamps)) continue;
-      guess_unit(guess, candidate, stamps.front(), median_step(stamps));
-    }
-    double const first = stamps.front();
-    for (double stamp : stamps) guess.seconds.push_back((stamp - first) * guess.per_unit);
+    guess_unit(guess, candidate, stamps.front(), median_step(stamps));
     return guess;
   }
   return {};

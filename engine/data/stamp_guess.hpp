@@ -3,7 +3,7 @@
 //
 // Unit       of the name when the step it gives is that of a recording (10 us to 0.5 s); else of the values: stamps
 //            since 1970 tell it by their size, others by their step (0.5 to 100: ms; to 1e5: us; above: ns)
-// Two parts  seconds and nanoseconds in two columns (ROS 2) are put together
+// Two parts  seconds beside nanoseconds are no stamp: their sum is a column of its own (ros_stamp.hpp)
 // Threads    free function
 
 #include <optional>
@@ -18,11 +18,9 @@ enum class Certainty { sure, by_name, by_values, doubtful };
 
 struct StampGuess {
   std::string column;
-  std::string nanoseconds{};  // the second part, where stamps stand in two columns
-  double per_unit = 1.0;      // s
+  double per_unit = 1.0;  // s
   Certainty unit = Certainty::by_name;
-  std::string why{};              // "the name says ms", "a step of 2e+06 suits nanoseconds"
-  std::vector<double> seconds{};  // of every row, since the first
+  std::string why{};  // "the name says ms", "a step of 2e+06 suits nanoseconds"
 };
 
 // nothing when no column with the name of a time runs forwards

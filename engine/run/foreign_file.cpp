@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -53,6 +54,11 @@ bool is_job(std::filesystem::path const& path) {
   }
 }
 
+bool is_called_a_table(std::filesystem::path const& path) {
+  constexpr std::array endings{".csv", ".tsv", ".txt", ".dat", ".gz"};
+  return std::find(endings.begin(), endings.end(), path.extension()) != endings.end();
+}
+
 // "CSV" for a table of numbers, "HDF5"; empty for what no reader takes
 std::string recording_format(std::filesystem::path const& path) {
   constexpr std::size_t enough_for_signatures = 4096;
@@ -64,8 +70,8 @@ std::string recording_format(std::filesystem::path const& path) {
     try {  // any text may be a table, or a job with a mistake in it
       if (!is_compressed && read_table(path, {"recording", {}, {}}).columns.size() < 2) return {};
       return "CSV";
-    } catch (Error const&) {
-      return {};
+    } catch (Error const&) {  // a damaged table is a recording all the same
+      return is_called_a_table(path) ? "CSV" : "";
     }
   }
   return {};

@@ -98,9 +98,6 @@ class RecordingDraft {
     return fits ? std::string() : fmt::format("it has {:.6g} Hz, train {:.6g} Hz", its_rate_hz, rate_hz);
   }
 
-  // stamps in two columns are no channel of a job
-  bool names_time() const { return train_.stamps && train_.stamps->nanoseconds.empty(); }
-
   void write_rate() {
     if (!train_.stamps) {
       std::string why = "no column has time stamps that run forwards";
@@ -113,18 +110,7 @@ class RecordingDraft {
     bool const odd_unit = stamps.unit == Certainty::by_values && stamps.per_unit != 1.0;
     if (stamps.unit == Certainty::doubtful || odd_unit)
       warn(fmt::format("time stamps \"{}\": {}", stamps.column, stamps.why));
-    if (names_time()) {
-      if (stamps.per_unit != 1.0) text_.setting("time_per_unit", toml_number(stamps.per_unit), stamps.why);
-      return;
-    }
-    if (!train_.recording) return;
-    auto const columns = fmt::format("\"{}\" and \"{}\"", stamps.column, stamps.nanoseconds);
-    text_.setting("rate_hz", toml_number(train_.recording->rate_hz),
-                  fmt::format("from the stamps {}: time is one column in a job", columns));
-    constexpr double even = 0.05;
-    if (train_.jitter > even)
-      warn(fmt::format("stamps {} are uneven by {:.0f} % of a step; the job takes them as even at {:.6g} Hz", columns,
-                       100 * train_.jitter, train_.recording->rate_hz));
+    if (stamps.per_unit != 1.0) text_.setting("time_per_unit", toml_number(stamps.per_unit), stamps.why);
   }
 
   void write_position_unit() {
@@ -182,7 +168,7 @@ class RecordingDraft {
         text_.comment(fmt::format("{} of them move: what they do to this joint's torque is no part of this model.",
                                   train_.columns.moving_joints));
     }
-    if (names_time()) text_.setting("time", toml_text(train_.stamps->column), time_comment());
+    if (train_.stamps) text_.setting("time", toml_text(train_.stamps->column), time_comment());
     write_channel("position", train_.columns.position, position_comment());
     write_channel("torque", train_.columns.torque, torque_comment());
     if (reference_serves(train_.columns))

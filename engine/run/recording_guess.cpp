@@ -35,15 +35,7 @@ Section written(RecordingOptions const& options) {
   return section;
 }
 
-// stamps in two columns, put together as a column of their own
-std::string add_seconds(RawTable& table, StampGuess const& stamps) {
-  std::string name = stamps.column + " in s";
-  table.names.push_back(name);
-  table.columns.push_back(stamps.seconds);
-  return name;
-}
-
-void read_as_guessed(RecordingGuess& guess, RawTable table) {
+void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
   if (guess.columns.position.column.empty() || guess.columns.torque.column.empty()) {
     guess.refusal = "no column is known to be the position, or the torque";
     return;
@@ -52,8 +44,7 @@ void read_as_guessed(RecordingGuess& guess, RawTable table) {
     guess.refusal = "the rows have no time stamps that run forwards";
     return;
   }
-  auto options = options_of(guess);
-  if (!guess.stamps->nanoseconds.empty()) options.columns["time"] = add_seconds(table, *guess.stamps);
+  auto const options = options_of(guess);
   try {
     guess.recording = make_recording(table, options, written(options));
     guess.jitter = guess.recording->rows.jitter;
@@ -95,21 +86,21 @@ bool reference_serves(ColumnGuess const& columns) {
 RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint) {
   RecordingGuess guess;
   guess.file = file;
-  RawTable table = read_table(file, {"recording", {}, {}});
+  RawTable const table = read_table(file, {"recording", {}, {}});
   guess.rows = table.columns.empty() ? 0 : table.columns.front().size();
   guess.columns = guess_columns(table, joint);
   guess.stamps = guess_stamps(table);
   guess.names = table.names;
   guess.unusable = table.unusable;
   take_units(guess);
-  read_as_guessed(guess, std::move(table));
+  read_as_guessed(guess, table);
   return guess;
 }
 
 RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first) {
   RecordingGuess guess;
   guess.file = file;
-  RawTable table = read_table(file, {"recording", {}, {}});
+  RawTable const table = read_table(file, {"recording", {}, {}});
   guess.rows = table.columns.empty() ? 0 : table.columns.front().size();
   guess.columns = first.columns;
   guess.names = table.names;
@@ -120,7 +111,7 @@ RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess cons
       guess.refusal = "no column \"" + channel->column + "\"";
   if (!guess.refusal.empty()) return guess;
   guess.stamps = guess_stamps(table);
-  read_as_guessed(guess, std::move(table));
+  read_as_guessed(guess, table);
   return guess;
 }
 

@@ -69,10 +69,10 @@ class OwnRecording(EmptyFolder):
             "semicolons.csv": {"separator": ";"},
             "tabs.txt": {"separator": "\t"},
             "blanks.dat": {"separator": "  "},
+            "commas.csv": {"separator": ";", "cell": lambda text: text.replace(".", ",")},
         }
         for name, how in dialects.items():
-            separator = how["separator"]
-            self.good(name, recordings.HEADER.replace(",", separator), separator)
+            self.good(name, recordings.HEADER.replace(",", how["separator"]), **how)
             said = self.draft(name)
             self.assertNotIn("warning", said.err, name)
             self.assertIn("0 warnings", self.succeed("check", "job.toml").out, name)
@@ -123,6 +123,12 @@ class WrongKindOfFile(EmptyFolder):
             self.assertEqual(refused.code, 78, command)
             self.assertIn("good.csv is a recording (CSV), not a job", refused.said)
             self.assertIn("torquescope init good.csv > good.toml", refused.said)
+
+    def test_so_is_a_damaged_one(self):
+        self.write("cut.csv", "t_s,q_rad,tau_Nm\n0,0,0\n0.1,1\n")
+        refused = self.run_here("check", "cut.csv")
+        self.assertEqual(refused.code, 78)
+        self.assertIn("torquescope init cut.csv > cut.toml", refused.said)
 
     def test_a_result_is_no_job_and_no_recording(self):
         self.write("study.toml", simulated_job.job([{"name": "ols"}]))

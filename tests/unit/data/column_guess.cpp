@@ -93,6 +93,15 @@ TEST(ColumnGuess, WholeNumbersWithoutAUnitAreCounts) {
   EXPECT_FALSE(guess_columns(table_of({{"q", wave(2000)}, {"tau", wave(1)}})).position.counts);
 }
 
+TEST(ColumnGuess, BelievesARowOfUnits) {
+  auto table = table_of({{"q", wave(60)}, {"M", wave(1)}, {"torque", wave(1)}});
+  table.units = {"deg", "", "mNm"};
+  auto const guess = guess_columns(table);
+  ASSERT_TRUE(guess.position.name.unit && guess.torque.name.unit);
+  EXPECT_EQ(guess.position.name.unit->word, "deg");
+  EXPECT_EQ(guess.torque.name.unit->si, 1e-3);
+}
+
 TEST(ColumnGuess, AColumnThatNeverChangesServesLast) {
   auto const guess =
       guess_columns(table_of({{"q_rad", wave(1)}, {"tau_Nm", std::vector<double>(200, 0.0)}, {"i_A", wave(1)}}));
