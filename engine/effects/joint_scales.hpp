@@ -8,9 +8,9 @@
 
 #include <string>
 
-namespace torquescope {
+#include "engine/robot/joint_kind.hpp"
 
-enum class JointKind { revolute, prismatic };
+namespace torquescope {
 
 // -1, 0, 1 weighted by the levels of dry friction of either direction
 struct FrictionSign {

@@ -1,0 +1,42 @@
+#include "engine/robot/serial_chain.hpp"
+
+#include <cmath>
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+FramePose joint_pose(ChainJoint const& joint, double q) {
+  bool const turns = joint.kind == JointKind::revolute;
+  double const theta = joint.offset + (turns ? q : 0.0), d = joint.d + (turns ? 0.0 : q);
+  double const ct = std::cos(theta), st = std::sin(theta), ca = std::cos(joint.alpha), sa = std::sin(joint.alpha);
+  FramePose pose;
+  pose.rotation << ct, -st, 0.0,  //
+      ca * st, ca * ct, -sa,      //
+      sa * st, sa * ct, ca;
+  pose.position << joint.a, -sa * d, ca * d;
+  return pose;
+}
+
+Eigen::VectorXd standard_parameters(SerialChain const& chain, DriveInertias drives) {
+  TORQUESCOPE_EXPECT(chain.links.size() == chain.joints.size());
+  Eigen::Index const n = chain.size(), n_links = numbers_per_link * n;
+  Eigen::VectorXd parameters(drives == DriveInertias::included ? n_links + n : n_links);
+  for (Eigen::Index i = 0; i < n; ++i)
+    parameters.segment<numbers_per_link>(numbers_per_link * i) = chain.links[static_cast<std::size_t>(i)].vector();
+  if (drives == DriveInertias::included)
+    for (Eigen::Index i = 0; i < n; ++i)
+      parameters[n_links + i] = chain.joints[static_cast<std::size_t>(i)].drive_inertia;
+  return parameters;
+}
+
+std::vector<std::string> standard_names(SerialChain const& chain, DriveInertias drives) {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= chain.joints.size(); ++i)
+    for (auto const& number : link_number_names) names.push_back(std::string(number) + std::to_string(i));
+  if (drives == DriveInertias::included)
+    for (std::size_t i = 1; i <= chain.joints.size(); ++i) names.push_back("drive_" + std::to_string(i));
+  return names;
+}
+
+}  // namespace torquescope
