@@ -2,8 +2,9 @@
 //
 // Equation   tau = k sign(dq) |dq|^alpha
 // Parameters power_law_viscous k >= 0 [N m (s/rad)^alpha; N (s/m)^alpha]: the torque at 1 rad/s
-//            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb friction;
-//            at the least, beside Coulomb friction, the logarithm of the speed (Eyring 1936, doi:10.1063/1.1749836)
+//            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb
+//            friction; at the least, beside Coulomb friction, the logarithm of the speed (Eyring 1936,
+//            doi:10.1063/1.1749836)
 // Signature  velocity: odd, curved at middle speeds
 // Confused   stribeck with a wide speed, speed_drag
 // Source     Waiboer, Aarts, Jonker 2005

@@ -77,7 +77,8 @@ Extended curve(std::function<Extended(long double)> const& f) {
   return (16 * (f(h) + f(-h)) - (f(2 * h) + f(-2 * h)) - 30 * f(0)) / (12 * h * h);
 }
 
-// d/dt dL/d(dq) - dL/dq of point masses is sum of m x'' . dx/dq - m g . dx/dq, with x'' along q(t) = q + dq t + ddq t^2/2
+// d/dt dL/d(dq) - dL/dq of point masses is sum of m x'' . dx/dq - m g . dx/dq, with x'' along q(t) = q + dq t + ddq
+// t^2/2
 Vector torque(Arm const& arm, Vector const& q, Vector const& dq, Vector const& ddq) {
   Extended const at = q.cast<long double>(), speed = dq.cast<long double>(), push = ddq.cast<long double>();
   Extended acceleration = curve([&](long double t) { return positions(arm, at + t * speed + t * t / 2 * push); });
