@@ -50,6 +50,9 @@ class ShortPass(unittest.TestCase):
             with self.subTest(reader=reader):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 read, refused = map(int, re.search(r"(\d+) read, (\d+) refused", done.stdout).groups())
+                if reader == "segment":  # sealed: nearly every change is seen before HDF5 looks
+                    self.assertGreater(refused, 0.9 * COUNTS[reader])
+                    continue
                 # most changes matter, or what is tried is the container alone
                 self.assertGreater(min(read, refused), 0.02 * COUNTS[reader])
 
@@ -69,7 +72,8 @@ class ShortPass(unittest.TestCase):
                 self.write(folder, "job.toml", seeds.JOB % path)
                 self.assertEqual(program.run("check", "job.toml", folder=folder).code, 65)
         segments = len(os.listdir(parts))
-        self.assertEqual(program.run("status", "r.h5", folder=folder).code, 0)
+        if segments:
+            self.assertEqual(program.run("status", "r.h5", folder=folder).code, 0)
         self.write(folder, "job.toml", simulated_job.job([{"name": "ols"}]))
         # of other jobs, so that nothing in them is wanted: their index is read, and no history
         ran = program.run("run", "job.toml", "--out", "r.h5", "--allow-mixed", folder=folder)

@@ -151,7 +151,7 @@ TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
   found.joints[0].validation_left_out = {0.71, 0.98, 0.46, 0.42};
   EXPECT_THAT(
       run({"--progress", "none"}).err,
-      HasSubstr("12.1 % unseen; 46 % over all rows, of which 71 % with 98 % of the residual's energy are left"));
+      HasSubstr("12.1 % unseen; 46.0 % over all rows,\n         of which 71.0 % with 98.0 % of the residual's energy"));
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {

@@ -128,10 +128,10 @@ TEST(LeftOutClause, TellsTimeEnergyAndTheErrorWithIt) {
   LeftOut left_out{0.71, 0.98, 0.46, 0.38};
   EXPECT_EQ(
       left_out_clause(left_out),
-      "71 % of the time with 98 % of the residual's energy, near reversals and rests, is left out of that; with it "
-      "the relerr is 46 % to 38 %");
+      "71.0 % of the time with 98.0 % of the residual's energy, near reversals and rests, is left out of that; with it "
+      "the relerr is 46.0 % to 38.0 %");
   left_out.augmented_relerr = unknown;
-  EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the relerr is 46 %"));
+  EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the relerr is 46.0 %"));
   left_out.time = 0.0;
   EXPECT_EQ(left_out_clause(left_out), "");
   EXPECT_EQ(left_out_clause({}), "");
@@ -141,7 +141,7 @@ TEST(ReasonSentence, TellsWhatIsLeftOutBesideTheErrors) {
   Diagnosis diagnosis = example::invented_diagnosis();
   diagnosis.joints[0].validation_left_out = {0.12, 0.3, 0.2, 0.15};
   EXPECT_THAT(reason_sentence(diagnosis),
-              HasSubstr("floor 6.0 %; 12 % of the time with 30 % of the residual's energy"));
+              HasSubstr("floor 6.0 %; 12.0 % of the time with 30.0 % of the residual's energy"));
 }
 
 // nothing is missing where it was looked, which is not everywhere
@@ -152,7 +152,7 @@ TEST(ReasonSentence, OfNothingMissingSaysWhenLessThanHalfOfTheResidualWasLookedA
   EXPECT_THAT(reason_sentence(diagnosis),
               ::testing::StartsWith("Only the rows that were looked at are meant, which hold less than half of the "
                                     "residual's energy. The residual of joint 1"));
-  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("with it the relerr is 46 %"));
+  EXPECT_THAT(reason_sentence(diagnosis), HasSubstr("with it the relerr is 46.0 %"));
   joint.validation_left_out.energy = 0.3;
   EXPECT_THAT(reason_sentence(diagnosis), Not(HasSubstr("less than half")));
   joint.validation_left_out = {};
