@@ -8,6 +8,7 @@
 //            everything
 // interval   must be: repeating two seconds of a job costs less than memory that every short one would pay for (12 % of
 //            3000 runs in a second)
+// Number     segments of this process are gathered as they become many (segment_pile.hpp)
 // Threads    any; runs hand over in the thread they run in, and one of these writes. `hdf5` is held while it does:
 //            whoever else uses HDF5 meanwhile must hold it too
 // Errors     74 from the thread that writes: nothing published is damaged, what was kept before is safe
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include "engine/run/segment_file.hpp"
+#include "engine/run/segment_pile.hpp"
 
 namespace torquescope {
 
@@ -93,6 +95,7 @@ class RunKeeper {
   std::map<RunId, std::size_t> safe_;  // generations that segments have
   std::uint64_t written_interval_ = 0;
   std::size_t runs_safe_ = 0, segments_ = 0;
+  SegmentPile pile_;  // of `hdf5`
 };
 
 }  // namespace torquescope
