@@ -58,7 +58,7 @@ SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& o
   for (auto const& plan : experiment.parts().estimators)
     if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
   request.allow_mixed = options.allow_mixed;
-  if (options.shard.count > 1) request.wanted = [&](std::size_t run) { return options.shard.has(run); };
+  if (options.shard.count > 1) request.wanted = [shard = options.shard](std::size_t run) { return shard.has(run); };
   return SavedRuns(request);
 }
 

@@ -31,7 +31,8 @@ RunKeeper::RunKeeper(Setting setting, std::mutex& hdf5)
       hdf5_(hdf5),
       start_ns_(now_ns()),
       next_ns_(start_ns_ + nanoseconds(setting_.interval_s)),
-      names_(setting_.folder, setting_.shard) {}
+      names_(setting_.folder, setting_.shard),
+      pile_(setting_.most_bytes) {}
 
 double RunKeeper::share_of_first_interval() const {
   return static_cast<double>(now_ns() - start_ns_) * 1e-9 / setting_.interval_s;
@@ -168,6 +169,10 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
     // a process that finished may have tidied up behind us
     make_segment_folder(setting_.folder);
     write_segment(name, origin, estimators);
+    pile_.add(name, origin, [&] {
+      std::lock_guard const names(guard_);
+      return names_.next();
+    });
   }
 
   lock.lock();

@@ -6,6 +6,7 @@
 //            than `most_bytes` waiting is written at once
 // First      what ends in its first tenth of an interval is not kept, and until its middle only half of `most_bytes`
 //            is: repeating two seconds costs less than memory of every short job. With `everything` all is kept
+// Number     segments of this process are gathered as they become many (segment_pile.hpp)
 // Threads    any; runs hand over in the thread they run in, and one of these writes. `hdf5` is held while it does:
 //            whoever else uses HDF5 meanwhile must hold it too
 // Errors     74 from the thread that writes: nothing published is damaged, what was kept before is safe
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "engine/run/segment_file.hpp"
+#include "engine/run/segment_pile.hpp"
 
 namespace torquescope {
 
@@ -91,6 +93,7 @@ class RunKeeper {
   std::map<RunId, std::size_t> safe_;  // generations that segments have
   std::uint64_t written_interval_ = 0;
   std::size_t runs_safe_ = 0, segments_ = 0;
+  SegmentPile pile_;  // of `hdf5`
 };
 
 }  // namespace torquescope

@@ -10,7 +10,10 @@
 namespace torquescope {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t most_open_files = 16;
+constexpr int most_listings = 10;
 
 // the number of runs may grow
 bool same_lists(HistoryShape const& a, HistoryShape const& b) {
@@ -64,33 +67,51 @@ Error disagree(std::string const& label, std::size_t run, std::size_t generation
 
 }  // namespace
 
-SavedRuns::SavedRuns(SavedRunsRequest const& request) {
-  auto const look = [&](SegmentFile const& file) {
-    if (accept(file, request)) file.verify();
-  };
-  for (auto const& folder : request.folders) {
-    auto const names = segments_in(folder);
-    auto const harmless = harmless_segments(names, look);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      auto const& name = names[i];
-      try {
-        if (!harmless[i]) look_at_segment(name, look);
-        SegmentFile const file(name);
-        if (!accept(file, request)) continue;
-        files_.push_back(name);
-        take(file, files_.size() - 1);
-      } catch (Error const& error) {
-        // removed meanwhile by a process that finished, or damaged: as if it had never been there
-        if (error.code() != ExitCode::bad_data && error.code() != ExitCode::no_input) throw;
-        warnings_.push_back(error.problems().front().what + "; its generations run again");
-      }
-    }
+SavedRuns::SavedRuns(SavedRunsRequest const& request) : request_(request) { read_all(); }
+
+void SavedRuns::read_all() {
+  for (int listing = 1;; ++listing) {
+    files_.clear();
+    open_.clear();
+    runs_.clear();
+    origins_.clear();
+    warnings_.clear();
+    mixed_ = false;
+    bool is_whole = true;
+    for (auto const& folder : request_.folders) is_whole = read_folder(folder) && is_whole;
+    if (is_whole || listing == most_listings) break;
   }
   for (auto& [label, runs] : runs_)
     for (auto& [run, pieces] : runs)
       std::stable_sort(pieces.begin(), pieces.end(), [](auto const& a, auto const& b) {
         return a.first != b.first ? a.first < b.first : a.end > b.end;
       });
+}
+
+// false: a segment that was listed is gone
+bool SavedRuns::read_folder(fs::path const& folder) {
+  auto const look = [&](SegmentFile const& file) {
+    if (accept(file, request_)) file.verify();
+  };
+  bool is_whole = true;
+  auto const names = segments_in(folder);
+  auto const harmless = harmless_segments(names, look);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto const& name = names[i];
+    try {
+      if (!harmless[i]) look_at_segment(name, look);
+      SegmentFile const file(name);
+      if (!accept(file, request_)) continue;
+      files_.push_back(name);
+      take(file, files_.size() - 1);
+    } catch (Error const& error) {
+      // removed meanwhile, or damaged: as if it had never been there
+      if (error.code() != ExitCode::bad_data && error.code() != ExitCode::no_input) throw;
+      is_whole = is_whole && error.code() != ExitCode::no_input;
+      warnings_.push_back(error.problems().front().what + "; its generations run again");
+    }
+  }
+  return is_whole;
 }
 
 // false: nothing in it is wanted
@@ -151,6 +172,17 @@ SegmentFile& SavedRuns::opened(std::size_t file) {
 }
 
 std::optional<RunPart> SavedRuns::load(std::string const& label, HistoryShape const& shape, std::size_t run) {
+  for (int listing = 1;; ++listing) {
+    try {
+      return load_now(label, shape, run);
+    } catch (Error const& error) {
+      if (error.code() != ExitCode::no_input || listing == most_listings) throw;
+    }
+    read_all();
+  }
+}
+
+std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShape const& shape, std::size_t run) {
   Pieces const* pieces = find(label, run);
   if (!pieces) return std::nullopt;
   RunPart whole{.run = run};

@@ -4,6 +4,7 @@
 // Trust      only segments that verify() whole: one that is damaged counts as absent, its generations run again
 // Twice      generations that two segments have must be equal, bit by bit: two attempts of one run disagree only when
 //            something is broken, a machine or this program
+// Meanwhile  living processes gather their segments (segment_pile.hpp): when one is gone, the folder is listed again
 // Errors     65 when two segments disagree (both are named); 78 when a segment belongs to another job, or to another
 //            program unless that is allowed
 // Threads    as HDF5: one of the process at a time
@@ -54,11 +55,16 @@ class SavedRuns {
   };
   using Pieces = std::vector<Piece>;
 
+  void read_all();
+  bool read_folder(std::filesystem::path const& folder);
+  std::optional<RunPart> load_now(std::string const& label, HistoryShape const& shape, std::size_t run);
+
   Pieces const* find(std::string const& label, std::size_t run) const;
   bool accept(SegmentFile const& file, SavedRunsRequest const& request);
   void take(SegmentFile const& file, std::size_t index);
   SegmentFile& opened(std::size_t file);
 
+  SavedRunsRequest request_;
   std::vector<std::filesystem::path> files_;
   std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;   // a few of them
   std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation

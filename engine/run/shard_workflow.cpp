@@ -85,8 +85,12 @@ JobStatus::Estimator summed(std::string const& label, Covered const& covered) {
 
 }  // namespace
 
-JobStatus read_status(std::filesystem::path const& segment_folder) {
-  JobStatus status;
+namespace {
+
+// false: a segment that was listed is gone, its process has gathered it into another one, or has finished
+bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
+  bool is_whole = true;
+  status = {};
   std::map<std::string, Covered> estimators;
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
   auto const opened = [](SegmentFile const&) {};
@@ -122,7 +126,7 @@ JobStatus read_status(std::filesystem::path const& segment_folder) {
         }
       }
     } catch (Error const& error) {
-      // removed since it was listed: its writer has finished
+      if (error.code() == ExitCode::no_input) is_whole = false;
       if (error.code() == ExitCode::bad_data) status.damaged.push_back(name.filename().string());
     }
   }
@@ -130,6 +134,16 @@ JobStatus read_status(std::filesystem::path const& segment_folder) {
   for (auto const& [who, writer] : writers) status.writers.push_back(writer);
   std::stable_sort(status.writers.begin(), status.writers.end(),
                    [](auto const& a, auto const& b) { return a.shard < b.shard; });
+  return is_whole;
+}
+
+}  // namespace
+
+JobStatus read_status(std::filesystem::path const& segment_folder) {
+  constexpr int most_listings = 10;
+  JobStatus status;
+  for (int listing = 1; !read_now(segment_folder, status) && listing < most_listings; ++listing) {
+  }
   return status;
 }
 

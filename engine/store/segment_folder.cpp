@@ -20,6 +20,7 @@
 #include "engine/store/number_file.hpp"
 #include "engine/store/own_folder.hpp"
 #include "engine/store/result_files.hpp"
+#include "engine/store/shard_lock.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope {
@@ -73,11 +74,7 @@ class KeptFile {
   }
   // a TempFile, and whoever holds a lock, holds it while its process lives
   bool has_a_writer() const { return ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0; }
-  bool is_empty_or_begins_with(std::string_view words) const {
-    std::string begin(words.size(), '\0');
-    ssize_t const got = ::pread(descriptor_, begin.data(), begin.size(), 0);
-    return got == 0 || (got == static_cast<ssize_t>(words.size()) && begin == words);
-  }
+  bool is_a_lock() const { return is_lock_file(descriptor_); }
   std::optional<Sha256> job(std::string const& name) const {
     return is_segment(name) ? sealed_identity(descriptor_) : number_file_identity(descriptor_);
   }
@@ -103,7 +100,7 @@ bool is_abandoned(OwnFolder const& folder, std::string const& name) {
       is_kept_work(finished) && (finished.starts_with("shard-") || finished.starts_with("batch-"));
   if (!is_lock && !is_unfinished) return false;
   KeptFile const file(folder.open(name, only_look));
-  return file.is_regular() && !file.has_a_writer() && (!is_lock || file.is_empty_or_begins_with(lock_words));
+  return file.is_regular() && !file.has_a_writer() && (!is_lock || file.is_a_lock());
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -39,14 +38,6 @@ fs::path made(fs::path folder) {
   return folder;
 }
 
-// not somebody's file of that name, whose words would be lost
-bool is_a_lock(int descriptor) {
-  struct stat facts {};
-  std::string begin(std::strlen(lock_words), '\0');
-  if (::fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
-  return facts.st_size == 0 || (::pread(descriptor, begin.data(), begin.size(), 0) > 0 && begin == lock_words);
-}
-
 std::string words_in(int descriptor) {
   char text[300] = {};
   ssize_t const size = ::pread(descriptor, text, sizeof(text) - 1, 0);
@@ -55,13 +46,24 @@ std::string words_in(int descriptor) {
 
 }  // namespace
 
+bool is_lock_file(int descriptor) {
+  struct stat facts {};
+  if (::fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
+  std::string const words = lock_words, zeros(words.size(), '\0');
+  std::string begin = zeros;
+  ssize_t const got = ::pread(descriptor, begin.data(), begin.size(), 0);
+  if (got < 0) return false;
+  auto const size = static_cast<std::size_t>(got);
+  return begin.compare(0, size, words, 0, size) == 0 || begin == zeros;
+}
+
 ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard)
     : folder_(made(segment_folder_of(result))),
       file_(fmt::format("shard-{:04}-of-{:04}.lock", shard.index, shard.count)) {
   constexpr mode_t as_umask_allows = 0666;
   descriptor_ = folder_.open(file_, O_RDWR | O_CREAT | O_NONBLOCK, as_umask_allows);
   if (descriptor_ < 0) return;
-  if (!is_a_lock(descriptor_)) {
+  if (!is_lock_file(descriptor_)) {
     ::close(std::exchange(descriptor_, -1));
     return;
   }

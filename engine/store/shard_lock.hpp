@@ -16,6 +16,10 @@
 
 namespace torquescope {
 
+// whether an open file says what locks say: nothing, who holds it, or, after a power cut, zeros. Anything else under a
+// lock's name is somebody's own file
+bool is_lock_file(int descriptor);
+
 class ShardLock {
  public:
   ShardLock(std::filesystem::path const& result, ShardChoice const& shard);

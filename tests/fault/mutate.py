@@ -39,7 +39,7 @@ MUTATIONS = {
     ],
     # 2: no verification of segments
     "run/saved_runs.cpp": [
-        ("if (accept(file, request)) file.verify();", "if (accept(file, request) && !mutant(2)) file.verify();")
+        ("if (accept(file, request_)) file.verify();", "if (accept(file, request_) && !mutant(2)) file.verify();")
     ],
     # 3: acknowledged before fsync
     "run/run_keeper.cpp": [

@@ -35,7 +35,7 @@ void note_whereabouts(Session const& session, std::string const& word, std::file
 
 void tidy_up(Session const& session, std::filesystem::path const& result, std::string const& inputs_sha256) {
   for (auto const& warning : remove_segments(result, inputs_sha256))
-    session.note(session.topic_line("warning", printable(warning)));
+    session.note(session.topic_line("warning", warning));
 }
 
 }  // namespace torquescope

@@ -108,7 +108,8 @@ void build_page(std::filesystem::path const& result, std::filesystem::path const
     throw page_problem(ExitCode::no_input, "the page builder report/build.py is not installed beside this program",
                        "set TORQUESCOPE_SHARE to the folder that holds report/build.py");
   std::string const python = find_python();
-  auto const status = run_program({python, program->string(), result.string(), "--out", page.string()}, Voice::heard);
+  auto const status =
+      run_program({python, program->string(), "--out=" + page.string(), "--", result.string()}, Voice::heard);
   if (status == static_cast<int>(ExitCode::bad_data))
     throw page_problem(ExitCode::bad_data, result.string() + " is no file to build a page from",
                        "the page builder's words stand above; torquescope show --verify says more");

@@ -156,6 +156,52 @@ TEST_F(Keeping, ARunUnderWayIsWrittenPieceByPieceAndGoesOnFromItsLastState) {
   expect_same_bits(whole.load("de", shape, 3)->history, *ended(3, 6));
 }
 
+TEST_F(Keeping, ManySegmentsAreGatheredIntoFewWithoutLosingABit) {
+  HistoryShape const longer{5, 600, 4, 2};
+  auto keeper = this->keeper(0.0001);
+  keeper.begin_estimator("de", "search", longer, {});
+  auto const search = a_search();
+  keeper.begin(0);
+  keeper.begin(3);
+  for (std::size_t generations = 1; generations <= 300; ++generations) {
+    auto const before = keeper.due();
+    while (keeper.due() == before) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    keeper.keep(0, history_of(0, generations), *search);
+    keeper.keep(3, history_of(3, generations), *search);
+  }
+  EXPECT_EQ(keeper.segments_written(), 300u);
+  EXPECT_LE(segments(), 1u + 2u + 15u) << "256 + 2 x 16 + 12";
+  auto runs = saved();
+  EXPECT_TRUE(runs.warnings().empty());
+  for (std::size_t run : {0u, 3u}) {
+    auto const part = runs.load("de", longer, run);
+    ASSERT_TRUE(part && !part->ended);
+    expect_same_bits(part->history, history_of(run, 300));
+    EXPECT_EQ(part->state, search->save());
+  }
+}
+
+// as another process does between this one's listing and its reading
+TEST_F(Keeping, SegmentsThatAreGatheredMeanwhileAreFoundAgain) {
+  auto keeper = this->keeper(20.0, true);
+  keeper.begin_estimator("de", "search", shape, {});
+  for (std::size_t run = 0; run < 2; ++run) {
+    keeper.ended(run, ended(run, 4));
+    keeper.write_all();
+  }
+  auto runs = saved();
+  auto const before = segments_in(folder_ / "r.h5.parts");
+  ASSERT_EQ(before.size(), 2u);
+  write_segment(folder_ / "r.h5.parts" / "shard-gathered.h5", origin, gathered_parts(before));
+  for (auto const& name : before) std::filesystem::remove(name);
+  for (std::size_t run = 0; run < 2; ++run) {
+    auto const part = runs.load("de", shape, run);
+    ASSERT_TRUE(part && part->ended);
+    expect_same_bits(part->history, *ended(run, 4));
+  }
+  EXPECT_TRUE(runs.warnings().empty());
+}
+
 TEST_F(Keeping, WaitsForEveryRunUnderWayBeforeItWrites) {
   auto keeper = this->keeper(0.01);
   keeper.begin_estimator("de", "search", shape, {});

@@ -61,6 +61,8 @@ TEST_F(RemoveSegments, TakesThoseOfTheJobAndWhatTheDeadLeft) {
   for (auto const* name : {"R.h5.parts/shard-0.h5.tmp.12", "R.h5.parts/batch-0001.twins.tmp.3.1",
                            "R.h5.parts/c.twins.lock", "R.h5.parts/shard-0000-of-0001.lock"})
     folder_.write(name, "");
+  folder_.write("R.h5.parts/shard-0001-of-0002.lock", "process 12 on node7");
+  folder_.write("R.h5.parts/shard-0002-of-0003.lock", std::string(19, '\0'));  // its power went
   for (auto const* name : {"R.h5.tmp.99", "R.h5.made.json.tmp.7", "S.h5.tmp.9", "R.h5.tmp.backup", "R.h5.tmp.1.txt"})
     folder_.write(name, "x");
   TempFile const living(result_);
