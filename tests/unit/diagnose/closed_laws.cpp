@@ -53,7 +53,7 @@ Diagnosis diagnosed(Recording const& train, std::vector<Recording> const& valida
   static Section const section{};
   DiagnosisInput input{train, validate, clean_regressor(), filter, section};
   for (auto const& name : candidates) input.selection.candidates.push_back(find_effect(name));
-  input.twins = 32;
+  input.twins = 100;  // below 1 / 101 four candidates can be told from chance
   input.seed = 1;
   input.threads = 2;
   return diagnose_joint(input, {});
