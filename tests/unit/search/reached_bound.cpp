@@ -95,10 +95,10 @@ TEST_F(FittedToBound, AsksTheDataWhetherTheyWantToGoFurther) {
     ModelStage const stage = make_stage(setting, clean_regressor()).value();
     CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
     Effect const& stribeck = *find_effect("stribeck");
-    auto const scan = scan_candidates(columns, {&stribeck}, 2).front();
-    auto const refined = refine_shape(columns, scan, stage.mismatch(), shape_search("de", 1), 2);
-    auto const bound = fitted_to_bound(columns, stribeck, refined.shape, refined.parameters, stage.mismatch());
-    ASSERT_TRUE(bound.has_value()) << refined.shape[0] << " of " << scan.grid.ranges[0].upper;
+    double const end = stribeck.shape_bounds(columns.scales())[0].upper;
+    Eigen::VectorXd const linear = Eigen::VectorXd::Constant(1, 0.8);
+    auto const bound = fitted_to_bound(columns, stribeck, std::vector<double>{end, 2.0}, linear, stage.mismatch());
+    ASSERT_TRUE(bound.has_value()) << end;
     EXPECT_EQ(bound->side, BoundSide::upper);
   }
 }
