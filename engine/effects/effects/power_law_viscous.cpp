@@ -23,8 +23,8 @@ class PowerLawViscous final : public InstantEffect {
                        .source = "Waiboer, Aarts, Jonker 2005",
                        .separated_by = "speeds spaced logarithmically, from creep to the fastest",
                        .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
-                                      law_at_both(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
-                                                                  Spacing::linear))},
+                                      law_at_lower(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
+                                                                   Spacing::linear))},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd}) {}
