@@ -82,9 +82,8 @@ def page(kind):
     import build
     import build_board
     path = FOLDER / f"{kind}.html"
-    path.write_text(
-        build_board.page(board.Board(result(kind))) if kind in make_board.KINDS else build.page(study(kind)), encoding="utf-8"
-    )
+    text = build_board.page(board.Board(result(kind))) if kind in make_board.KINDS else build.page(study(kind))
+    path.write_text(text, encoding="utf-8")
     return path
 
 
