@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 
+#include "engine/app/commands/command.hpp"
 #include "engine/app/help_page.hpp"
 #include "engine/base/version.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/app/commands/command.hpp"
+#include "engine/app/commands/chosen_command.hpp"
 
 namespace torquescope {
 

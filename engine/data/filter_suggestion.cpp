@@ -68,8 +68,9 @@ int digits_of(double value) {
   return digits;
 }
 
-// rate_hz / k between 2.5 and 4 times the parallel cut-off, with the fewest digits; 0 when k = 1
-double kept_rate(double rate_hz, double parallel_cutoff_hz) {
+}  // namespace
+
+double suggested_kept_rate(double rate_hz, double parallel_cutoff_hz) {
   constexpr double least = 2.5, most = 4.0, rounding = 1e-9;
   double best = 0.0;
   for (double k = std::floor(rate_hz / (least * parallel_cutoff_hz) * (1 + rounding)); k >= 2; --k) {
@@ -79,8 +80,6 @@ double kept_rate(double rate_hz, double parallel_cutoff_hz) {
   }
   return best;
 }
-
-}  // namespace
 
 FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
   using Limit = FilterSuggestion::Limit;
@@ -121,7 +120,7 @@ FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
   auto& options = suggestion.options;
   options.cutoff_hz = round_figure(cutoff_hz);
   options.parallel_cutoff_hz = options.cutoff_hz / 2;
-  options.decimate_to_hz = kept_rate(rate_hz, options.parallel_cutoff_hz);
+  options.decimate_to_hz = suggested_kept_rate(rate_hz, options.parallel_cutoff_hz);
   return suggestion;
 }
 

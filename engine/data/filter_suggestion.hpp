@@ -23,4 +23,7 @@ struct FilterSuggestion {
 // shortest_s: of all recordings that the filter is for
 FilterSuggestion suggest_filter(Recording const& recording, double shortest_s);
 
+// decimate_to_hz for a parallel cut-off: rate_hz / k between 2.5 and 4 times that, with the fewest digits; 0 when k = 1
+double suggested_kept_rate(double rate_hz, double parallel_cutoff_hz);
+
 }  // namespace torquescope

@@ -10,7 +10,9 @@
 #include "engine/health/finding_text.hpp"
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/diagnosis_result.hpp"
+#include "engine/run/diagnosis_standing.hpp"
 #include "engine/run/disk_room.hpp"
+#include "engine/run/provenance_writer.hpp"
 #include "engine/run/twin_folder.hpp"
 #include "engine/store/shard_lock.hpp"
 #include "engine/words/sentences.hpp"
@@ -19,38 +21,71 @@ namespace torquescope {
 
 namespace {
 
-// seconds of an update count from the stage's beginning
+// tells people, and the lock: seconds of an update count from the stage's beginning, those in the lock from the first
 class Stages {
  public:
-  Stages(ProgressSink const& progress, DiagnoseRequest const& request) : progress_(progress), request_(request) {}
+  Stages(ProgressSink const& progress, DiagnoseRequest const& request, Experiment const& experiment,
+         ShardLock const& lock)
+      : progress_(progress), request_(request), lock_(lock) {
+    standing_.job = experiment.name();
+    standing_.inputs_sha256 = experiment.inputs_sha256();
+    standing_.shard = static_cast<std::int64_t>(request.shard.index);
+    standing_.shards = static_cast<std::int64_t>(request.shard.count);
+    standing_.began = utc_now();
+    standing_.expected_seconds = request.expected_seconds;
+    tell_lock("prepare", 0, 0);
+  }
 
   void operator()(std::string const& stage, std::size_t done, std::size_t total) {
     if (request_.stop_requested && request_.stop_requested()) throw TwinsAbandoned();
     if (stage != stage_) start_ = Clock::now();
     stage_ = stage;
+    tell_lock(stage, done, total);
     if (!progress_) return;
     ProgressUpdate update;
     update.stage = stage;
-    update.counted = stage == "twins" ? "clean twins" : "effects";
-    update.runs_done = static_cast<std::int64_t>(done);
-    update.runs_total = static_cast<std::int64_t>(total);
-    update.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    update.counted = standing_.counted;
+    update.runs_done = standing_.done;
+    update.runs_total = standing_.total;
+    update.seconds = seconds_since(start_);
+    update.expected_seconds = request_.expected_seconds;
     progress_(update);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  void tell_lock(std::string const& stage, std::size_t done, std::size_t total) {
+    standing_.told = utc_now();
+    standing_.stage = stage;
+    standing_.counted = stage == "twins" ? "clean twins" : "effects";
+    standing_.done = static_cast<std::int64_t>(done);
+    standing_.total = static_cast<std::int64_t>(total);
+    standing_.seconds = seconds_since(began_);
+    lock_.say(standing_text(standing_));
+  }
+
   ProgressSink const& progress_;
   DiagnoseRequest const& request_;
+  ShardLock const& lock_;
+  DiagnosisStanding standing_{};
   std::string stage_;
-  Clock::time_point start_{};
+  Clock::time_point began_ = Clock::now(), start_{};
 };
+
+bool is_there(std::filesystem::path const& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
 
 // one diagnosis of several processes
 class Shard {
  public:
-  Shard(Experiment const& experiment, DiagnoseRequest const& request)
-      : result_(request.output), existed_(is_there()), lock_(request.output, request.shard), twins_([&] {
+  Shard(Experiment const& experiment, DiagnoseRequest const& request, bool existed)
+      : result_(request.output), existed_(existed), twins_([&] {
           TwinFolder::Setting setting;
           setting.result = request.output;
           setting.shard = request.shard;
@@ -63,17 +98,11 @@ class Shard {
 
   TwinFolder& twins() { return twins_; }
   // another one has published the result
-  bool is_finished() const { return !existed_ && is_there(); }
+  bool is_finished() const { return !existed_ && is_there(result_); }
 
  private:
-  bool is_there() const {
-    std::error_code ignored;
-    return std::filesystem::exists(result_, ignored);
-  }
-
   std::filesystem::path result_;
   bool existed_;
-  ShardLock lock_;
   TwinFolder twins_;
 };
 
@@ -119,11 +148,13 @@ Diagnosis diagnose_examined(Experiment const& experiment, DiagnosisInput const& 
 }  // namespace
 
 Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request, ProgressSink const& progress) {
+  bool const existed = is_there(request.output);
+  ShardLock const lock(request.output, request.shard);
   std::optional<Shard> shard;
-  if (request.shard.count > 1) shard.emplace(experiment, request);
+  if (request.shard.count > 1) shard.emplace(experiment, request, existed);
   check_room(request, diagnosis_bytes(experiment.parts()));
   JobInput const job(experiment.parts(), request.threads.count, shard ? &shard->twins() : nullptr);
-  Stages stages(progress, request);
+  Stages stages(progress, request, experiment, lock);
   StageSink const sink = [&](std::string const& stage, std::size_t done, std::size_t total) {
     if (shard && shard->is_finished()) throw TwinsAbandoned();
     stages(stage, done, total);
@@ -132,11 +163,9 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
     Diagnosis const diagnosis =
         diagnose_into_file(experiment, request, [&] { return diagnose_examined(experiment, job.input(), sink); });
     if (shard && request.tell) request.tell("shard", shard->twins().account());
-    // also those of shards that were killed, when one process made it all in the end
-    if (shard || twin_parts_in(segment_folder_of(request.output)) > 0)
-      for (auto const& warning : remove_segments(request.output, experiment.inputs_sha256()))
-        if (request.tell) request.tell("warning", warning);
-    remove_unfinished(request.output);
+    // also what killed shards left, when one process made it all in the end
+    for (auto const& warning : remove_segments(request.output, experiment.inputs_sha256()))
+      if (request.tell) request.tell("warning", warning);
     return diagnosis;
   } catch (TwinsAbandoned const&) {
     throw stopped(request, shard ? &*shard : nullptr);

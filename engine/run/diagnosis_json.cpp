@@ -1,5 +1,6 @@
 #include "engine/run/diagnosis_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -38,41 +39,43 @@ Json region_json(MismatchRegion const& region) {
           {"repeatable_share", number(region.repeatable_share)}};
 }
 
-// below the smallest p that can be counted: the tail of the twins, continued
-Json beyond_counting(double p, std::size_t twins) {
-  return twins > 0 && p < 1.0 / static_cast<double>(twins + 1) * (1.0 - 1e-9);
+// p as the screen, the page and the Python reader have it: no replicate reached it where it is a bound, and below that
+// bound there is only their tail, continued
+void add_p(Json& to, double p, bool is_bound, std::size_t replicates) {
+  double const least = least_p(replicates);
+  to["p"] = number(std::max(p, least));
+  to["p_is_bound"] = is_bound || p <= least * (1.0 + 1e-9);
+  to["p_extrapolated"] = number(p);
 }
 
-Json effect_json(NamedEffect const& effect, std::size_t twins) {
-  return {{"name", effect.name},
-          {"family", effect.family},
-          {"acts_on", effect.acts_on},
-          {"equivalent", effect.equivalent},
-          {"p", number(effect.p)},
-          {"p_is_extrapolated", beyond_counting(effect.p, twins)},
-          {"q", number(effect.q)},
-          {"z", number(effect.z)},
-          {"gain",
-           {{"train", number(effect.gain.train)},
-            {"cv", number(effect.gain.cv)},
-            {"validation", number(effect.gain.validation)}}},
-          {"region",
-           {{"axis", effect.region.axis}, {"from", number(effect.region.from)}, {"to", number(effect.region.to)}}},
-          {"parameters", list(effect.parameters, parameter_json)},
-          {"sentence", effect.sentence}};
+Json effect_json(NamedEffect const& effect, std::size_t replicates) {
+  Json made = {{"name", effect.name},
+               {"family", effect.family},
+               {"acts_on", effect.acts_on},
+               {"equivalent", effect.equivalent}};
+  add_p(made, effect.p, effect.p_is_bound, replicates);
+  made.update({{"q", number(effect.q)},
+               {"z", number(effect.z)},
+               {"gain",
+                {{"train", number(effect.gain.train)},
+                 {"cv", number(effect.gain.cv)},
+                 {"validation", number(effect.gain.validation)}}},
+               {"region",
+                {{"axis", effect.region.axis}, {"from", number(effect.region.from)}, {"to", number(effect.region.to)}}},
+               {"parameters", list(effect.parameters, parameter_json)},
+               {"sentence", effect.sentence}});
+  return made;
 }
 
-Json candidate_json(Candidate const& candidate, std::size_t twins) {
-  return {{"name", candidate.name},
-          {"family", candidate.family},
-          {"decision", word(candidate.decision)},
-          {"reason", candidate.reason},
-          {"z", number(candidate.z)},
-          {"p", number(candidate.p)},
-          {"p_is_extrapolated", beyond_counting(candidate.p, twins)},
-          {"q", number(candidate.q)},
-          {"gain", number(candidate.gain)},
-          {"cv_gain", number(candidate.cv_gain)}};
+Json candidate_json(Candidate const& candidate, std::size_t replicates) {
+  Json made = {{"name", candidate.name},
+               {"family", candidate.family},
+               {"decision", word(candidate.decision)},
+               {"reason", candidate.reason},
+               {"z", number(candidate.z)}};
+  add_p(made, candidate.p, false, replicates);
+  made.update({{"q", number(candidate.q)}, {"gain", number(candidate.gain)}, {"cv_gain", number(candidate.cv_gain)}});
+  return made;
 }
 
 Json unexplained_json(UnexplainedPart const& part) {

@@ -8,6 +8,7 @@
 #include "engine/base/digest.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
+#include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/search_box.hpp"
 #include "kernels/dispatch.hpp"
@@ -239,6 +240,11 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     lines.push_back({Level::ok, "diagnosis",
                      fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),
                                  counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"))});
+  if (parts_->job.find("diagnose") != nullptr || parts_->estimators.empty()) {
+    auto const size = diagnosis_size(*parts_);
+    lines.push_back({Level::ok, "diagnosis", estimate_words(size, estimate_diagnosis(size, threads))});
+    if (auto const fewer = decimation_proposal(*parts_, threads)) lines.push_back({Level::note, "diagnosis", *fewer});
+  }
   if (std::string const words = ablation_words(parts_->diagnose); !words.empty())
     lines.push_back({Level::warn, "diagnosis", words});
   if (parts_->estimators.empty()) return lines;

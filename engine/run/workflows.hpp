@@ -15,6 +15,7 @@
 #include "engine/base/parallel.hpp"
 #include "engine/data/finding.hpp"
 #include "engine/job/job.hpp"
+#include "engine/run/progress_update.hpp"
 #include "engine/store/segment_folder.hpp"
 #include "engine/store/written_result.hpp"
 #include "engine/verdict/diagnosis.hpp"
@@ -71,16 +72,6 @@ class Experiment {
   explicit Experiment(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
-
-// told from worker threads, one call at a time
-struct ProgressUpdate {
-  std::string stage;  // estimator's name
-  std::int64_t runs_done = 0, runs_total = 0;
-  std::int64_t evaluations_done = 0, evaluations_total = 0;
-  double seconds = 0.0;          // since the stage began
-  std::string counted = "runs";  // what is counted as runs: "twins", "effects"
-};
-using ProgressSink = std::function<void(ProgressUpdate const&)>;
 
 struct IdentifyOptions {
   ThreadChoice threads{};
@@ -154,6 +145,7 @@ struct DiagnoseRequest {
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
   bool allow_full_disk = false;  // begin although the result does not seem to fit
   ShardChoice shard{};           // of the twins; every shard makes the whole result
+  double expected_seconds = 0.0;  // of the estimate, for progress; 0: none
 };
 
 // Finds the physics that the job's model lacks and writes the result file; stages "twins", "search", "verify". With

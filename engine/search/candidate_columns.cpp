@@ -76,11 +76,30 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
                                                    std::vector<std::vector<double>> const& shapes) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
   auto const count = static_cast<Eigen::Index>(shapes.size());
-  bool const on_rows = is_fixed_frequency(effect);
-  Eigen::MatrixXd all(on_rows ? record_->torque.size() : record_->motion.q.size(), linear * count);
-  EffectInput const input = on_rows ? EffectInput{row_motion_, reference_.scales} : input_of(effect);
-  effect.columns_of_shapes(input, shapes, all);
-  return on_rows ? all : pipeline_->filtered_columns(all, *record_);
+  if (is_fixed_frequency(effect)) {
+    Eigen::MatrixXd all(record_->torque.size(), linear * count);
+    effect.columns_of_shapes({row_motion_, reference_.scales}, shapes, all);
+    return all;
+  }
+  // of a long recording a few at a time at the full rate: only their rows are kept
+  constexpr Eigen::Index enough_columns = 8, most_numbers = 1'000'000;
+  auto const n = record_->motion.q.size();
+  Eigen::Index const columns_at_once = std::max(enough_columns, most_numbers / n);
+  Eigen::Index const at_once = std::max<Eigen::Index>(1, columns_at_once / linear);
+  EffectInput const input = input_of(effect);
+  if (at_once >= count) {
+    Eigen::MatrixXd all(n, linear * count);
+    effect.columns_of_shapes(input, shapes, all);
+    return pipeline_->filtered_columns(all, *record_);
+  }
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(record_->kept_rows.size()), linear * count);
+  for (Eigen::Index first = 0; first < count; first += at_once) {
+    Eigen::Index const now = std::min(at_once, count - first);
+    Eigen::MatrixXd some(n, linear * now);
+    effect.columns_of_shapes(input, {shapes.begin() + first, shapes.begin() + first + now}, some);
+    rows.middleCols(linear * first, linear * now) = pipeline_->filtered_columns(some, *record_);
+  }
+  return rows;
 }
 
 Eigen::MatrixXd CandidateColumns::columns_of(Effect const& effect,

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <utility>
@@ -39,10 +40,14 @@ fs::path made(fs::path folder) {
 }
 
 std::string words_in(int descriptor) {
-  char text[300] = {};
+  char text[1000] = {};
   ssize_t const size = ::pread(descriptor, text, sizeof(text) - 1, 0);
   return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "a process that does not say its name";
 }
+
+std::string first_line(std::string const& words) { return words.substr(0, words.find('\n')); }
+
+bool is_lock_name(std::string const& name) { return name.starts_with("shard-") && name.ends_with(".lock"); }
 
 }  // namespace
 
@@ -69,7 +74,7 @@ ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard)
   }
   Held const held = take(descriptor_);
   if (held == Held::by_another) {
-    std::string const who = words_in(descriptor_);
+    std::string const who = first_line(words_in(descriptor_));
     ::close(descriptor_);
     throw Error(Problem{
         .code = ExitCode::exists,
@@ -78,10 +83,37 @@ ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard)
                             result.string(), who),
         .help = fmt::format("wait for it, or stop it; torquescope status {} says how far it is", result.string())});
   }
-  // a hint for people: nobody reads it but the message above
-  std::string const who = fmt::format("{}{} on {}", lock_words, ::getpid(), host_name());
-  [[maybe_unused]] bool const said =
-      ::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, who.data(), who.size(), 0) > 0;
+  // a hint for people: nobody reads it but the message above and `status`
+  who_ = fmt::format("{}{} on {}", lock_words, ::getpid(), host_name());
+  say("");
+}
+
+void ShardLock::say(std::string const& text) const {
+  if (descriptor_ < 0) return;
+  std::string const words = text.empty() ? who_ : who_ + "\n" + text;
+  // its length last: who looks in between sees the end of what was said before, and never half a name
+  [[maybe_unused]] bool const said = ::pwrite(descriptor_, words.data(), words.size(), 0) > 0 &&
+                                     ::ftruncate(descriptor_, static_cast<off_t>(words.size())) == 0;
+}
+
+std::vector<LockWords> locks_in(fs::path const& segment_folder) {
+  std::vector<LockWords> found;
+  std::error_code ignored;
+  if (fs::is_symlink(segment_folder, ignored)) return found;
+  OwnFolder const folder(segment_folder);
+  for (auto const& name : folder.names()) {
+    if (!is_lock_name(name)) continue;
+    int const descriptor = folder.open(name, O_RDONLY | O_NONBLOCK);
+    if (descriptor < 0) continue;
+    if (is_a_lock(descriptor)) {
+      std::string const words = words_in(descriptor);
+      std::size_t const end = std::min(words.find('\n'), words.size());
+      bool const is_held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+      found.push_back({words.substr(0, end), end < words.size() ? words.substr(end + 1) : "", is_held});
+    }
+    ::close(descriptor);
+  }
+  return found;
 }
 
 ShardLock::~ShardLock() {

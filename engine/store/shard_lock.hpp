@@ -3,13 +3,15 @@
 // on it: segments have names of their own (segment_folder.hpp), so what two processes write is safe with it and without
 // it.
 //
-// File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; it says who that is
+// File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; its first line says who
+// that is, the rest is what say() was told last
 // Locks      where there are none (some network file systems), or where the file cannot be made, both go on
 // Errors     73 when a living process holds it, or the folder is not ours (own_folder.hpp)
 // Threads    one at a time
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/store/own_folder.hpp"
 #include "engine/store/segment_folder.hpp"
@@ -27,10 +29,22 @@ class ShardLock {
   ShardLock(ShardLock const&) = delete;
   ShardLock& operator=(ShardLock const&) = delete;
 
+  // below the first line, for whoever looks at the lock; a disk that fails is told of by those who must write
+  void say(std::string const& text) const;
+
  private:
   OwnFolder folder_;
   std::string file_;
+  std::string who_;
   int descriptor_ = -1;
 };
+
+// a lock as it stands in a folder of segments
+struct LockWords {
+  std::string who;        // "process 4711 on node7"
+  std::string said;       // "" when its process told nothing
+  bool is_alive = false;  // its process holds it: known on this host, and where the file system knows locks
+};
+std::vector<LockWords> locks_in(std::filesystem::path const& segment_folder);
 
 }  // namespace torquescope

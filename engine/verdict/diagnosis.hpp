@@ -219,6 +219,11 @@ struct JointDiagnosis {
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };
 
+// the smallest p that counting this many replicates can give: none reached the recording's value; 0 without replicates
+inline double least_p(std::size_t replicates) {
+  return replicates > 0 ? 1.0 / static_cast<double>(replicates + 1) : 0.0;
+}
+
 // "joint 1", or "the joint of q5_rad" where its position column is known
 std::string which_joint(JointDiagnosis const& joint);
 // whether the rows that were looked at hold less than half of the residual's energy: of unseen rows, else of training

@@ -39,10 +39,6 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-double least_p(JointDiagnosis const& joint) {
-  return joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
-}
-
 // the linear parameters: those the effect's size is proportional to; all of them when the catalogue lacks the effect
 std::vector<ParameterEstimate> linear_parameters(NamedEffect const& effect) {
   Effect const* known = find_effect(effect.name);
@@ -147,7 +143,7 @@ std::string finding_clause(JointDiagnosis const& joint, NamedEffect const& effec
 
 // "Stribeck friction (p < 0.005; presliding cannot be excluded)"
 std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
-  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint));
+  std::string const p = p_text(effect.p, effect.p_is_bound, least_p(joint.twins));
   if (one_of_class && !effect.equivalent.empty()) {
     std::vector<std::string> names{effect.name};
     names.insert(names.end(), effect.equivalent.begin(), effect.equivalent.end());

@@ -92,6 +92,17 @@ endif()
 # what preset tsan builds and runs: the tests labelled `threads`
 add_custom_target(threaded_tests)
 
+# only_in_full(TARGETS a b TESTS c d): neither built nor run unless somebody asks (scripts/test --full, presets full)
+add_custom_target(full_tests)
+function(only_in_full)
+  cmake_parse_arguments(FULL "" "" "TARGETS;TESTS" ${ARGN})
+  foreach(target IN LISTS FULL_TARGETS)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(full_tests ${target})
+  endforeach()
+  set_property(TEST ${FULL_TESTS} APPEND PROPERTY LABELS full)
+endfunction()
+
 # test_program(TARGET SOURCE...): a program of tests, whatever they test
 function(test_program target)
   add_executable(${target} ${ARGN})

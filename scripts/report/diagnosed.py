@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 import quantities as q
+from read_diagnosis import least_p
 
 AXES = {
     "velocity": "velocity", "position": "position", "acceleration": "acceleration", "load": "load",
@@ -142,18 +143,24 @@ def quiet_rival(joint, effect, shown=()):
     return (max(quiet.values(), key=lambda row: np.nan_to_num(row.p)), None) if quiet else (None, None)
 
 
-def least_p(joint):
-    """The smallest p that this many twins can show."""
-    return 1 / (joint.twins + 1) if joint.twins else 0.0
-
-
-def p_cell(p, joint, is_bound=False):
+def p_cell(p, is_bound):
     """At most two digits; never zero."""
     if not math.isfinite(p):
         return "–"
-    if is_bound or p <= least_p(joint) * (1 + 1e-9):
-        return f"<{q.number(max(p, least_p(joint)), 1)}"
-    return q.number(p, 2)
+    return f"<{q.number(_rounded_up(p), 1)}" if is_bound else q.number(p, 2)
+
+
+def counted_p_cell(p, replicates):
+    """Of a p that is stored without the word whether it is a bound."""
+    least = least_p(replicates)
+    return p_cell(max(p, least), p <= least * (1 + 1e-9)) if math.isfinite(p) else "–"
+
+
+def _rounded_up(bound):
+    """One digit, never below the bound: 1/401 is below 0.003, as the terminal says."""
+    bound = max(bound, 1e-6)
+    step = 10.0 ** math.floor(math.log10(bound))
+    return math.ceil(bound / step * (1 - 1e-9)) * step
 
 
 def twins_as_far(joint):

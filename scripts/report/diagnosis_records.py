@@ -74,7 +74,9 @@ class Candidate:
     decision: str  # "named", "class", "measurement", "no", "not tested"
     reason: str
     z: float
-    p: float
+    p: float  # at least what this many replicates can count
+    p_is_bound: bool  # no replicate reached it
+    p_extrapolated: float  # the tail of the replicates, continued below that
     q: float
     gain: float
     cv_gain: float
@@ -100,8 +102,9 @@ class NamedEffect:
     equation: str
     acts_on: str
     equivalent: list
-    p: float
+    p: float  # as of a Candidate
     p_is_bound: bool
+    p_extrapolated: float
     q: float
     z: float
     gain_train: float

@@ -39,8 +39,8 @@ def _joint(group):
         baseline=_parameters(group.get("baseline")),
         augmented=_parameters(group.get("augmented")),
         map=_map(group.get("map")),
-        candidates=_rows(group.get("candidates"), Candidate, _CANDIDATE_COLUMNS),
-        effects=[_effect(one) for one in _numbered(group.get("effects"), "effect")],
+        candidates=_candidates(group.get("candidates"), said["twins"]),
+        effects=[_effect(one, said["twins"]) for one in _numbered(group.get("effects"), "effect")],
         unexplained=_unexplained(group.get("unexplained")),
         advice=[
             Advice(one.lacks, one.get("would_separate", [])) for one in _numbered(group.get("excitation"), "advice")
@@ -52,6 +52,26 @@ def _joint(group):
 
 
 _CANDIDATE_COLUMNS = {"name": "names", "family": "families", "decision": "decisions", "reason": "reasons"}
+
+
+def least_p(replicates):
+    """The smallest p that counting this many replicates can give; 0 without."""
+    return 1 / (replicates + 1) if replicates else 0.0
+
+
+def _counted(p, is_bound, replicates):
+    """p, p_is_bound, p_extrapolated: as the JSON of the diagnosis has them."""
+    least = least_p(replicates)
+    return {"p": max(p, least), "p_is_bound": bool(is_bound) or p <= least * (1 + 1e-9), "p_extrapolated": p}
+
+
+def _candidates(group, replicates):
+    if group is None:
+        return []
+    names = [name for name in Candidate.__dataclass_fields__ if name not in ("p_is_bound", "p_extrapolated")]
+    arrays = (getattr(group, _CANDIDATE_COLUMNS.get(name, name)).tolist() for name in names)
+    rows = (dict(zip(names, values)) for values in zip(*arrays))
+    return [Candidate(**{**row, **_counted(row["p"], False, replicates)}) for row in rows]
 
 
 def _numbered(group, name):
@@ -122,10 +142,10 @@ def _interval(group, name):
     return Interval(*(group.attributes()[f"{name}_{part}"] for part in ("axis", "from", "to", "unit")))
 
 
-def _effect(group):
+def _effect(group, replicates):
     plain = {name: group.get(name, "") for name in ("name", "family", "title", "equation", "acts_on", "sentence")}
     numbers = {name: group.get(name, UNKNOWN) for name in
-               ("p", "q", "z", "gain_train", "gain_cv", "gain_validation", "region_gain", "rms", "peak")}
+               ("q", "z", "gain_train", "gain_cv", "gain_validation", "region_gain", "rms", "peak")}
     region, curve = _interval(group, "region"), None
     places = [region]
     if "places" in group:
@@ -138,7 +158,7 @@ def _effect(group):
         **plain,
         **numbers,
         equivalent=group.get("equivalent", []),
-        p_is_bound=bool(group.get("p_is_bound", 0)),
+        **_counted(group.get("p", UNKNOWN), group.get("p_is_bound", 0), replicates),
         region=region,
         places=places,
         parameters=_parameters(group.get("parameters")),

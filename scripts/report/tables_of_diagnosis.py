@@ -13,17 +13,22 @@ MARKS = {"named": "●", "class": "◍", "measurement": "✕", "no": "○", "not
 
 
 def candidates(joint):
-    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. Strongest
-    first; what was not tested is none of the strongest and comes last."""
+    """One dict of words per candidate, with the pixels of its dot: `chance` and `z` count from the left edge. What is
+    named first, then by p as it is shown, equal ones by z; what was not tested comes last."""
     scale = (DOTS_WIDTH - 12) / max(
         [1.0] + [value for one in joint.candidates for value in (one.z, one.chance_z) if math.isfinite(value)]
     )
-    return [
-        _candidate(one, joint, scale) for one in sorted(joint.candidates, key=lambda one: one.decision == "not tested")
-    ]
+    return [_candidate(one, scale) for one in sorted(joint.candidates, key=_rank)]
 
 
-def _candidate(one, joint, scale):
+def _rank(one):
+    """As engine/app/result/candidate_text.cpp."""
+    groups = {"not tested": 2, "no": 1}
+    p, z = (value if math.isfinite(value) else worst for value, worst in ((one.p, math.inf), (one.z, -math.inf)))
+    return groups.get(one.decision, 0), p, -z
+
+
+def _candidate(one, scale):
     tested = one.decision != "not tested" and math.isfinite(one.z)
     pixels = lambda value: round(6 + max(value, 0.0) * scale, 1)  # noqa: E731
     return {
@@ -35,7 +40,7 @@ def _candidate(one, joint, scale):
         "chance": pixels(one.chance_z) if math.isfinite(one.chance_z) else None,
         "z_pixel": pixels(one.z) if tested else None,
         "z": q.fixed(one.z, 1) if tested else "–",
-        "p": diagnosed.p_cell(one.p, joint) if tested else "–",
+        "p": diagnosed.p_cell(one.p, one.p_is_bound) if tested else "–",
         "q": _q(one.q) if tested else "–",
         "cv_gain": f"{q.fixed(100 * one.cv_gain, 1)} %" if 0 < one.cv_gain <= 1 else diagnosed.share_words(one.cv_gain),
     }

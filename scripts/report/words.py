@@ -9,6 +9,7 @@ import numpy as np
 import quantities as q
 
 ARRIVED = 1e-3  # of the MSE: a search this close has the optimum to three digits
+CLOSE_CORRELATION = 0.95  # worth a remark (engine/problem/regressor_health.cpp)
 Z95 = 1.959964  # normal quantile of the stored ci95
 
 
@@ -139,7 +140,11 @@ def health_answer(study):
         said += (f"; strongest correlation of two columns {q.fixed(study.health.correlation[i][j], 2)} "
                  f"({names[i]} with {names[j]})")
     words = study.health.words
-    return said + "." + (f" {words[0].upper()}{words[1:].rstrip('.')}." if words else " Nothing to warn of.")
+    if words:
+        return f"{said}. {words[0].upper()}{words[1:].rstrip('.')}."
+    if correlation.max() >= CLOSE_CORRELATION:
+        return said + ": what both make together is known better than either value."
+    return said + ". Nothing to warn of."
 
 
 def fit_answer(study):

@@ -127,9 +127,10 @@ def map_answer(joint):
 def candidates_answer(joint):
     tested = sum(one.decision != "not tested" for one in joint.candidates)
     named = [one for one in joint.candidates if one.decision == "named"]
-    said = f"{q.count(tested, 'candidate')} tested, strongest first" if tested else "No candidate was tested"
-    if tested and not named:
-        said += "; none is named"
+    said = "No candidate was tested"
+    if tested:
+        said = (f"{q.count(tested, 'candidate')} tested, smallest p first, equal p by z; "
+                + ("what is named stands on top" if named else "none is named"))
     return (
         f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on "
         "blocks of "
@@ -187,7 +188,7 @@ def title(effect):
 
 def effect_line(joint, effect):
     """The evidence for one effect in one line."""
-    p = diagnosed.p_cell(effect.p, joint, effect.p_is_bound)
+    p = diagnosed.p_cell(effect.p, effect.p_is_bound)
     said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
     gains = [
         (effect.gain_train, "in training"),

@@ -8,18 +8,11 @@
 #include <functional>
 #include <string>
 
+#include "engine/app/commands/chosen_command.hpp"
 #include "engine/app/session.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
-
-using CommandWork = std::function<ExitCode(Session const&)>;
-
-// what parsing found: options of every command, and the work of the one that was chosen
-struct ChosenCommand {
-  SessionOptions session{};
-  CommandWork work{};
-};
 
 void add_run(CLI::App& app, ChosenCommand& chosen);
 // `diagnose` does the work: the program's is diagnose() of run/workflows.hpp, tests bring their own

@@ -22,6 +22,7 @@
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/base/quantity_text.hpp"
+#include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/diagnosis_json.hpp"
 #include "engine/run/diagnosis_reader.hpp"
 
@@ -144,6 +145,12 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   request.allow_full_disk = arguments.allow_full_disk;
   request.shard = shard;
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
+  DiagnosisSize const size = diagnosis_size(experiment.parts());
+  DiagnosisEstimate const estimate = estimate_diagnosis(size, request.threads.count);
+  request.expected_seconds = estimate.seconds;
+  session.note(session.topic_line("size", estimate_words(size, estimate)));
+  if (auto const fewer = decimation_proposal(experiment.parts(), request.threads.count))
+    session.note(session.topic_line("warning", *fewer));
   install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken,
                        shard.count > 1 ? words_of_shard : words_of_one);
   if (shard.count > 1)

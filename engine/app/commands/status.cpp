@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,8 @@
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/quantity_text.hpp"
+#include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/diagnosis_standing.hpp"
 
 namespace torquescope {
 
@@ -73,6 +76,7 @@ std::string status_json(JobStatus const& status, fs::path const& result, bool co
   Json const document = {{"schema", 1},
                          {"file", result.string()},
                          {"complete", complete},
+                         {"kind", "run"},
                          {"job", {{"name", status.job_name}, {"sha256", status.job_sha256}}},
                          {"segment_bytes", status.bytes},
                          {"estimators", estimators},
@@ -81,11 +85,80 @@ std::string status_json(JobStatus const& status, fs::path const& result, bool co
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string standing_line(DiagnosisStanding const& one) {
+  std::string line = one.shards > 1 ? fmt::format("shard {}/{}, ", one.shard, one.shards) : "";
+  line += fmt::format("{}: {}, {} since it began", printable(one.who), one.is_alive ? "at work" : "not alive here",
+                      seconds_text(one.seconds));
+  if (one.expected_seconds > 0.0) line += fmt::format(" of about {}", seconds_text(one.expected_seconds));
+  std::string const counted =
+      one.total > 0 ? fmt::format(" ({} of {} {})", one.done, one.total, printable(one.counted)) : std::string();
+  return line + fmt::format("; stage {}{}, told {}", printable(one.stage), counted, printable(one.told));
+}
+
+std::string diagnosis_status_text(std::vector<DiagnosisStanding> const& standings, std::size_t parts,
+                                  fs::path const& result, Ink const& ink) {
+  std::string const name = ink.name(printable(result.string()));
+  std::string text = fmt::format("{} is not finished: a diagnosis{}\n", name,
+                                 standings.empty() ? "" : ", job " + printable(standings.front().job));
+  for (auto const& one : standings) text += hanging("  ", standing_line(one));
+  if (parts > 0)
+    text += fmt::format("  {} parts of its twins are safe in {}\n", parts,
+                        printable(segment_folder_of(result).string()));
+  bool const is_dead = std::none_of(standings.begin(), standings.end(), [](auto const& one) { return one.is_alive; });
+  if (is_dead)
+    text += fmt::format("  no process of this host is at it; the same command {}\n",
+                        parts > 0 ? "goes on with the twins that are safe" : "begins anew");
+  return text;
+}
+
+std::string diagnosis_status_json(std::vector<DiagnosisStanding> const& standings, std::size_t parts,
+                                  fs::path const& result) {
+  Json processes = Json::array();
+  for (auto const& one : standings)
+    processes.push_back({{"shard", one.shard},
+                         {"shards", one.shards},
+                         {"process", one.who},
+                         {"alive_here", one.is_alive},
+                         {"began", one.began},
+                         {"told", one.told},
+                         {"stage", one.stage},
+                         {"counted", one.counted},
+                         {"done", one.done},
+                         {"total", one.total},
+                         {"seconds", one.seconds},
+                         {"expected_seconds", one.expected_seconds}});
+  Json const document = {{"schema", 1},
+                         {"file", result.string()},
+                         {"complete", false},
+                         {"kind", "diagnosis"},
+                         {"job", {{"name", standings.empty() ? "" : standings.front().job}}},
+                         {"twin_parts", parts},
+                         {"processes", processes}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitCode show_complete_diagnosis(fs::path const& result, ResultSummary const& summary, Session const& session) {
+  look_at_result(result, [](ResultReader const& there) { read_diagnosis(there); });
+  Diagnosis const diagnosis = read_diagnosis(ResultReader(result));
+  session.result(fmt::format("{} is complete: a diagnosis, job {}, verdict {}   (torquescope show {})\n",
+                             printable(result.string()), printable(summary.name), word(diagnosis.verdict),
+                             printable(result.string())));
+  Json const document = {{"schema", 1},
+                         {"file", result.string()},
+                         {"complete", true},
+                         {"kind", "diagnosis"},
+                         {"job", {{"name", summary.name}, {"sha256", summary.job_sha256}}},
+                         {"verdict", word(diagnosis.verdict)}};
+  session.document(document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return ExitCode::ok;
+}
+
 ExitCode show_status(std::string const& name, Session const& session) {
   fs::path const result = result_of(name), folder = segment_folder_of(result);
   bool const has_segments = fs::is_directory(folder);
   if (fs::exists(result)) {
     ResultSummary const summary = read_summary(result);
+    if (summary.has_diagnosis) return show_complete_diagnosis(result, summary, session);
     if (!summary.is_partial() || !has_segments) {
       JobStatus status;
       status.job_name = summary.name;
@@ -99,10 +172,10 @@ ExitCode show_status(std::string const& name, Session const& session) {
       return ExitCode::ok;
     }
   }
-  if (std::size_t const parts = twin_parts_in(folder); parts > 0) {
-    session.result(fmt::format("{} is under way, a diagnosis: {} parts of its twins are safe in {}\n",
-                               printable(result.string()), parts, printable(folder.string())));
-    session.document(status_json({}, result, false));
+  auto const standings = standings_in(folder);
+  if (std::size_t const parts = twin_parts_in(folder); parts > 0 || !standings.empty()) {
+    session.result(diagnosis_status_text(standings, parts, result, session.result_ink()));
+    session.document(diagnosis_status_json(standings, parts, result));
     return ExitCode::ok;
   }
   JobStatus const status = has_segments ? read_status(folder) : JobStatus{};
@@ -110,7 +183,8 @@ ExitCode show_status(std::string const& name, Session const& session) {
     return Problem{
         .code = ExitCode::no_input,
         .what = fmt::format("there is neither {} nor a segment in {}", result.string(), folder.string()),
-        .help = "a job writes its first segment after 20 s (run --save-every), a shorter one only its result"};
+        .help = "a run writes its first segment after 20 s (run --save-every), a diagnosis says how far it is from its "
+                "beginning"};
   });
   session.result(status_text(status, result, session.result_ink()));
   session.document(status_json(status, result, false));
@@ -122,7 +196,7 @@ ExitCode show_status(std::string const& name, Session const& session) {
 void add_status(CLI::App& app, ChosenCommand& chosen) {
   auto const name = std::make_shared<std::string>();
   CLI::App* command =
-      app.add_subcommand("status", "Says how far a job is, living or dead, from its segments; changes nothing.");
+      app.add_subcommand("status", "Says how far a run or a diagnosis is, living or dead; changes nothing.");
   command->footer(
       "  torquescope status lab.h5\n"
       "  torquescope status lab.h5.parts --json -\n"

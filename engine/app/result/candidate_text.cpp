@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,15 +25,31 @@ std::string q_cell(double q) {
   return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
 }
 
-// in the joint's order
+bool is_tested(Candidate const& one) { return one.decision != Decision::not_tested; }
+bool is_taken(Candidate const& one) { return is_tested(one) && one.decision != Decision::rejected; }
+
+// by columns that are shown: what was taken, then the smallest p that counts, equal ones by z; as the page
+// (scripts/report/tables_of_diagnosis.py)
+std::vector<Candidate const*> in_order(JointDiagnosis const& joint) {
+  double const least = least_p(joint.twins);
+  auto const rank = [least](Candidate const& one) {
+    double const p = std::isfinite(one.p) ? std::max(one.p, least) : 2.0;
+    double const z = std::isfinite(one.z) ? one.z : std::numeric_limits<double>::lowest();
+    return std::tuple(is_taken(one) ? 0 : is_tested(one) ? 1 : 2, p, -z);
+  };
+  std::vector<Candidate const*> ordered;
+  for (auto const& one : joint.candidates) ordered.push_back(&one);
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [&](auto const* a, auto const* b) { return rank(*a) < rank(*b); });
+  return ordered;
+}
+
 std::vector<Candidate const*> shown_of(JointDiagnosis const& joint, bool all) {
   std::vector<Candidate const*> shown;
-  std::size_t strongest = 0;
-  for (auto const& one : joint.candidates) {
-    bool const is_tested = one.decision != Decision::not_tested;
-    bool const is_taken = is_tested && one.decision != Decision::rejected;
-    if (all || is_taken || (is_tested && strongest < candidates_shown)) shown.push_back(&one);
-    strongest += is_tested ? 1 : 0;
+  std::size_t tested = 0;
+  for (auto const* one : in_order(joint)) {
+    if (all || is_taken(*one) || (is_tested(*one) && tested < candidates_shown)) shown.push_back(one);
+    tested += is_tested(*one) ? 1 : 0;
   }
   return shown;
 }
@@ -56,7 +74,7 @@ bool is_cross_validated(Candidate const* one) { return std::isfinite(one->cv_gai
 
 std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> const& shown, bool with_family) {
   using Align = TextTable::Align;
-  double const least_p = joint.twins > 0 ? 1.0 / static_cast<double>(joint.twins + 1) : 0.0;
+  double const least = least_p(joint.twins);
   std::vector<Align> columns{Align::left,  Align::left,  Align::right, Align::right,
                              Align::right, Align::right, Align::left};
   bool const with_cv = std::any_of(shown.begin(), shown.end(), is_cross_validated);
@@ -72,10 +90,10 @@ std::string table_of(JointDiagnosis const& joint, std::vector<Candidate const*> 
   auto const reasons = reasons_of(shown, Decision::rejected);
   row({"effect", "family", "z", "p", "q", "CV gain", ""});
   for (auto const* one : shown) {
-    bool const tested = one->decision != Decision::not_tested;
+    bool const tested = is_tested(*one);
     row({printable(one->name), printable(one->family),
          tested && std::isfinite(one->z) ? fmt::format("{:.1f}", one->z) : "",
-         tested ? p_cell(one->p, false, least_p) : "", tested ? q_cell(one->q) : "", cv_gain_cell(one->cv_gain),
+         tested ? p_cell(one->p, false, least) : "", tested ? q_cell(one->q) : "", cv_gain_cell(one->cv_gain),
          decision_cell(*one, reasons)});
   }
   // wide enough for any cell: what is too long for the page is decided by the caller, not by wrapping

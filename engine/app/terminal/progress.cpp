@@ -72,10 +72,17 @@ std::optional<double> seconds_left(ProgressUpdate const& update) {
   return update.seconds * std::max(0.0, total - done) / done;
 }
 
-std::string progress_line(ProgressUpdate const& update) {
+std::optional<double> seconds_left_in_all(ProgressUpdate const& update, double seconds_in_all) {
+  double const left = update.expected_seconds - seconds_in_all;
+  if (seconds_in_all < estimate_after_seconds || left < 1.0) return std::nullopt;
+  return left;
+}
+
+std::string progress_line(ProgressUpdate const& update, double seconds_in_all) {
   std::string line = fmt::format("progress stage={} runs={}/{} evals={}/{}", printable(update.stage), update.runs_done,
                                  update.runs_total, update.evaluations_done, update.evaluations_total);
-  if (auto const left = seconds_left(update)) line += fmt::format(" eta_s={:.0f}", std::ceil(*left));
+  auto const left = seconds_left_in_all(update, seconds_in_all);
+  if (auto const known = left ? left : seconds_left(update)) line += fmt::format(" eta_s={:.0f}", std::ceil(*known));
   return line + "\n";
 }
 
@@ -105,6 +112,8 @@ std::string waiting_bar(ProgressUpdate const& update, double seconds_in_all, int
   tail += "   " + clock_text(std::floor(update.seconds));
   if (seconds_in_all > update.seconds + worth_saying)
     tail += fmt::format(", {} in all", clock_text(std::floor(seconds_in_all)));
+  if (auto const left = seconds_left_in_all(update, seconds_in_all))
+    tail += fmt::format(", about {} left", clock_text(*left));
   int const cells = std::clamp(width - 1 - columns_of(lead) - columns_of(tail), 0, 32);
   int const turn = std::max(1, 2 * (cells - block));
   int const step = static_cast<int>(std::fmod(update.seconds * columns_per_second, turn));
@@ -124,6 +133,7 @@ ProgressPrinter::ProgressPrinter(Settings settings) : settings_(std::move(settin
 void ProgressPrinter::operator()(ProgressUpdate const& update) {
   if (settings_.style == ProgressStyle::none) return;
   std::lock_guard const lock(guard_);
+  waits_ = false;
   if (update.stage != stage_) {
     erase_bar();
     stage_ = update.stage;
@@ -151,6 +161,8 @@ void ProgressPrinter::wait_for(std::string const& stage) {
   began_ = settings_.clock();
   last_time_ = began_;
   told_ = began_ + before_a_bar - beat_seconds;
+  waits_ = true;
+  waited_ = false;
 }
 
 void ProgressPrinter::beat() {
@@ -161,7 +173,13 @@ void ProgressPrinter::beat() {
   ProgressUpdate update = last_;
   update.seconds = std::max(0.0, update.seconds + now - told_);
   if (settings_.style == ProgressStyle::lines) {
-    if (now - last_time_ >= line_seconds) print_line(update);
+    if (waits_ && !waited_) {
+      waited_ = true;
+      last_time_ = now;
+      settings_.write(fmt::format("progress stage={} seconds={:.0f}\n", printable(stage_), now - began_));
+    } else if (now - last_time_ >= line_seconds) {
+      print_line(update);
+    }
     return;
   }
   bool const counts = update.evaluations_done > 0 || (update.runs_done > 0 && !is_done(update));
@@ -178,7 +196,7 @@ void ProgressPrinter::print_line(ProgressUpdate const& update) {
   if (tenth <= last_tenth_ && now - last_time_ < line_seconds) return;
   last_tenth_ = std::max(tenth, last_tenth_);
   last_time_ = now;
-  settings_.write(progress_line(update));
+  settings_.write(progress_line(update, now - began_));
 }
 
 void ProgressPrinter::draw_bar(ProgressUpdate const& update) {

@@ -4,6 +4,7 @@
 // Bar        at most 10 times a second, time left after 2 s, erased when the stage is done; no escape sequences; a
 //            stage that counts nothing meanwhile has a block that wanders, and the time since it began
 // Lines      the first at once, then one per 10 % or 60 s: progress stage=fade runs=20/30 evals=60000/90000 eta_s=4
+//            a wait of more than a second: progress stage=read seconds=1
 //            patient (nobody asked for them): none in the first 2 s of a stage, but one where a stage ends and the last
 //            line is 10 s old
 // Threads    any
@@ -14,7 +15,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/run/workflows.hpp"
+#include "engine/run/progress_update.hpp"
 
 namespace torquescope {
 
@@ -34,8 +35,11 @@ ProgressFacts progress_facts(bool quiet);  // of this process
 double share_done(ProgressUpdate const& update);
 // seconds left, from completed runs, before the first from evaluations; nothing in the first 2 s
 std::optional<double> seconds_left(ProgressUpdate const& update);
+// of all stages, where somebody estimated them and they do not take longer
+std::optional<double> seconds_left_in_all(ProgressUpdate const& update, double seconds_in_all);
 
-std::string progress_line(ProgressUpdate const& update);                       // ends with a line feed
+// ends with a line feed; `seconds_in_all` since the command's first stage began
+std::string progress_line(ProgressUpdate const& update, double seconds_in_all = 0.0);
 std::string progress_bar(ProgressUpdate const& update, int width, bool utf8);  // at most width - 1 columns, one line
 // of a stage that counts nothing meanwhile; `seconds_in_all` since the command's first stage began
 std::string waiting_bar(ProgressUpdate const& update, double seconds_in_all, int width, bool utf8);
@@ -73,6 +77,7 @@ class ProgressPrinter {
   ProgressUpdate last_{};
   double began_ = 0.0, told_ = 0.0;  // of the clock: the first update, the last one
   std::string stage_{};
+  bool waits_ = false, waited_ = false;  // wait_for() was the last word; a line has said so
   double last_time_ = 0.0;
   int last_tenth_ = -1;
   int drawn_columns_ = 0;

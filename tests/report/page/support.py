@@ -27,13 +27,22 @@ import vary_diagnosis  # noqa: E402
 
 FOLDER = Path(tempfile.mkdtemp(prefix="torquescope_page_"))
 atexit.register(shutil.rmtree, FOLDER, True)
-KINDS = tuple(make_result.KINDS)
-BOARDS = tuple(make_board.KINDS)
+FULL = bool(os.environ.get("TORQUESCOPE_FULL"))  # scripts/test --full
+
+
+def every_time(kinds, *chosen):
+    """Those that are drawn each time the tests run; all of them in full."""
+    assert set(chosen) <= set(kinds)
+    return tuple(kinds) if FULL else chosen
+
+
+KINDS = every_time(make_result.KINDS, "crs", "many")
+BOARDS = every_time(make_board.KINDS, "board")
 # the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
 EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
 PAGES = os.environ.get("TORQUESCOPE_PAGES")
 VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
-VARIED = tuple(vary_diagnosis.KINDS) if EXAMPLE_WRITER else ()
+VARIED = every_time(vary_diagnosis.KINDS, "minute", "two_joints") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 needs_diagnoses = unittest.skipUnless(
     EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis"
@@ -43,15 +52,15 @@ needs_diagnoses = unittest.skipUnless(
 @lru_cache(maxsize=None)
 def result(kind):
     """Path of the file of this kind (make_result.py, write_example_diagnosis.cpp, vary_diagnosis.py, make_board.py)."""
-    path = FOLDER / f"{kind}.{'json' if kind in BOARDS else 'h5'}"
+    path = FOLDER / f"{kind}.{'json' if kind in make_board.KINDS else 'h5'}"
     if kind in VERDICTS:
         subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
-    elif kind in VARIED:
+    elif kind in vary_diagnosis.KINDS:
         source, vary = vary_diagnosis.KINDS[kind]
         shutil.copy(result(source), path)
         with h5py.File(path, "r+") as file:
             vary(file)
-    elif kind in BOARDS:
+    elif kind in make_board.KINDS:
         make_board.write(kind, path)
     else:
         make_result.KINDS[kind](path)
@@ -67,15 +76,14 @@ def study(kind):
 @lru_cache(maxsize=None)
 def page(kind):
     """Path of the built page: ctest's (make_pages.py), or one of this process."""
-    if PAGES:
-        return Path(PAGES) / f"{kind}.html"
+    if PAGES and (made := Path(PAGES) / f"{kind}.html").exists():
+        return made
     import board
     import build
     import build_board
     path = FOLDER / f"{kind}.html"
-    path.write_text(
-        build_board.page(board.Board(result(kind))) if kind in BOARDS else build.page(study(kind)), encoding="utf-8"
-    )
+    text = build_board.page(board.Board(result(kind))) if kind in make_board.KINDS else build.page(study(kind))
+    path.write_text(text, encoding="utf-8")
     return path
 
 

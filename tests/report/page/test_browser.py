@@ -24,7 +24,8 @@ except ImportError:
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 FLAGS = ("--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
          "--disable-component-update --disable-sync --hide-scrollbars").split()
-KINDS = support.KINDS + support.DIAGNOSES + support.BOARDS
+ALL = support.KINDS + support.DIAGNOSES + support.BOARDS
+KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "named", "unexplained", "minute", "board"))
 FEWEST_FIGURES = {"insufficient": 5, "board_few": 1}
 WIDTHS, THEMES = (1280, 400), ("light", "dark")
 LEAST_TEXT_PX = 10.5

@@ -263,9 +263,17 @@ class Verdict(unittest.TestCase):
         for kind in support.VERDICTS:
             for row in tables_of_diagnosis.candidates(joint(kind)):
                 self.assertNotIn(row["p"], ("0", "0.0", "0.00"))
-        self.assertEqual(diagnosed.p_cell(LEAST_P, joint("named")), "<0.005")
-        self.assertEqual(diagnosed.p_cell(0.0, joint("named")), "<0.005")
-        self.assertEqual(diagnosed.p_cell(0.4129, joint("named")), "0.41")
+        self.assertEqual(diagnosed.counted_p_cell(LEAST_P, 200), "<0.005")
+        self.assertEqual(diagnosed.counted_p_cell(0.0, 200), "<0.005")
+        self.assertEqual(diagnosed.counted_p_cell(0.4129, 200), "0.41")
+        self.assertEqual(diagnosed.counted_p_cell(0.0, 400), "<0.003")  # 1/401 rounded up, as in the terminal
+
+    def test_p_is_the_same_in_json_and_python(self):
+        for kind in support.VERDICTS:
+            told = json.loads(diagnosis(kind).verdict_json)["joints"][0]
+            for records, rows in ((joint(kind).effects, told["effects"]), (joint(kind).candidates, told["candidates"])):
+                self.assertEqual([(one.name, one.p, one.p_is_bound, one.p_extrapolated) for one in records],
+                                 [(row["name"], row["p"], row["p_is_bound"], row["p_extrapolated"]) for row in rows])
 
     def test_forbidden_words_are_not_ours(self):
         for kind in support.VERDICTS:

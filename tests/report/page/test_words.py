@@ -6,6 +6,7 @@ import types
 import unittest
 
 import h5py
+import numpy as np
 import support
 import diagnosed
 import quantities as q
@@ -79,6 +80,16 @@ class Verdict(unittest.TestCase):
             file["runs/ols"].attrs["relerr_median"] = 0.0417
         self.assertEqual(words.verdict(changed("prismatic", change))["sentence"],
                          "Four parameters reproduce the force to within 4.2 %.")
+
+    def test_nothing_to_warn_of_never_stands_beside_columns_that_nearly_agree(self):
+        study = support.study("crs")
+        for correlation, is_close in ((0.99, True), (-0.96, True), (0.6, False)):
+            matrix = np.eye(len(study.model.names))
+            matrix[0, 1] = matrix[1, 0] = correlation
+            health = types.SimpleNamespace(correlation=matrix, condition_number=20.0, words="")
+            said = words.health_answer(types.SimpleNamespace(health=health, model=study.model))
+            self.assertEqual("Nothing to warn of" in said, not is_close, said)
+            self.assertEqual("together is known better" in said, is_close, said)
 
     def test_a_warning_about_the_regressor_is_in_the_opening(self):
         verdict = words.verdict(support.study("prismatic"))

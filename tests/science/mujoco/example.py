@@ -10,7 +10,6 @@ is the folder of tests/concealed, whose scorer judges. The sealed case is an elb
 5 % off.
 """
 
-import os
 import pathlib
 import subprocess
 import sys
@@ -90,10 +89,7 @@ def diagnosis(torquescope, folder, concealed, out):
 
 def main(what, torquescope, make_case, simulate, concealed, out):
     if not simulate:
-        print("skipped: MuJoCo is not installed (scripts/install-deps --tests, or libmujoco-dev)")
-        return SKIPPED
-    if what == "diagnosis" and not os.environ.get("TORQUESCOPE_FULL"):
-        print("skipped: takes the best part of a minute (scripts/test --full, or TORQUESCOPE_FULL=1)")
+        print("skipped: MuJoCo is not installed (scripts/install-deps --full, or libmujoco-dev)")
         return SKIPPED
     out = pathlib.Path(out).resolve()
     (out / "diagnosis.h5").unlink(missing_ok=True)

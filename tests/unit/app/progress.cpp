@@ -123,6 +123,28 @@ TEST(ProgressBar, OfAWaitComesAfterASecond) {
   EXPECT_THAT(watched.text[0], HasSubstr("0:01"));
 }
 
+TEST(ProgressLines, SayAWaitAfterASecond) {
+  Watched watched(ProgressStyle::lines, true);
+  watched.printer.wait_for("read");
+  for (int k = 0; k < 9; ++k, watched.now += 0.1) watched.printer.beat();
+  EXPECT_TRUE(watched.text.empty());
+  for (int k = 0; k < 30; ++k, watched.now += 0.1) watched.printer.beat();
+  EXPECT_THAT(watched.text, ElementsAre("progress stage=read seconds=1\n"));
+}
+
+TEST(ProgressBar, SaysTheTimeLeftOfAllStagesWhereItIsEstimated) {
+  ProgressUpdate stage{"search", 0, 34, 0, 0, 0.0, "effects", 60.0};
+  Watched watched(ProgressStyle::bar);
+  watched.printer(stage);
+  watched.now += 20.0;
+  watched.printer.beat();
+  EXPECT_THAT(watched.text.back(), HasSubstr("0:20, about 0:40 left"));
+  watched.now += 45.0;  // longer than it was thought to take
+  watched.printer.beat();
+  EXPECT_THAT(watched.text.back(), Not(HasSubstr("left")));
+  EXPECT_THAT(progress_line(stage, 20.0), HasSubstr("eta_s=40"));
+}
+
 TEST(WaitingBar, FitsEveryWindow) {
   for (int width = 20; width <= 80; ++width)
     for (double seconds : {0.0, 1.3, 77.0, 5000.0})

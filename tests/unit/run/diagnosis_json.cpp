@@ -26,12 +26,12 @@ Json const pattern = Json::parse(R"({
     "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0,
                   "repeatable_share": 0}],
     "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""],
-                 "p": 0, "p_is_extrapolated": false, "q": 0, "z": 0,
+                 "p": 0, "p_is_bound": false, "p_extrapolated": 0, "q": 0, "z": 0,
                  "gain": {"train": 0, "cv": 0, "validation": 0},
                  "region": {"axis": "", "from": 0, "to": 0},
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
     "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0,
-                    "p_is_extrapolated": false, "q": 0, "gain": 0, "cv_gain": 0}],
+                    "p_is_bound": false, "p_extrapolated": 0, "q": 0, "gain": 0, "cv_gain": 0}],
     "augmented": {"train_relerr": 0, "validation_relerr": 0, "floor_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
     "left_out": {"train": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0, "augmented_relerr_all_rows": 0},
@@ -88,6 +88,21 @@ TEST(DiagnosisJson, TellsTheNumbersUnrounded) {
   // regions of all axes in one list
   ASSERT_EQ(joint["mismatch"].size(), 3u);
   EXPECT_EQ(joint["mismatch"][2]["axis"], "order");
+}
+
+// the screen says < 0.005 of it
+TEST(DiagnosisJson, TellsNoPThatTheReplicatesCannotCount) {
+  Diagnosis diagnosis = example::invented_diagnosis();
+  diagnosis.joints[0].effects[0].p = diagnosis.joints[0].candidates[0].p = 3e-7;
+  diagnosis.joints[0].candidates[1].p = 0.02;
+  Json const joint = Json::parse(diagnosis_json(diagnosis))["joints"][0];
+  for (Json const& one : {joint["effects"][0], joint["candidates"][0]}) {
+    EXPECT_EQ(one["p"], 1.0 / 201.0);
+    EXPECT_EQ(one["p_is_bound"], true);
+    EXPECT_EQ(one["p_extrapolated"], 3e-7);
+  }
+  EXPECT_EQ(joint["candidates"][1]["p"], 0.02);
+  EXPECT_EQ(joint["candidates"][1]["p_is_bound"], false);
 }
 
 TEST(DiagnosisJson, UnknownNumbersAreNull) {

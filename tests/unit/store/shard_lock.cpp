@@ -35,6 +35,29 @@ TEST(ShardLock, IsHeldByOneAndSaysByWhom) {
   EXPECT_EQ(folder.n_files(), 0u) << "nothing is left";
 }
 
+TEST(ShardLock, KeepsWhatItsProcessSaidLast) {
+  test::TemporaryFolder const folder;
+  fs::path const parts = folder / "R.h5.parts";
+  EXPECT_TRUE(locks_in(parts).empty()) << "no folder, no lock";
+  {
+    ShardLock const lock(folder / "R.h5", {});
+    lock.say("a long text that is said first");
+    lock.say("the last");
+    auto const found = locks_in(parts);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].who, "process " + std::to_string(::getpid()) + " on " + host_name());
+    EXPECT_EQ(found[0].said, "the last");
+    EXPECT_TRUE(found[0].is_alive);
+  }
+  fs::create_directory(parts);
+  folder.write("R.h5.parts/shard-0000-of-0001.lock", "process 1 on nowhere\nwhat it said");
+  folder.write("R.h5.parts/shard-0001-of-0001.lock", "somebody's file of that name");
+  auto const found = locks_in(parts);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].said, "what it said");
+  EXPECT_FALSE(found[0].is_alive) << "nobody holds it";
+}
+
 TEST(ShardLock, OfADeadProcessIsTaken) {
   test::TemporaryFolder const folder;
   fs::create_directory(folder / "R.h5.parts");
