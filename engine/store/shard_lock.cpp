@@ -105,7 +105,7 @@ std::vector<LockWords> locks_in(fs::path const& segment_folder) {
     if (!is_lock_name(name)) continue;
     int const descriptor = folder.open(name, O_RDONLY | O_NONBLOCK);
     if (descriptor < 0) continue;
-    if (is_a_lock(descriptor)) {
+    if (is_lock_file(descriptor)) {
       std::string const words = words_in(descriptor);
       std::size_t const end = std::min(words.find('\n'), words.size());
       bool const is_held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
