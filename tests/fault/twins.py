@@ -173,7 +173,9 @@ class Twins(study.FaultTest):
                 self.assertEqual((told["stage"], told["alive_here"]), ("twins", False))
                 self.assertIn("begins anew", folder.run("status", "r.h5").out)
             else:
-                self.assertEqual(glob.glob(folder / "r.h5*"), [])
+                # a process that ends in the middle of a long step leaves its lock, which the next one takes
+                left = [name for path in glob.glob(folder / "r.h5*") for name in os.listdir(path)]
+                self.assertLessEqual(set(left), {"shard-0000-of-0001.lock"})
                 self.assertIn("stopping after the running step of the search", ended.said)
                 self.assertIn("nothing was written", ended.said)
                 self.assertIn("the same command begins anew", ended.said)

@@ -4,7 +4,7 @@
 // Parameters power_law_viscous k >= 0 [N m (s/rad)^alpha; N (s/m)^alpha]: the torque at 1 rad/s
 //            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb
 //            friction; at the least, beside Coulomb friction, the logarithm of the speed (Eyring 1936,
-//            doi:10.1063/1.1749836)
+//            doi:10.1063/1.1749836), at the most a drag of its square
 // Signature  velocity: odd, curved at middle speeds
 // Confused   stribeck with a wide speed, speed_drag
 // Source     Waiboer, Aarts, Jonker 2005
@@ -23,8 +23,8 @@ class PowerLawViscous final : public InstantEffect {
                        .source = "Waiboer, Aarts, Jonker 2005",
                        .separated_by = "speeds spaced logarithmically, from creep to the fastest",
                        .parameters = {{"power_law_viscous", "N m (s/rad)^alpha", "N (s/m)^alpha", {0.0}},
-                                      law_at_lower(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
-                                                                   Spacing::linear))},
+                                      law_at_both(shape_parameter("power_law_exponent", "1", "1", {0.2}, {2.0},
+                                                                  Spacing::linear))},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd}) {}

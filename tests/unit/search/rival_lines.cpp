@@ -51,9 +51,6 @@ TEST_F(RivalLines, ACopyTakesWhatTheLineNearlyTook) {
   EffectSearch line(setting, options, silent);
   Round const round = line.next_round();
   ASSERT_TRUE(round.is_taken);
-  for (auto const& one : line.selection().rejected)
-    std::fprintf(stderr, "DBG %s: %s\n", one.effect->name().c_str(), one.reason.c_str());
-  for (auto const& one : line.selection().accepted) std::fprintf(stderr, "DBG taken %s\n", one.effect->name().c_str());
   ASSERT_EQ(round.nearly_taken.size(), 1U);
   Names const taken = names(line.selection());
   std::string const rival = round.nearly_taken[0].refined.effect->name();
