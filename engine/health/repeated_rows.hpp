@@ -5,7 +5,7 @@
 // Equation   k rows stand still between two that move, and the row after them makes up for it: the way over the k + 1
 //            steps is what the steps before and after lead one to expect, (k + 1) s, and s is more than two encoder
 //            steps
-// Filled     up to ten of them in a row; longer stretches are left out
+// Repair     marked as missing; health/make_recording.cpp fills up to longest_filled_gap samples
 // Threads    free function
 
 #include "engine/health/examination.hpp"
