@@ -18,6 +18,9 @@
 
 namespace torquescope {
 
+// a cell without a value
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
 struct Examination {
   RawTable const& table;
   RecordingOptions const& options;

@@ -280,7 +280,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   check_options(options, section);
   Examination exam{table, options, section, pick_channels(table, options, section)};
   check_rows(table);
-  auto missing = missing_values(exam.channels, table, options);
+  auto missing_words = missing_values(exam.channels, table, options);
   check_moves(exam.channels, table);
   examine(exam);
 
@@ -330,7 +330,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   };
   recording.rows.encoder_step = quantisation_step(known_of("position")) * std::fabs(options.position_per_unit);
   recording.rows.torque_limit_share = limit_share(known_of("torque"));
-  recording.warnings = std::move(missing);
+  recording.warnings = std::move(missing_words);
   for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));
   recording.findings = std::move(exam.findings);
   return recording;

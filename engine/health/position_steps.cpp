@@ -11,7 +11,7 @@ namespace {
 
 // A joint changes its speed from one row to the next by little: a step of five times those around it is none it made.
 // Ten times the bends that all but one row in fifty have, because a recording that mostly rests bends seldom
-constexpr double times_the_steps_around = 5.0, times_the_bend = 10.0, encoder_steps = 8.0;
+constexpr double times_the_steps_around = 5.0, times_the_bend = 10.0, least_encoder_steps = 8.0;
 
 double quantile_of(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -21,7 +21,7 @@ double quantile_of(std::vector<double> values, double share) {
 }
 
 double least_size(Roughness const& roughness) {
-  return std::max(times_the_bend * roughness.bend, encoder_steps * roughness.encoder_step);
+  return std::max(times_the_bend * roughness.bend, least_encoder_steps * roughness.encoder_step);
 }
 
 // the values that are numbers, and the rows they stand in

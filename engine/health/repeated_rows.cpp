@@ -7,8 +7,6 @@
 namespace torquescope {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 // an encoder's step, or at least the smallest step there is
 double coarseness(std::vector<double> const& x) {
   double smallest = std::numeric_limits<double>::infinity();

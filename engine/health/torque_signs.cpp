@@ -8,8 +8,6 @@
 namespace torquescope {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 // changes of direction of a position by more than a fiftieth of its range, so that an encoder's dither counts for
 // nothing
 std::size_t reversals_of(std::vector<double> const& position) {

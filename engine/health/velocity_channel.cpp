@@ -87,13 +87,13 @@ double best_lag(Pair const& pair, double sign) {
 
 std::string factor_words(double gain) {
   constexpr double same = 0.03;
-  struct Known {
+  struct Factor {
     double factor;
     char const* words;
   };
-  for (auto const& known : {Known{60.0 / (2.0 * std::numbers::pi), "rpm"}, Known{180.0 / std::numbers::pi, "deg/s"},
-                            Known{1e3, "a thousandth of the unit"}, Known{1.0, "the wrong sign"},
-                            Known{1.0 / (2.0 * std::numbers::pi), "turns per second"}})
+  for (auto const& known : {Factor{60.0 / (2.0 * std::numbers::pi), "rpm"}, Factor{180.0 / std::numbers::pi, "deg/s"},
+                            Factor{1e3, "a thousandth of the unit"}, Factor{1.0, "the wrong sign"},
+                            Factor{1.0 / (2.0 * std::numbers::pi), "turns per second"}})
     if (std::fabs(std::fabs(gain) / known.factor - 1.0) <= same) return known.words;
   return {};
 }

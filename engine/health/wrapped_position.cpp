@@ -9,7 +9,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double most = 0.9;  // of the jumps are wraps; others are wrong rows or zeros set anew
+constexpr double share_of_jumps = 0.9;  // of the jumps are wraps; others are wrong rows or zeros set anew
 
 // what remains of a jump when whole moduli are taken off: what the rows around it lead one to expect
 bool is_wrap(Jump const& jump, double modulus, double slack) {
@@ -37,7 +37,7 @@ std::optional<double> modulus_of(Examination& exam, std::vector<Jump> const& jum
     if (range > 1.001 * modulus + slack) continue;
     auto const wraps =
         std::count_if(jumps.begin(), jumps.end(), [&](Jump const& j) { return is_wrap(j, modulus, slack); });
-    if (static_cast<double>(wraps) >= most * static_cast<double>(jumps.size())) return modulus;
+    if (static_cast<double>(wraps) >= share_of_jumps * static_cast<double>(jumps.size())) return modulus;
   }
   return {};
 }

@@ -8,8 +8,6 @@
 namespace torquescope {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 bool is_zero_row(Examination const& exam, std::size_t row) {
   return std::all_of(exam.channels.begin(), exam.channels.end(), [&](auto const& one) {
     double const value = one.second.values[row];
