@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstddef>
+#include <numeric>
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/data/filter_checks.hpp"
@@ -21,10 +22,9 @@ constexpr double bytes_at_least = 3e7, bytes_per_sample = 800.0, bytes_per_row_r
 // from here on fewer rows are worth a word
 constexpr double many_rows = 3e4;
 
-double samples_in(std::vector<Recording> const& recordings) {
-  double samples = 0.0;
-  for (auto const& recording : recordings) samples += static_cast<double>(recording.position.size());
-  return samples;
+// as they were read: a job that is loaded to be checked holds no channels any more
+double samples_in(DataSet const& set) {
+  return static_cast<double>(std::accumulate(set.n_samples.begin(), set.n_samples.end(), std::size_t{0}));
 }
 
 std::string rough_seconds(double seconds) {
@@ -46,12 +46,12 @@ std::string rough_count(double count) {
 DiagnosisSize diagnosis_size(Experiment::Parts const& parts) {
   DiagnosisSize size;
   auto const& filter = parts.filter;
-  size.samples = samples_in(parts.train.recordings);
+  size.samples = samples_in(parts.train);
   double const rate_hz = parts.train.recordings.front().rate_hz;
   double const kept_hz = filter.decimate_to_hz > 0.0 ? filter.decimate_to_hz : rate_hz;
   size.rows = size.samples * std::min(1.0, kept_hz / rate_hz);
   size.replicates = static_cast<double>(parts.diagnose.twins);
-  if (parts.validate) size.unseen_samples = samples_in(parts.validate->recordings);
+  if (parts.validate) size.unseen_samples = samples_in(*parts.validate);
   return size;
 }
 

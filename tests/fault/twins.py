@@ -154,6 +154,22 @@ class Twins(study.FaultTest):
             self.assertIn("3 parts of its twins are safe in r.h5.parts", ended.out)
             self.assertIn("at work", ended.out)
 
+    def test_one_process_alone_says_how_far_it_is_and_takes_the_dead_ones_word_away(self):
+        folder = self.folder()
+        os.mkdir(folder / "r.h5.parts")
+        with open(os.path.join(folder / "r.h5.parts", "shard-0000-of-0001.lock"), "w", encoding="utf-8") as dead:
+            dead.write("process 1 on nowhere\nits last word")
+        process = folder.start("diagnose", "job.toml", "--out", "r.h5", "--threads", "1", "--progress", "lines")
+        while b"stage=twins" not in process.stderr.readline():
+            pass
+        status = folder.run("status", "r.h5", "--json", "-")
+        ended = study.Ended(process)
+        self.assert_ended(ended, 0)
+        told, = json.loads(status.out)["processes"]
+        self.assertEqual((told["shards"], told["alive_here"]), (1, True))
+        self.assertFalse(os.path.exists(folder / "r.h5.parts"))
+        self.assertIn("is complete: a diagnosis", folder.run("status", "r.h5").out)
+
     def test_one_process_alone_leaves_no_more_than_how_far_it_was(self):
         job = self.JOB.replace("twins = 60", "twins = 100000")
         for number, code in ((signal.SIGTERM, 75), (signal.SIGINT, 75), (signal.SIGKILL, -signal.SIGKILL)):

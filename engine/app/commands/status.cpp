@@ -85,14 +85,17 @@ std::string status_json(JobStatus const& status, fs::path const& result, bool co
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// what a process told when its stage began: a stage counts nothing meanwhile
 std::string standing_line(DiagnosisStanding const& one) {
   std::string line = one.shards > 1 ? fmt::format("shard {}/{}, ", one.shard, one.shards) : "";
-  line += fmt::format("{}: {}, {} since it began", printable(one.who), one.is_alive ? "at work" : "not alive here",
-                      seconds_text(one.seconds));
-  if (one.expected_seconds > 0.0) line += fmt::format(" of about {}", seconds_text(one.expected_seconds));
   std::string const counted =
       one.total > 0 ? fmt::format(" ({} of {} {})", one.done, one.total, printable(one.counted)) : std::string();
-  return line + fmt::format("; stage {}{}, told {}", printable(one.stage), counted, printable(one.told));
+  line += fmt::format("{}, {}: stage {}{}, reached {} after its beginning, at {}", printable(one.who),
+                      one.is_alive ? "at work" : "not alive here", printable(one.stage), counted,
+                      seconds_text(one.seconds), printable(one.told));
+  if (one.expected_seconds > 0.0)
+    line += fmt::format("; about {} were expected in all", seconds_text(one.expected_seconds));
+  return line;
 }
 
 std::string diagnosis_status_text(std::vector<DiagnosisStanding> const& standings, std::size_t parts,

@@ -60,6 +60,10 @@ TEST(DiagnosisEstimate, ProposesDecimationWhereRowsAreManyAndTheCutOffLeavesRoom
   ASSERT_TRUE(proposal.has_value());
   EXPECT_THAT(*proposal, HasSubstr("decimate_to_hz = 50 in [filter] would keep 5000 of these rows"));
 
+  // a job that is only checked has let go of its recording by then
+  std::string const checked_job = test::simulated_joint + test::joint_model + "[[estimator]]\nname = \"ols\"\n";
+  Experiment const checked = test::load_job(checked_job, Experiment::Purpose::check);
+  EXPECT_EQ(diagnosis_size(checked.parts()).samples, 1000.0);
   EXPECT_FALSE(decimation_proposal(of_seconds(100.0, "decimate_to_hz = 50\n").parts(), 2)) << "done already";
   EXPECT_FALSE(decimation_proposal(of_seconds(20.0, "").parts(), 2)) << "few rows";
 }
