@@ -18,7 +18,7 @@ namespace {
 
 // measured, one effect found (tests/unit/run/diagnosis_estimate.cpp)
 constexpr double cpu_s_per_sample = 5e-4, cpu_s_per_row_replicate = 5e-6, most_cores_used = 8.0;
-constexpr double bytes_at_least = 3e7, bytes_per_sample = 800.0, bytes_per_row_replicate = 48.0;
+constexpr double bytes_at_least = 3e7, bytes_per_sample = 1400.0, bytes_per_row_replicate = 48.0;
 // from here on fewer rows are worth a word
 constexpr double many_rows = 3e4;
 

@@ -8,6 +8,7 @@
 //    10 000   10 000     11.4       137
 //   100 000   10 000     60.4       346
 //   100 000  100 000    202.6      1151
+// 1 000 000  100 000    832.5      3791
 
 #include "engine/run/diagnosis_estimate.hpp"
 
@@ -26,7 +27,8 @@ struct Measured {
   double samples, rows, cpu_s, megabytes;
 };
 constexpr Measured table[] = {{1e4, 1e3, 6.4, 53.0}, {1e4, 1e4, 11.4, 137.0}, {1e5, 1e4, 60.4, 346.0},
-                              {1e5, 1e5, 202.6, 1151.0}};
+                              {1e5, 1e5, 202.6, 1151.0},
+                              {1e6, 1e5, 832.5, 3791.0}};
 
 TEST(DiagnosisEstimate, IsWithinAFactorOfThreeOfWhatWasMeasured) {
   for (auto const& one : table) {
