@@ -10,6 +10,7 @@
 #include "engine/run/segment_file.hpp"
 #include "tests/fuzz/header_checksums.hpp"
 #include "tests/fuzz/hostile_reader.hpp"
+#include "tests/fuzz/seal.hpp"
 
 namespace torquescope {
 namespace {
@@ -44,8 +45,13 @@ void read_segment(std::string_view bytes) {
   segment.verify();
 }
 
+void mend_segment(std::span<std::uint8_t> bytes) {
+  renew_header_checksums(bytes);
+  renew_seal(bytes);
+}
+
 }  // namespace
 
-HostileReader const hostile_segment{.read = read_segment, .mend = renew_header_checksums, .foreign = true};
+HostileReader const hostile_segment{.read = read_segment, .mend = mend_segment, .foreign = true};
 
 }  // namespace torquescope

@@ -154,6 +154,27 @@ class Limits(Folder):
         self.assertEqual(self.run_here("run", "job.toml", "--out", name, "--quiet").code, 0)
         self.assertTrue(os.path.exists(os.path.join(self.folder, name + ".made.json")))
 
+    def test_report_refuses_what_show_refuses(self):
+        def linked(name):
+            with h5py.File(name, "r+", locking=False) as file:
+                del file["runs/ols/parameters"]
+                file["runs/ols/parameters"] = h5py.ExternalLink("other.h5", "/runs/ols/parameters")
+
+        def flipped(name):
+            with open(name, "r+b") as file:
+                file.seek(os.path.getsize(name) // 2)
+                byte = file.read(1)[0]
+                file.seek(-1, os.SEEK_CUR)
+                file.write(bytes([byte ^ 1]))
+
+        self.assertEqual(self.run_here("run", "job.toml", "--out", "other.h5", "--quiet").code, 0)
+        for change, words in ((linked, '"parameters" is a link to elsewhere'), (flipped, "r.h5 is damaged")):
+            shutil.copy(os.path.join(self.folder, "other.h5"), os.path.join(self.folder, "r.h5"))
+            change(os.path.join(self.folder, "r.h5"))
+            for command in (("report", "r.h5"), ("show", "r.h5", "--verify")):
+                self.assert_refused(self.run_here(*command), 65, [words])
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "r.html")))
+
     def test_groups_in_groups_without_end_are_refused_soon(self):
         self.assertEqual(self.run_here("run", "job.toml", "--out", "r.h5", "--quiet").code, 0)
         with h5py.File(os.path.join(self.folder, "r.h5"), "r+", locking=False) as file:
