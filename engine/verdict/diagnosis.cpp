@@ -1,7 +1,6 @@
 #include "engine/verdict/diagnosis.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/effects/effect.hpp"
 #include "engine/effects/effect_traits.hpp"
@@ -56,8 +55,7 @@ std::string which_joint(JointDiagnosis const& joint) {
 
 bool looks_at_less_than_half(JointDiagnosis const& joint) {
   constexpr double half = 0.5;
-  LeftOut const& unseen = joint.validation_left_out;
-  return (std::isfinite(unseen.energy) ? unseen.energy : joint.train_left_out.energy) > half;
+  return joint.train_left_out.energy > half || joint.validation_left_out.energy > half;
 }
 
 }  // namespace torquescope

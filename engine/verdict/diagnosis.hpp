@@ -226,7 +226,7 @@ inline double least_p(std::size_t replicates) {
 
 // "joint 1", or "the joint of q5_rad" where its position column is known
 std::string which_joint(JointDiagnosis const& joint);
-// whether the rows that were looked at hold less than half of the residual's energy: of unseen rows, else of training
+// whether the rows that were looked at hold less than half of the residual's energy, in training or unseen
 bool looks_at_less_than_half(JointDiagnosis const& joint);
 
 struct Diagnosis {

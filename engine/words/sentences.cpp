@@ -185,16 +185,20 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
   return text;
 }
 
+// an error and what is left out of it; "" where nothing is
+std::string left_out_sentence(std::string const& rows, double relerr, LeftOut const& left_out) {
+  std::string const clause = left_out_clause(left_out);
+  if (clause.empty() || !std::isfinite(relerr)) return "";
+  return fmt::format("{} relerr {}; {}.", rows, percent_text(relerr), clause);
+}
+
 std::string none_reason(JointDiagnosis const& joint) {
   std::string text;
-  bool const is_unseen = std::isfinite(joint.validation_left_out.energy);
-  std::string const left_out = left_out_clause(is_unseen ? joint.validation_left_out : joint.train_left_out);
-  double const relerr = is_unseen ? joint.validation_relerr : joint.train_relerr;
   if (looks_at_less_than_half(joint))
     text = "Only the rows that were looked at are meant, which hold less than half of the residual's energy.";
   append(text, likeness_sentence(joint));
-  if (!left_out.empty() && std::isfinite(relerr))
-    append(text, fmt::format("{} relerr {}; {}.", is_unseen ? "Unseen" : "Training", percent_text(relerr), left_out));
+  append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
+  append(text, left_out_sentence("Unseen", joint.validation_relerr, joint.validation_left_out));
   append(text, joint.power_sentence);
   if (joint.differs_at_reversals)
     append(
