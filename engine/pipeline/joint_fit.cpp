@@ -1,6 +1,7 @@
 #include "engine/pipeline/joint_fit.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/pipeline/joint_bounds.hpp"
@@ -124,10 +125,20 @@ class JointFit {
     double const all_of_torque = record_.torque.norm() / acceleration;
     if (record_.parameters[column] >= least_share_ * all_of_torque) return false;
     inertia_ = column;
-    held_inertia_ = std::max(light_share, least_share_) * all_of_torque;
+    held_inertia_ = std::min(std::max(light_share, least_share_) * all_of_torque, largest_that_turns());
     groups_.erase(group);
     record_.held = "inertia";
     return true;
+  }
+
+  // Rows of strokes at one speed hardly accelerate; the turns between them do, where no row is left. An inertia that would
+  // ask there for more than a half of the largest torque is none that a loop leads round
+  double largest_that_turns() const {
+    constexpr double half = 0.5;
+    Motion const& motion = record_.motion;
+    double const fastest = motion.ddq.size() > 0 ? motion.ddq.cwiseAbs().maxCoeff() : 0.0;
+    double const most = motion.torque.size() > 0 ? motion.torque.cwiseAbs().maxCoeff() : 0.0;
+    return fastest > 0.0 && most > 0.0 ? half * most / fastest : std::numeric_limits<double>::infinity();
   }
 
   ProcessedRecord& record_;

@@ -59,6 +59,21 @@ TEST(JointFit, HoldsAnInertiaThatAMissingWeightTookAway) {
   EXPECT_LE(unexplained.cwiseAbs().maxCoeff(), 1e-8 * rows.record.torque.norm());
 }
 
+// strokes at one speed: the rows hardly accelerate, the turns between them do
+TEST(JointFit, HoldsNoInertiaThatNoLoopLeadsRoundTheTurns) {
+  Rows rows({"inertia", "coulomb", "offset"});
+  constexpr double slow = 1e-3;
+  rows.record.columns.col(0) *= slow;
+  Eigen::VectorXd const torque =
+      rows.record.columns * Eigen::Vector3d(-0.5, 1.1, 0.0) - 3.0 * rows.record.columns.col(0);
+  rows.record.motion.torque = torque;
+  rows.fit(torque);
+  ASSERT_EQ(rows.record.held, "inertia");
+  EXPECT_GT(rows.record.parameters[0], 0.0);
+  double const asked_for = rows.record.parameters[0] * rows.record.motion.ddq.cwiseAbs().maxCoeff();
+  EXPECT_LE(asked_for, 0.5 * torque.cwiseAbs().maxCoeff() * (1.0 + 1e-9));
+}
+
 TEST(JointFit, FrictionThatWouldDriveTheJointIsAnOffset) {
   Rows rows({"inertia", "viscous", "coulomb_positive", "coulomb_negative"});
   Eigen::Vector4d const driving(0.3, 0.8, -0.4, 0.2);
