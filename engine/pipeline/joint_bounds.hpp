@@ -33,6 +33,7 @@ std::vector<bool> sizes_of_effects(JointModel const& model);
 struct FitBounds {
   double least_inertia_share = 1e-3;  // of what would take all torque
   bool of_effects = true;             // false: not of those of which sizes_of_effects() are
+  bool by_turns = false;              // a held inertia asks for half of the largest torque in the turns, at most
 };
 
 // a fit's parameters with 0 for what cannot be negative and is

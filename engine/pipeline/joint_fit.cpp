@@ -24,6 +24,7 @@ class JointFit {
         bounds_(joint_bounds(model)),
         name_(name),
         least_share_(fit_bounds.least_inertia_share),
+        by_turns_(fit_bounds.by_turns),
         is_whole_(present.size() == owners_.size()) {
     if (!fit_bounds.of_effects) {
       std::vector<bool> const free = sizes_of_effects(model);
@@ -125,7 +126,8 @@ class JointFit {
     double const all_of_torque = record_.torque.norm() / acceleration;
     if (record_.parameters[column] >= least_share_ * all_of_torque) return false;
     inertia_ = column;
-    held_inertia_ = std::min(std::max(light_share, least_share_) * all_of_torque, largest_that_turns());
+    held_inertia_ = std::max(light_share, least_share_) * all_of_torque;
+    if (by_turns_) held_inertia_ = std::min(held_inertia_, largest_that_turns());
     groups_.erase(group);
     record_.held = "inertia";
     return true;
@@ -146,6 +148,7 @@ class JointFit {
   JointBounds bounds_;
   std::string const& name_;
   double least_share_;
+  bool by_turns_;
   bool is_whole_;
   std::vector<Group> groups_;
   Eigen::Index inertia_ = JointBounds::none;  // held at its bound

@@ -66,6 +66,8 @@ class RecordPipeline {
 
   // from now on an inertia that takes less than this share of the torque is held (joint_fit.hpp)
   void hold_inertia_below(double share) { fit_bounds_.least_inertia_share = share; }
+  // from now on a held inertia is one that a loop leads round the turns of the motion (joint_fit.hpp)
+  void hold_inertia_by_turns() { fit_bounds_.by_turns = true; }
   // from now on a fit bounds effects, or leaves them free
   void bound_effects(bool bounds) { fit_bounds_.of_effects = bounds; }
   bool bounds_effects() const { return fit_bounds_.of_effects; }

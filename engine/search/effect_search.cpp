@@ -40,10 +40,18 @@ EffectSearch::EffectSearch(StageSetting const& setting, SelectionOptions const& 
 // the start
 bool EffectSearch::begin_somehow() {
   constexpr double heavier_share = 0.1;
+  double const as_a_rule = setting_.least_inertia_share;
   try {
     return begin(setting_);
   } catch (Error const& unfit) {
     setting_.least_inertia_share = heavier_share;
+    try {
+      return begin(setting_);
+    } catch (Error const&) {
+      // or rows of strokes at one speed said nothing of an inertia, and what stands for one is too heavy for the turns
+      setting_.least_inertia_share = as_a_rule;
+      setting_.inertia_by_turns = true;
+    }
     try {
       return begin(setting_);
     } catch (Error const&) {

@@ -95,6 +95,7 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
   RecordPipeline pipeline(std::move(model), setting.filter, recording.rate_hz, recording.position.size(),
                           setting.filter_section);
   if (setting.keeps_reversals) pipeline.keep_reversals();
+  if (setting.inertia_by_turns) pipeline.hold_inertia_by_turns();
   auto saturated = saturated_samples(recording, pipeline.cutoff_hz());
   if (std::find(saturated.begin(), saturated.end(), true) != saturated.end()) pipeline.leave_out(std::move(saturated));
   if (is_plain && setting.least_inertia_share > 0.0) pipeline.hold_inertia_below(setting.least_inertia_share);

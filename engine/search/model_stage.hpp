@@ -35,6 +35,7 @@ struct StageSetting {
   bool reads_colour = false;         // noise as the model leaves it, whatever the law says (torque_colour.hpp)
   bool keeps_reversals = false;      // rows at reversals count (friction_buildup.hpp)
   double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
+  bool inertia_by_turns = false;     // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
   TwinExchange* exchange = nullptr;  // processes that share the replicates; none by default
 
   TwinWorkers workers() const { return {threads, exchange}; }

@@ -30,11 +30,11 @@ struct Rows {
     record.motion = std::move(motion);
   }
 
-  void fit(Eigen::VectorXd torque) {
+  void fit(Eigen::VectorXd torque, FitBounds const& bounds = {}) {
     record.torque = std::move(torque);
     std::vector<Eigen::Index> present;
     for (Eigen::Index k = 0; k < record.columns.cols(); ++k) present.push_back(k);
-    fit_joint(record, model, present, "made up");
+    fit_joint(record, model, present, "made up", bounds);
   }
 };
 
@@ -67,7 +67,7 @@ TEST(JointFit, HoldsNoInertiaThatNoLoopLeadsRoundTheTurns) {
   Eigen::VectorXd const torque =
       rows.record.columns * Eigen::Vector3d(-0.5, 1.1, 0.0) - 3.0 * rows.record.columns.col(0);
   rows.record.motion.torque = torque;
-  rows.fit(torque);
+  rows.fit(torque, {.by_turns = true});
   ASSERT_EQ(rows.record.held, "inertia");
   EXPECT_GT(rows.record.parameters[0], 0.0);
   double const asked_for = rows.record.parameters[0] * rows.record.motion.ddq.cwiseAbs().maxCoeff();
