@@ -133,8 +133,8 @@ class JointFit {
     return true;
   }
 
-  // Rows of strokes at one speed hardly accelerate; the turns between them do, where no row is left. An inertia that would
-  // ask there for more than a half of the largest torque is none that a loop leads round
+  // Rows of strokes at one speed hardly accelerate; the turns between them do, where no row is left. An inertia that
+  // would ask there for more than a half of the largest torque is none that a loop leads round
   double largest_that_turns() const {
     constexpr double half = 0.5;
     Motion const& motion = record_.motion;
