@@ -16,7 +16,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double highest_share_of_rate = 1.0 / 8, grid_ratio = 1.15;
+constexpr double highest_share_of_rate = 1.0 / 5, grid_ratio = 1.15;
 constexpr Eigen::Index most_samples = 200'000;  // enough of a long recording
 
 // standard deviation of the position's white noise: its quantisation, or what its second differences show
@@ -48,6 +48,24 @@ std::vector<Band> bands_of(Eigen::VectorXd const& position, double rate_hz) {
   return bands;
 }
 
+// changes of direction, each side faster than a fiftieth of the peak speed
+double reversals_per_second(Eigen::VectorXd const& position, double cutoff_hz, double rate_hz) {
+  constexpr double surely_moving = 0.02;
+  Eigen::VectorXd const smooth = zero_phase(butterworth_lowpass(4, cutoff_hz, rate_hz), position);
+  auto const n = smooth.size();
+  Eigen::VectorXd const steps = smooth.tail(n - 1) - smooth.head(n - 1);
+  double const least = surely_moving * steps.cwiseAbs().maxCoeff();
+  double direction = 0.0;
+  std::size_t reversals = 0;
+  for (double step : steps) {
+    if (std::fabs(step) <= least) continue;
+    double const now = step > 0 ? 1.0 : -1.0;
+    reversals += direction * now < 0;
+    direction = now;
+  }
+  return static_cast<double>(reversals) * rate_hz / static_cast<double>(n);
+}
+
 double noise_of_acceleration(double sigma, double cutoff_hz, double rate_hz) {
   double const omega = 2 * std::numbers::pi * cutoff_hz;
   return sigma * omega * omega * std::sqrt(2 * cutoff_hz / (5 * rate_hz));
@@ -70,12 +88,14 @@ int digits_of(double value) {
 
 }  // namespace
 
-double suggested_kept_rate(double rate_hz, double parallel_cutoff_hz) {
-  constexpr double least = 2.5, most = 4.0, rounding = 1e-9;
+double suggested_kept_rate(double rate_hz, double parallel_cutoff_hz, double seconds) {
+  constexpr double least_of_cutoff = 2.5, most_of_least = 1.6, rounding = 1e-9, rows_wanted = 1000;
+  double const rows_hz = seconds > 0 ? rows_wanted / seconds : 0.0;
+  double const least_hz = std::max(least_of_cutoff * parallel_cutoff_hz, rows_hz);
   double best = 0.0;
-  for (double k = std::floor(rate_hz / (least * parallel_cutoff_hz) * (1 + rounding)); k >= 2; --k) {
+  for (double k = std::floor(rate_hz / least_hz * (1 + rounding)); k >= 2; --k) {
     double const kept_hz = rate_hz / k;
-    if (best > 0 && kept_hz > most * parallel_cutoff_hz * (1 + rounding)) break;
+    if (best > 0 && kept_hz > most_of_least * least_hz * (1 + rounding)) break;
     if (best == 0 || digits_of(kept_hz) < digits_of(best)) best = kept_hz;
   }
   return best;
@@ -113,6 +133,11 @@ FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
   if (noise_matters) at_most(suggestion.noise_hz, Limit::noise);
   // friction at reversals is faster than a slow motion
   at_least(std::min(rate_hz / 12, wide_enough_hz), Limit::slow_motion);
+  // 1.6 periods of the parallel cut-off at each side of a reversal tell nothing: at most half of the time, where
+  // the noise is not twice what it should be at most
+  double const by_reversals = 2 * 6.4 * reversals_per_second(position, widest->cutoff_hz, rate_hz);
+  constexpr double bearable = 2.0;
+  at_least(noise_matters ? std::min(by_reversals, bearable * suggestion.noise_hz) : by_reversals, Limit::reversals);
   // three periods of the parallel cut-off go at each end: all together a fifth of the shortest recording
   at_least(2 * 30 / shortest_s, Limit::length);
   at_most(highest_share_of_rate * rate_hz, Limit::rate);
@@ -120,7 +145,7 @@ FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
   auto& options = suggestion.options;
   options.cutoff_hz = round_figure(cutoff_hz);
   options.parallel_cutoff_hz = options.cutoff_hz / 2;
-  options.decimate_to_hz = suggested_kept_rate(rate_hz, options.parallel_cutoff_hz);
+  options.decimate_to_hz = suggested_kept_rate(rate_hz, options.parallel_cutoff_hz, shortest_s);
   return suggestion;
 }
 

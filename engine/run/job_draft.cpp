@@ -108,10 +108,12 @@ class JobDrafter {
           return "above it the acceleration drowns in the position's noise";
         case Limit::slow_motion:
           return fmt::format("the motion lies below {:.2g} Hz, friction at reversals above", filter_.motion_hz);
+        case Limit::reversals:
+          return "so high that what a filter smears round reversals is not most of the time";
         case Limit::length:
           return "the recording is too short for less: edges are dropped";
         case Limit::rate:
-          return "an eighth of the sampling rate";
+          return "a fifth of the sampling rate";
       }
       return {};
     };
@@ -119,7 +121,7 @@ class JobDrafter {
     text_.setting("parallel_cutoff_hz", toml_number(filter_.options.parallel_cutoff_hz), "half of it, a convention");
     if (filter_.options.decimate_to_hz > 0)
       text_.setting("decimate_to_hz", toml_number(filter_.options.decimate_to_hz),
-                    "2.5 to 4 times that: rows in between say nothing new");
+                    "2.5 to 4 times that, or 1000 rows: more say nothing new");
   }
 
   std::vector<std::string> terms() const {
