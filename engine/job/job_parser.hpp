@@ -1,5 +1,5 @@
 #pragma once
-// TOML text to sections with places; the only file that knows the TOML library is job_parser.cpp.
+// The text of a job to its sections, with places.
 
 #include <string>
 #include <vector>

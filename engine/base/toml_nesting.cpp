@@ -1,4 +1,4 @@
-#include "engine/job/job_nesting.hpp"
+#include "engine/base/toml_nesting.hpp"
 
 #include <algorithm>
 
