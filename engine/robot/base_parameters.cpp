@@ -13,7 +13,6 @@ namespace torquescope {
 namespace {
 
 using Eigen::Index;
-using enum LinkNumber;
 
 // dependent columns leave 1e-13 of their length, independent ones of arms at least 1e-6
 constexpr double independence = 1e-9;
@@ -37,6 +36,7 @@ SerialChain scaled(SerialChain chain, double length) {
 
 // times length to this power makes a standard parameter a mass times length^2
 int missing_lengths(SerialChain const& chain, Index column) {
+  using enum LinkNumber;
   Index const n_links = numbers_per_link * chain.size();
   if (column >= n_links)
     return chain.joints[static_cast<std::size_t>(column - n_links)].kind == JointKind::revolute ? 0 : 2;
@@ -63,6 +63,7 @@ Eigen::MatrixXd sampled_regressor(SerialChain const& chain, DriveInertias drives
 }
 
 std::vector<Index> order_of_choice(Index n, DriveInertias drives) {
+  using enum LinkNumber;
   std::vector<Index> order;
   auto const append = [&](Index link, LinkNumber number) {
     order.push_back(numbers_per_link * link + static_cast<Index>(number));

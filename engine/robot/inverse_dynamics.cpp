@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-Vector3d const axis{0.0, 0.0, 1.0};
+Vector3d const joint_axis{0.0, 0.0, 1.0};
 
 // of one link, in its own frame; gravity is an acceleration of the base, upwards
 struct LinkMotion {
@@ -40,10 +40,10 @@ std::vector<LinkMotion> outward(SerialChain const& chain, JointVector const& q, 
     link.acceleration =
         into * (before.acceleration + cross(before.alpha, p) + cross(before.omega, cross(before.omega, p)));
     if (joint.kind == JointKind::revolute) {
-      link.alpha += cross(link.omega, speed * axis) + push * axis;
-      link.omega += speed * axis;
+      link.alpha += cross(link.omega, speed * joint_axis) + push * joint_axis;
+      link.omega += speed * joint_axis;
     } else {
-      link.acceleration += 2.0 * cross(link.omega, speed * axis) + push * axis;
+      link.acceleration += 2.0 * cross(link.omega, speed * joint_axis) + push * joint_axis;
     }
     before = link;
   }

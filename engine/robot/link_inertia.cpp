@@ -60,4 +60,22 @@ Eigen::Matrix3d LinkInertia::about_centre() const {
   return inertia - mass * point_inertia(first_moment / mass);
 }
 
+std::string body_fault(LinkInertia const& link) {
+  if (!(link.mass > 0.0)) return "has no mass";
+  // second moments about the centre: a covariance, so no principal minor is negative
+  Eigen::Matrix3d const about = link.about_centre();
+  double const size = about.trace(), allowed = 1e-6;
+  if (size == 0.0) return about.isZero() ? "" : "is not positive";
+  Eigen::Matrix3d const moments = (0.5 * size * Eigen::Matrix3d::Identity() - about) / std::abs(size);
+  if (moments.diagonal().minCoeff() < -allowed)
+    return "breaks the triangle inequality: one of xx, yy, zz exceeds the sum of the others";
+  for (int i = 0; i < 3; ++i) {
+    int const j = (i + 1) % 3;
+    if (moments(i, i) * moments(j, j) - moments(i, j) * moments(i, j) < -allowed)
+      return "has a product of inertia that is too large for a body";
+  }
+  double const volume = moments.row(0).dot(cross(moments.row(1), moments.row(2)));
+  return volume < -allowed ? "belongs to no body: a principal moment exceeds the sum of the others" : "";
+}
+
 }  // namespace torquescope

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace torquescope {
@@ -43,5 +44,9 @@ struct LinkInertia {
   LinkInertia operator+(LinkInertia const& other) const;  // both in the same frame: rigidly joined
   Eigen::Matrix3d about_centre() const;                   // Requires mass > 0
 };
+
+// why no body has this inertia ("breaks the triangle inequality"), or "". A rod or a plate is a body
+// Source     Traversaro et al. 2016, doi:10.1109/IROS.2016.7759801
+std::string body_fault(LinkInertia const& link);
 
 }  // namespace torquescope

@@ -13,6 +13,7 @@ install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescop
 # jobs that need no recording of anybody else
 install(FILES jobs/clean_joint.toml jobs/concealed_stribeck.toml jobs/crs_a465_joint.toml jobs/smoke.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs)
+install(DIRECTORY jobs/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs FILES_MATCHING PATTERN "*.toml")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)

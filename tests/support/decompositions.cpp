@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 namespace torquescope::test {
 
@@ -15,6 +16,10 @@ Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd cons
 
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::VectorXd singular_values(Eigen::MatrixXd const& matrix) {
+  return Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
 }
 
 }  // namespace torquescope::test

@@ -15,4 +15,7 @@ Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd cons
 // of a symmetric matrix, ascending
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric);
 
+// descending
+Eigen::VectorXd singular_values(Eigen::MatrixXd const& matrix);
+
 }  // namespace torquescope::test

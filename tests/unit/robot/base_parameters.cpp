@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <array>
+#include <random>
 
+#include "engine/robot/gather_text.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
+#include "support/decompositions.hpp"
 #include "unit/robot/example_arms.hpp"
 
 namespace torquescope {
@@ -25,6 +27,74 @@ TEST(BaseParameters, RanksOfKnownArms) {
   EXPECT_EQ(rank(test::panda(), DriveInertias::included), 48);
   EXPECT_EQ(rank(test::puma_560(), DriveInertias::left_out), 36);
   EXPECT_EQ(rank(test::puma_560(), DriveInertias::included), 40);
+}
+
+// columns of length 1, motions of its own
+Eigen::MatrixXd sampled(SerialChain const& chain, int n_samples) {
+  std::mt19937 bits(7);
+  std::uniform_real_distribution<double> uniform(-3.0, 3.0);
+  Eigen::Index const n = chain.size();
+  Eigen::MatrixXd rows(n * n_samples, 11 * n);
+  for (int sample = 0; sample < n_samples; ++sample) {
+    auto const draw = [&] {
+      return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index) { return uniform(bits); }).eval();
+    };
+    rows.middleRows(n * sample, n) = arm_regressor(chain, draw(), draw(), draw(), DriveInertias::included);
+  }
+  // cos(pi / 2) is not quite 0: what it leaves of a column is no column
+  Eigen::VectorXd const lengths = rows.colwise().norm();
+  for (Eigen::Index k = 0; k < rows.cols(); ++k)
+    rows.col(k) *= lengths[k] > 1e-12 * lengths.maxCoeff() ? 1.0 / lengths[k] : 0.0;
+  return rows;
+}
+
+TEST(BaseParameters, AreAsManyAsTheRankOfFiveHundredRandomArms) {
+  for (std::uint32_t number = 0; number < 500; ++number) {
+    auto const chain = test::random_arm(number, number % 5 != 0).chain;
+    auto const values = test::singular_values(sampled(chain, 24));
+    Eigen::Index const n = rank(chain, DriveInertias::included);
+    ASSERT_GT(n, 0);
+    // a gap of three decades; short columns (a length of millimetres) carry their rounding
+    EXPECT_GT(values[n - 1], 1e-6 * values[0]) << number;
+    if (n < values.size()) {
+      EXPECT_LT(values[n], 1e-9 * values[0]) << number;
+    }
+  }
+}
+
+TEST(BaseParameters, OfFiveJointsWithThreeFrictionsAreTheFortySevenOfTheCrsA465) {
+  auto const chain = test::crs_a465(5);
+  EXPECT_EQ(rank(chain, DriveInertias::included) + 3 * chain.size(), 47);
+}
+
+TEST(BaseParameters, HaveTheNamesAndSumsOfTheRule) {
+  // a pendulum of two parallel joints: 10 numbers a link, 5 sums
+  SerialChain chain;
+  chain.joints.resize(2);
+  chain.joints[0].alpha = 1.5707963267948966;
+  chain.joints[1].a = 0.4;
+  BaseParameters const base(chain, DriveInertias::left_out);
+  std::vector<std::string> names, sums;
+  for (Eigen::Index k = 0; k < base.size(); ++k) {
+    names.push_back(base.parameters()[static_cast<std::size_t>(k)].name);
+    sums.push_back(gather_text(base, k));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"mxr1", "my1", "zzr1", "mx2", "my2", "zz2"}));
+  EXPECT_EQ(sums[0], "mx1 + 0.4 m2");
+  EXPECT_EQ(sums[2], "zz1 + 0.16 m2");
+  EXPECT_EQ(sums[5], "zz2");
+  EXPECT_EQ(base.without_effect().size(), 13u);  // m1 and out-of-plane numbers of both links
+}
+
+TEST(BaseParameters, DoNotDependOnTheUnitOfLength) {
+  auto const metres = test::panda();
+  auto small = metres;
+  for (auto& joint : small.joints) {
+    joint.a *= 1e-3;
+    joint.d *= 1e-3;
+  }
+  EXPECT_EQ(BaseParameters(small, DriveInertias::included).columns(),
+            BaseParameters(metres, DriveInertias::included).columns());
 }
 
 TEST(BaseParameters, GiveTheTorqueOfTheStandardOnes) {

@@ -1,0 +1,223 @@
+#include "engine/robot/urdf_tree.hpp"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/robot/right_angles.hpp"
+#include "engine/robot/xml_depth.hpp"
+
+namespace torquescope {
+
+namespace {
+
+constexpr double most_angle = 20.0 * std::numbers::pi;  // ten turns; limits in degrees are above
+constexpr double unit_tolerance = 1e-3;
+
+// what urdfdom says while it reads
+class Listener final : public console_bridge::OutputHandler {
+ public:
+  Listener() { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener(Listener const&) = delete;
+  Listener& operator=(Listener const&) = delete;
+  void log(std::string const& text, console_bridge::LogLevel level, char const*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_error.empty()) first_error = text;
+  }
+  std::string first_error;
+};
+
+Eigen::Vector3d vector_of(urdf::Vector3 const& v) { return {v.x, v.y, v.z}; }
+
+Eigen::Matrix3d matrix_of(urdf::Rotation const& q) {
+  Eigen::Matrix3d matrix;
+  matrix << 1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z), 2.0 * (q.x * q.z + q.w * q.y),
+      2.0 * (q.x * q.y + q.w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z - q.w * q.x),
+      2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
+  return matrix;
+}
+
+// the part of a message in [brackets], which is a name: its place
+SourcePlace place_of_message(RobotText const& text, std::string const& message) {
+  for (std::size_t open = message.find('['); open != std::string::npos; open = message.find('[', open + 1)) {
+    auto const name = message.substr(open + 1, message.find(']', open) - open - 1);
+    for (auto const* element : {"joint", "link", "material"})
+      if (auto const place = urdf_place(text, element, name); place.line > 0) return place;
+  }
+  return text.whole();
+}
+
+urdf::ModelInterfaceSharedPtr parse(RobotText const& text) {
+  Listener listener;
+  auto const model = urdf::parseURDF(text.text);
+  validate(model != nullptr, [&] {
+    Problem problem;
+    problem.code = ExitCode::bad_data;
+    std::string const& said = listener.first_error;
+    problem.what = "this is no URDF" + (said.empty() ? "" : ": " + said);
+    problem.place = place_of_message(text, said);
+    problem.help = "mend it there; check_urdf (Debian: liburdfdom-tools) reads it the same way";
+    return problem;
+  });
+  return model;
+}
+
+class TreeReader {
+ public:
+  TreeReader(RobotText const& text, urdf::ModelInterface const& model) : text_(text), model_(model) {}
+
+  UrdfTree read() {
+    tree_.name = model_.getName();
+    tree_.root = model_.getRoot()->name;
+    for (auto const& [name, link] : model_.links_)
+      if (link->inertial) read_inertia(*link);
+    for (auto const& [name, joint] : model_.joints_) read_joint(*joint);
+    refuse_loops();
+    if (!problems_.empty()) throw Error(std::move(problems_));
+    return std::move(tree_);
+  }
+
+ private:
+  void refuse(SourcePlace place, std::string what, std::string help) {
+    problems_.push_back({.what = std::move(what), .place = std::move(place), .help = std::move(help)});
+  }
+
+  void read_inertia(urdf::Link const& link) {
+    auto const& given = *link.inertial;
+    Eigen::Matrix3d tensor;
+    tensor << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz, given.izz;
+    FramePose const pose{matrix_of(given.origin.rotation), vector_of(given.origin.position)};
+    auto const body = LinkInertia::from_centre(given.mass, Eigen::Vector3d::Zero(), tensor);
+    if (!(given.mass >= 0.0) || !tensor.allFinite()) {
+      refuse(urdf_place(text_, "link", link.name, "inertial"),
+             fmt::format("link \"{}\" has mass {} and an inertia that is none", link.name, given.mass),
+             "write its mass in kg and its inertia in kg m^2, or no <inertial> at all");
+      return;
+    }
+    if (given.mass == 0.0 && tensor.isZero()) return;
+    if (auto const fault = body_fault(body); !fault.empty())
+      tree_.remarks.push_back(fmt::format("the inertia of link \"{}\" {}", link.name, fault));
+    tree_.inertias[link.name] = body.seen_from(pose);
+  }
+
+  void read_joint(urdf::Joint const& given) {
+    UrdfJoint read;
+    read.joint.name = given.name;
+    read.parent = given.parent_link_name;
+    read.child = given.child_link_name;
+    read.origin = origin_of(given);
+    read.is_fixed = given.type == urdf::Joint::FIXED;
+    if (given.mimic) read.mimics = given.mimic->joint_name;
+    bool const moves = given.type == urdf::Joint::REVOLUTE || given.type == urdf::Joint::CONTINUOUS ||
+                       given.type == urdf::Joint::PRISMATIC;
+    if (!moves && !read.is_fixed) {
+      refuse(urdf_place(text_, "joint", given.name), fmt::format("joint \"{}\" floats or is planar", given.name),
+             "a serial arm has revolute, continuous, prismatic and fixed joints: make it fixed");
+      return;
+    }
+    if (moves) read_motion(given, read);
+    if (tree_.joint_to.contains(read.child)) {
+      refuse(urdf_place(text_, "joint", given.name),
+             fmt::format("link \"{}\" hangs on two joints, \"{}\" and \"{}\": a loop", read.child,
+                         tree_.joint_to[read.child].joint.name, given.name),
+             "a serial arm has no loops: take one of the two joints out");
+      return;
+    }
+    tree_.children[read.parent].push_back(read.child);
+    tree_.joint_to[read.child] = std::move(read);
+  }
+
+  FramePose origin_of(urdf::Joint const& given) {
+    auto const& origin = given.parent_to_joint_origin_transform;
+    Eigen::Matrix3d const written = matrix_of(origin.rotation), right = nearest_right_angles(written);
+    if ((written - right).cwiseAbs().maxCoeff() > rounding_of_an_angle)
+      tree_.remarks.push_back(
+          fmt::format("the angles of joint \"{}\" are taken as right ones, {:.1e} rad from what is written", given.name,
+                      (written - right).cwiseAbs().maxCoeff()));
+    return {right, vector_of(origin.position)};
+  }
+
+  void read_motion(urdf::Joint const& given, UrdfJoint& read) {
+    auto& joint = read.joint;
+    joint.kind = given.type == urdf::Joint::PRISMATIC ? JointKind::prismatic : JointKind::revolute;
+    read.axis = vector_of(given.axis);
+    double const length = read.axis.norm();
+    if (!(std::abs(length - 1.0) <= unit_tolerance)) {
+      Eigen::Vector3d const unit = read.axis / length;
+      refuse(urdf_place(text_, "joint", given.name, "axis"),
+             fmt::format("the axis of joint \"{}\" has length {:.4g}, not 1", given.name, length),
+             length > 0.0 ? fmt::format("write <axis xyz=\"{:.10g} {:.10g} {:.10g}\"/>", unit.x(), unit.y(), unit.z())
+                          : "write the direction of the axis, for example <axis xyz=\"0 0 1\"/>");
+      return;
+    }
+    read.axis /= length;
+    if (!given.limits) return;
+    bool const bounded = given.type != urdf::Joint::CONTINUOUS;
+    if (bounded) {
+      joint.lower = given.limits->lower;
+      joint.upper = given.limits->upper;
+    }
+    if (given.limits->velocity > 0.0) joint.max_speed = given.limits->velocity;
+    if (given.limits->effort > 0.0) joint.max_torque = given.limits->effort;
+    double const widest = std::max(std::abs(given.limits->lower), std::abs(given.limits->upper));
+    if (bounded && joint.kind == JointKind::revolute && widest > most_angle)
+      refuse(urdf_place(text_, "joint", given.name, "limit"),
+             fmt::format("joint \"{}\" has a limit of {} rad: is it in degrees?", given.name, widest),
+             fmt::format("write radians: {} degrees are {:.10g}", widest, widest * std::numbers::pi / 180.0));
+  }
+
+  // every joint must be reached from the root
+  void refuse_loops() {
+    for (auto const& [child, joint] : tree_.joint_to) {
+      std::string link = child;
+      std::size_t steps = 0;
+      while (link != tree_.root && tree_.joint_to.contains(link) && steps <= tree_.joint_to.size()) {
+        link = tree_.joint_to.at(link).parent;
+        ++steps;
+      }
+      if (steps <= tree_.joint_to.size()) continue;
+      refuse(urdf_place(text_, "joint", joint.joint.name),
+             fmt::format("joint \"{}\" is part of a loop that does not begin at the base", joint.joint.name),
+             "a serial arm has no loops: every link but the base has one parent, and the base has none");
+      return;
+    }
+  }
+
+  RobotText const& text_;
+  urdf::ModelInterface const& model_;
+  UrdfTree tree_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+SourcePlace urdf_place(RobotText const& text, std::string const& element, std::string const& name,
+                       std::string const& inner) {
+  std::string const opening = "<" + element;
+  auto const& all = text.text;
+  for (std::size_t at = all.find(opening); at != std::string::npos; at = all.find(opening, at + 1)) {
+    std::size_t const end = all.find('>', at);
+    if (end == std::string::npos) break;
+    auto const head = all.substr(at, end - at);
+    bool const named = head.find(fmt::format("name=\"{}\"", name)) != std::string::npos ||
+                       head.find(fmt::format("name='{}'", name)) != std::string::npos;
+    if (!named || std::isalnum(static_cast<unsigned char>(all[at + opening.size()])) != 0) continue;
+    std::size_t const close = all.find("</" + element, end);
+    std::size_t const within = inner.empty() ? std::string::npos : all.find("<" + inner, end);
+    if (within < close) return text.place(within, all.find('>', within) + 1 - within);
+    return text.place(at, end + 1 - at);
+  }
+  return text.whole();
+}
+
+UrdfTree read_urdf_tree(RobotText const& text) {
+  refuse_deep_xml(text);
+  auto const model = parse(text);
+  return TreeReader(text, *model).read();
+}
+
+}  // namespace torquescope
