@@ -12,6 +12,7 @@
 #include "engine/optim/optimiser.hpp"
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/loss.hpp"
+#include "engine/robot/robot_options.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/simulate/simulation_plan.hpp"
@@ -91,9 +92,9 @@ void add_readers_and_losses(std::vector<CatalogueEntry>& entries) {
 }
 
 template <class Options>
-void add_section(std::vector<CatalogueEntry>& entries) {
+void add_section(std::vector<CatalogueEntry>& entries, char const* kind = "section") {
   auto const& table = Options::table();
-  entries.push_back({table.section(), "section", table.meaning(), {}, table.describe()});
+  entries.push_back({table.section(), kind, table.meaning(), {}, table.describe()});
 }
 
 void add_sections(std::vector<CatalogueEntry>& entries) {
@@ -139,6 +140,12 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<OutputOptions>(entries);
 }
 
+void add_robots(std::vector<CatalogueEntry>& entries) {
+  add_section<RobotOptions>(entries, "robot");
+  add_section<JointOptions>(entries, "robot");
+  entries.back().text = {"written [[joint]] for each joint, from the base to the tip"};
+}
+
 }  // namespace
 
 std::vector<CatalogueEntry> const& catalogue() {
@@ -148,6 +155,7 @@ std::vector<CatalogueEntry> const& catalogue() {
     add_estimators(made);
     add_readers_and_losses(made);
     add_sections(made);
+    add_robots(made);
     return made;
   }();
   return entries;

@@ -11,7 +11,7 @@ namespace torquescope {
 
 struct CatalogueEntry {
   std::string name;                          // "fade", "stribeck", "filter"
-  std::string kind;                          // "optimiser", "effect", "reader", "loss", "estimator", "section"
+  std::string kind;                          // "optimiser", "effect", "reader", "loss", "estimator", "section", "robot"
   std::string title;                         // one line
   std::vector<std::string> text{};           // equation, source, remarks: one line each
   std::vector<OptionDescription> options{};  // keys with type, unit, range, default, meaning

@@ -303,6 +303,24 @@ class CommandLine(Folder):
             self.assertTrue(described.out.startswith(name))
             self.assert_page(described.out)
 
+    def test_robots_are_described_in_80_columns(self):
+        robots = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "jobs", "robots")
+        names = sorted(os.listdir(robots))
+        self.assertIn("crs_a465.toml", names)
+        for name in names:
+            described = self.run_here("describe", os.path.join(robots, name))
+            self.assertEqual(described.code, 0, described.err)
+            self.assert_page(described.out)
+        crs = self.run_here("describe", os.path.join(robots, "crs_a465.toml")).out
+        self.assertIn("base parameters: 29 of the 50 numbers of the links; 32 with drive inertias", crs)
+        self.assertIn("xxr2     kg m^2  = xx2 - yy2 - 0.0929 (m3 + m4 + m5)", crs)
+
+    def test_a_wrong_robot_is_refused_at_its_place(self):
+        self.write("arm.toml", "[robot]\n[[joint]]\nalpha_rad = 90\n")
+        self.assert_refused(self.run_here("describe", "arm.toml"), 78, ["arm.toml:3", "is it in degrees?", "1.5707963"])
+        self.write("job.toml", GOOD_JOB)
+        self.assert_refused(self.run_here("describe", "job.toml"), 65, ["describes no robot"])
+
     def test_full_disk_behind_stdout_is_an_error(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("no /dev/full")

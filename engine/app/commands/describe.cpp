@@ -3,12 +3,16 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/result/robot_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/run/catalogue.hpp"
+#include "engine/run/robot_description.hpp"
 
 namespace torquescope {
 
@@ -67,20 +71,34 @@ ExitCode describe_entry(std::string const& name, Session const& session) {
   return ExitCode::ok;
 }
 
+bool is_file_name(std::string const& name) {
+  auto const ending = std::filesystem::path(name).extension();
+  return name.find('/') != std::string::npos || ending == ".toml" || ending == ".urdf" || ending == ".xml" ||
+         ending == ".xacro" || std::filesystem::is_regular_file(name);
+}
+
+ExitCode describe(std::string const& name, Session const& session) {
+  bool const is_entry =
+      std::any_of(catalogue().begin(), catalogue().end(), [&](auto const& one) { return one.name == name; });
+  if (is_entry || !is_file_name(name)) return describe_entry(name, session);
+  session.result(robot_text(describe_robot(name), session.result_ink()));
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 void add_describe(CLI::App& app, ChosenCommand& chosen) {
   auto const name = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("describe", "Explains one name: what it does, where it comes from, every option.");
+  CLI::App* command = app.add_subcommand("describe", "Explains one name with every option, or the robot in a file.");
   command->footer(
       "  torquescope describe fade\n"
       "  torquescope describe recording\n"
-      "  torquescope list\n");
-  command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator or job section")->required();
+      "  torquescope describe jobs/robots/ur10e.toml\n");
+  command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator, job section, or a robot file")
+      ->required();
   add_colour_option(*command, chosen);
   command->callback(
-      [name, &chosen] { chosen.work = [name](Session const& session) { return describe_entry(*name, session); }; });
+      [name, &chosen] { chosen.work = [name](Session const& session) { return describe(*name, session); }; });
 }
 
 }  // namespace torquescope

@@ -66,7 +66,7 @@ void add_list(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope list\n"
       "  torquescope list effects\n"
       "  torquescope describe fade\n");
-  command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections");
+  command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections, robots");
   add_colour_option(*command, chosen);
   command->callback(
       [word, &chosen] { chosen.work = [word](Session const& session) { return list_entries(*word, session); }; });
