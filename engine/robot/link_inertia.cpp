@@ -1,5 +1,7 @@
 #include "engine/robot/link_inertia.hpp"
 
+#include <cmath>
+
 #include "engine/base/contract.hpp"
 #include "engine/robot/vector3.hpp"
 

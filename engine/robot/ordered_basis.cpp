@@ -1,6 +1,7 @@
 #include "engine/robot/ordered_basis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace torquescope {
 

@@ -114,8 +114,11 @@ class EveryCommand(unittest.TestCase):
         self.assertIn("stribeck", self.run_command("list", "effects"))
         self.assertIn("Stribeck friction", self.run_command("describe", "stribeck"))
         jobs = os.path.join(self.prefix, "share", "torquescope", "jobs")
-        for job in sorted(os.listdir(jobs)):
+        for job in sorted(name for name in os.listdir(jobs) if name.endswith(".toml")):
             self.assertIn("nothing stops a run", self.run_command("check", os.path.join(jobs, job)), job)
+        robots = os.path.join(jobs, "robots")
+        for robot in sorted(os.listdir(robots)):
+            self.assertIn("base parameters", self.run_command("describe", os.path.join(robots, robot)), robot)
 
 
 if __name__ == "__main__":
