@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "engine/robot/right_angles.hpp"
 #include "engine/robot/xml_depth.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double most_angle = 20.0 * std::numbers::pi;  // ten turns; limits in degrees are above
 constexpr double unit_tolerance = 1e-3;
+constexpr double farthest_origin = 20.0;  // m, as the DH numbers of a robot in TOML
 
 // what urdfdom says while it reads
 class Listener final : public console_bridge::OutputHandler {
@@ -41,13 +43,19 @@ Eigen::Matrix3d matrix_of(urdf::Rotation const& q) {
   return matrix;
 }
 
-// the part of a message in [brackets], which is a name: its place
+// the part of a message in [brackets] or (parentheses) is a name or a value: its place
 SourcePlace place_of_message(RobotText const& text, std::string const& message) {
-  for (std::size_t open = message.find('['); open != std::string::npos; open = message.find('[', open + 1)) {
-    auto const name = message.substr(open + 1, message.find(']', open) - open - 1);
+  std::vector<std::string> pieces;
+  for (std::size_t open = message.find_first_of("[("); open != std::string::npos;
+       open = message.find_first_of("[(", open + 1))
+    pieces.push_back(message.substr(open + 1, message.find_first_of("])", open) - open - 1));
+  for (auto const& piece : pieces)
     for (auto const* element : {"joint", "link", "material"})
-      if (auto const place = urdf_place(text, element, name); place.line > 0) return place;
-  }
+      if (auto const place = urdf_place(text, element, piece); place.line > 0) return place;
+  for (auto const& piece : pieces)
+    for (char const* before : {"\"", "'", " "})
+      if (auto const at = text.text.find(before + piece); !piece.empty() && at != std::string::npos)
+        return text.place(at + 1, piece.size());
   return text.whole();
 }
 
@@ -131,7 +139,30 @@ class TreeReader {
     tree_.joint_to[read.child] = std::move(read);
   }
 
+  // urdfdom has turned them into a rotation: the text itself tells degrees
+  void refuse_degrees(urdf::Joint const& given) {
+    auto const place = urdf_place(text_, "joint", given.name, "origin");
+    if (place.line == 0) return;
+    auto const element =
+        place.line_text.substr(static_cast<std::size_t>(place.column - 1), static_cast<std::size_t>(place.length));
+    auto const at = element.find("rpy=");
+    if (at == std::string::npos) return;
+    std::istringstream numbers(element.substr(std::min(at + 5, element.size())));
+    for (double angle = 0.0; numbers >> angle;) {
+      if (std::abs(angle) <= 2.0 * std::numbers::pi + unit_tolerance) continue;
+      refuse(place, fmt::format("rpy of joint \"{}\" has an angle of {}: is it in degrees?", given.name, angle),
+             fmt::format("write radians: {} degrees are {:.10g}", angle, angle * std::numbers::pi / 180.0));
+      return;
+    }
+  }
+
   FramePose origin_of(urdf::Joint const& given) {
+    auto const at = vector_of(given.parent_to_joint_origin_transform.position);
+    if (double const farthest = at.cwiseAbs().maxCoeff(); !(farthest <= farthest_origin))
+      refuse(urdf_place(text_, "joint", given.name, "origin"),
+             fmt::format("joint \"{}\" is {:.4g} m from its parent: is it in millimetres?", given.name, farthest),
+             fmt::format("write metres: {:.4g} mm are {:.4g} m", farthest, 1e-3 * farthest));
+    refuse_degrees(given);
     auto const& origin = given.parent_to_joint_origin_transform;
     Eigen::Matrix3d const written = matrix_of(origin.rotation), right = nearest_right_angles(written);
     if ((written - right).cwiseAbs().maxCoeff() > rounding_of_an_angle)

@@ -26,10 +26,10 @@ RobotDescription::Joint described_joint(ChainJoint const& joint) {
   RobotDescription::Joint text;
   text.name = joint.name;
   text.kind = joint.kind == JointKind::revolute ? "revolute" : "prismatic";
-  text.alpha = joint.alpha;
-  text.a = joint.a;
-  text.offset = joint.offset;
-  text.d = joint.d;
+  text.alpha = without_rounding(joint.alpha);
+  text.a = without_rounding(joint.a);
+  text.offset = without_rounding(joint.offset);
+  text.d = without_rounding(joint.d);
   text.lower = given_or_nan(joint.lower);
   text.upper = given_or_nan(joint.upper);
   text.max_speed = given_or_nan(joint.max_speed);
