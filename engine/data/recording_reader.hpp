@@ -20,19 +20,22 @@ struct RecordingOptions {
   std::vector<std::string> train{};
   std::vector<std::string> validate{};
   std::map<std::string, std::string>
-      columns{};                   // channel -> column: time, position, torque, reference, velocity, acceleration
-  double torque_per_unit = 1.0;    // N m per unit of the torque column (A, V, N)
-  double position_per_unit = 1.0;  // rad per unit of position, reference, velocity, acceleration columns
-  double velocity_per_unit = 0.0;  // rad/s per unit of the velocity column; 0: position_per_unit
-  double time_per_unit = 1.0;      // s per unit of the time column
-  double wrap = 0.0;               // modulus of the position column; 0: found from the recording
+      columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration
+  // N m per unit of the torque column (A, V, N): of the joint, or of each joint of an arm
+  std::vector<double> torque_per_unit{1.0};
+  double position_per_unit = 1.0;                 // rad per unit of position, reference, velocity, acceleration columns
+  double velocity_per_unit = 0.0;                 // rad/s per unit of the velocity column; 0: position_per_unit
+  double time_per_unit = 1.0;                     // s per unit of the time column
+  double wrap = 0.0;                              // modulus of the position column; 0: found from the recording
   std::map<std::string, std::string> encoding{};  // channel -> "unsigned16", "sign_magnitude", "plain"
   std::vector<double> leave_out{};                // s from, until, from, until, ...: on the recording's own clock
   double rate_hz = 0.0;                           // sampling rate when the file has no time column
   double delay_s = 0.0;                           // added to the torque's time stamps
   std::string gaps = "fill";       // missing values: "error", or "fill" short ones and leave out longer ones
   std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
+  double train_share = 1.0;        // of every training recording, from its start; the rest judges
 
+  double torque_factor() const { return torque_per_unit.front(); }
   double velocity_factor() const { return velocity_per_unit != 0.0 ? velocity_per_unit : position_per_unit; }
 
   static OptionTable<RecordingOptions> const& table();

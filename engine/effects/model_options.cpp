@@ -4,13 +4,19 @@ namespace torquescope {
 
 OptionTable<ModelOptions> const& ModelOptions::table() {
   static OptionTable<ModelOptions> const table(
-      "model", "the torque of the joint as a sum of terms",
+      "model", "the torque of the joint as a sum of terms, or an arm",
       {{"joint", &ModelOptions::joint, std::vector<std::string>{"revolute", "prismatic"},
         "kind of joint: turns or slides"},
-       {"terms", &ModelOptions::terms,
-        "effects whose torques add up (torquescope list effects)"},
+       {"terms", &ModelOptions::terms, "effects whose torques add up (torquescope list effects)"},
        {"velocity_deadband", &ModelOptions::velocity_deadband, "rad/s or m/s", 0.0, 1e3,
-        "dry friction is zero at and below this speed; 0: only at rest"}});
+        "dry friction is zero at and below this speed; 0: only at rest"},
+       {"robot", &ModelOptions::robot,
+        "robot file of an arm (robots/panda.toml, a URDF), relative to the job file; then joint and terms are not "
+        "written"},
+       {"friction", &ModelOptions::friction,
+        "of an arm: effects that every joint has beside the rigid arm, e.g. viscous, coulomb, offset"},
+       {"drive_inertia", &ModelOptions::drive_inertia,
+        "of an arm: the inertia of each drive, on the joint's side, is a parameter"}});
   return table;
 }
 

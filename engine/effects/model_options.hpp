@@ -1,5 +1,5 @@
 #pragma once
-// The [model] section of a job: which terms one joint has.
+// The [model] section of a job: which terms one joint has, or which arm it is and what its joints have beside it.
 
 #include <string>
 #include <vector>
@@ -13,6 +13,10 @@ struct ModelOptions {
   std::string joint = "revolute";
   std::vector<std::string> terms{};
   double velocity_deadband = 0.0;
+  // of an arm
+  std::string robot{};                  // its file, relative to the job's; "": the job is about one joint
+  std::vector<std::string> friction{};  // terms of every joint beside the rigid arm
+  bool drive_inertia = true;            // rotors are parameters of their own
 
   static OptionTable<ModelOptions> const& table();
 };

@@ -49,7 +49,13 @@ void check_options(RecordingOptions const& options, Section const& section) {
     problems.push_back(problem_at(section, key, fmt::format("{} = {:g} would erase the signal", key, value),
                                   "write the SI value of one unit of the column; 1 when it is in SI units already"));
   };
-  check_unit("torque_per_unit", options.torque_per_unit);
+  if (options.torque_per_unit.size() == 1)
+    check_unit("torque_per_unit", options.torque_factor());
+  else
+    problems.push_back(problem_at(
+        section, "torque_per_unit",
+        fmt::format("torque_per_unit has {} numbers, and the job is about one joint", options.torque_per_unit.size()),
+        "write one number; a list is for an arm: model.robot = \"ARM.toml\""));
   check_unit("position_per_unit", options.position_per_unit);
   check_encoding(options, section, problems);
   bool const has_pairs = options.leave_out.size() % 2 == 0;
@@ -95,7 +101,7 @@ void check_moves(Channels const& channels, RawTable const& table) {
 }
 
 double unit_of(std::string const& channel, RecordingOptions const& options) {
-  if (channel == "torque") return options.torque_per_unit;
+  if (channel == "torque") return options.torque_factor();
   if (channel == "simulated_torque") return 1.0;
   return channel == "velocity" ? options.velocity_factor() : options.position_per_unit;
 }

@@ -74,16 +74,32 @@ std::vector<Excursion> excursions_of(std::vector<double> const& values, Roughnes
   return found;
 }
 
-std::vector<Jump> jumps_of(std::vector<double> const& values, Roughness const& roughness) {
+namespace {
+
+// of each known row: the rows since the one before, also those that only the clock knows of
+std::vector<double> rows_between(std::vector<std::size_t> const& rows, std::vector<double> const& time_s) {
+  std::vector<double> between(rows.size(), 1.0), steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  double const period = quantile_of(std::move(steps), 0.5);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    between[i] = static_cast<double>(rows[i] - rows[i - 1]);
+    if (period > 0.0) between[i] = std::max(between[i], std::round((time_s[rows[i]] - time_s[rows[i - 1]]) / period));
+  }
+  return between;
+}
+
+}  // namespace
+
+std::vector<Jump> jumps_of(std::vector<double> const& values, std::vector<double> const& time_s,
+                           Roughness const& roughness) {
   auto const [x, rows] = known_of(values);
   double const least = least_size(roughness);
+  auto const between = rows_between(rows, time_s);
   // of a row: over a gap the joint goes on
-  auto const speed = [&, &x = x, &rows = rows](std::size_t i) {
-    return step(x, i) / static_cast<double>(rows[i] - rows[i - 1]);
-  };
+  auto const speed = [&, &x = x](std::size_t i) { return step(x, i) / between[i]; };
   std::vector<Jump> found;
   for (std::size_t i = 1; i < x.size(); ++i) {
-    auto const rows_over = static_cast<double>(rows[i] - rows[i - 1]);
+    double const rows_over = between[i];
     if (std::fabs(step(x, i)) < least * rows_over * rows_over) continue;
     double around = 0.0, expected = 0.0;
     int counted = 0;

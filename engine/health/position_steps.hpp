@@ -29,6 +29,8 @@ struct Jump {
   double size = 0.0;      // with its sign
   double expected = 0.0;  // the step that the rows around it would have made
 };
-std::vector<Jump> jumps_of(std::vector<double> const& values, Roughness const& roughness);
+// time_s: of each row, or empty; while rows are missing the joint goes on
+std::vector<Jump> jumps_of(std::vector<double> const& values, std::vector<double> const& time_s,
+                           Roughness const& roughness);
 
 }  // namespace torquescope

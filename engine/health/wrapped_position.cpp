@@ -90,7 +90,7 @@ bool has_unknown_modulus(std::vector<Jump> const& jumps, double range) {
 void unwrap_position(Examination& exam) {
   auto& position = exam.values("position");
   auto const roughness = roughness_of(position);
-  auto const jumps = jumps_of(position, roughness);
+  auto const jumps = jumps_of(position, {}, roughness);
   if (jumps.empty()) return;
   if (auto const modulus = modulus_of(exam, jumps, roughness); modulus) {
     auto const wraps = unwrap(position, *modulus);

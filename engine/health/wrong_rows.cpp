@@ -86,7 +86,7 @@ void fill_excursions(Examination& exam, Roughness const& roughness) {
 void report_jumps(Examination& exam, Roughness const& roughness) {
   std::vector<std::size_t> rows;
   double largest = 0.0;
-  for (auto const& jump : jumps_of(exam.values("position"), roughness)) {
+  for (auto const& jump : jumps_of(exam.values("position"), exam.time_s, roughness)) {
     rows.push_back(jump.row);
     if (std::fabs(jump.size) > std::fabs(largest)) largest = jump.size;
   }

@@ -68,15 +68,42 @@ Eigen::MatrixXd inverse_information(RegressionData const& data, Eigen::VectorXd 
   return unscaled * unscaled.transpose();
 }
 
+namespace {
+
+// covariance_hac and its lags; how many independent rows there could be at most
+Eigen::Index add_covariance(LeastSquaresFit& fit, RowScores const& scores, Eigen::MatrixXd const& bread,
+                            std::int64_t hac_lags) {
+  Eigen::Index const n = scores.psi.size();
+  fit.hac_lags = hac_lags >= 0 ? std::min<std::int64_t>(hac_lags, n / 2) : andrews_lags(scores);
+  fit.covariance_hac = newey_west_covariance(scores, bread, fit.hac_lags);
+  return n;
+}
+
+// of every instant of an arm: the sum over its joints
+Eigen::MatrixXd scores_of_instants(RegressionData const& data, Eigen::VectorXd const& psi) {
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(data.arm->first_instant.back(), data.parameters());
+  for (Eigen::Index column = 0; column < scores.cols(); ++column)
+    for (Eigen::Index t = 0; t < data.rows(); ++t)
+      scores(data.arm->instant[static_cast<std::size_t>(t)], column) += data.phi(t, column) * psi[t];
+  return scores;
+}
+
+}  // namespace
+
 void finish_fit(LeastSquaresFit& fit, RegressionData const& data, Eigen::VectorXd const& psi,
                 Eigen::MatrixXd const& bread, std::int64_t hac_lags) {
   fit.metrics = prediction_metrics(data, fit.parameters);
-  RowScores const scores{data.phi, psi, data.first_row};
-  fit.hac_lags = hac_lags >= 0 ? std::min<std::int64_t>(hac_lags, data.rows() / 2) : andrews_lags(scores);
-  fit.covariance_hac = newey_west_covariance(scores, bread, fit.hac_lags);
+  Eigen::Index n = 0;
+  if (data.arm) {
+    Eigen::MatrixXd const scores = scores_of_instants(data, psi);
+    Eigen::VectorXd const ones = Eigen::VectorXd::Ones(scores.rows());
+    n = add_covariance(fit, {scores, ones, data.arm->first_instant}, bread, hac_lags);
+  } else {
+    n = add_covariance(fit, {data.phi, psi, data.first_row}, bread, hac_lags);
+  }
   fit.standard_error = fit.covariance_hac.diagonal().cwiseMax(0.0).cwiseSqrt();
   fit.standard_error_naive = fit.covariance_naive.diagonal().cwiseMax(0.0).cwiseSqrt();
-  double const half_width = critical_value(fit.hac_lags, data.rows());
+  double const half_width = critical_value(fit.hac_lags, n);
   fit.ci95.resize(data.parameters(), 2);
   fit.ci95.col(0) = fit.parameters - half_width * fit.standard_error;
   fit.ci95.col(1) = fit.parameters + half_width * fit.standard_error;

@@ -1,7 +1,5 @@
 #include "engine/problem/regression_data.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/huge_pages.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/problem/unequal_rates.hpp"
 
 namespace torquescope {
 namespace {
@@ -163,17 +162,6 @@ RegressionData rows_of(Motion&& motion, FilterOptions const& options, Regressor 
   return rows;
 }
 
-Problem different_rates(std::string const& recording, double rate_hz, std::string const& first, double first_rate_hz,
-                        Section const& section) {
-  Problem problem{ExitCode::bad_data,
-                  fmt::format("{} keeps {:.6g} samples a second, {} keeps {:.6g} (a fit would weigh them unequally)",
-                              recording, rate_hz, first, first_rate_hz)};
-  problem.place = section.where("decimate_to_hz");
-  problem.key = "filter.decimate_to_hz";
-  problem.help = fmt::format("write filter.decimate_to_hz = {:.6g} or lower", std::min(rate_hz, first_rate_hz));
-  return problem;
-}
-
 void append(Eigen::VectorXd& whole, Eigen::VectorXd&& part) {
   if (whole.size() == 0) {
     whole = std::move(part);
@@ -234,10 +222,8 @@ void append_rows(RegressionData& data, std::string const& recording_name, Motion
     data.kept_rate_hz = part.kept_rate_hz;
     data.first_row = {0};
   }
-  // rates are ratios of small numbers: equal ones differ by rounding at most
-  validate(std::abs(part.kept_rate_hz - data.kept_rate_hz) <= 1e-9 * data.kept_rate_hz, [&] {
-    return different_rates(recording_name, part.kept_rate_hz, data.recording_names.front(), data.kept_rate_hz, filter);
-  });
+  check_kept_rate(recording_name, part.kept_rate_hz, is_first ? recording_name : data.recording_names.front(),
+                  data.kept_rate_hz, filter);
 
   if (is_first) {
     data.phi = std::move(part.phi);

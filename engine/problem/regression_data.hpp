@@ -34,6 +34,18 @@ struct RegressionData {
   Eigen::VectorXd ddq;
   std::vector<Eigen::Index> first_row{0, 0};  // [recordings + 1]; recording k owns rows first_row[k] .. first_row[k+1]
 
+  // rows of an arm (arm_regression.hpp); of a single joint nothing. A block of first_row holds a joint's rows of one
+  // recording then
+  struct Arm {
+    std::vector<std::size_t> joint;           // [recordings()] whose rows the block holds
+    std::vector<Eigen::Index> instant;        // [n] rows of several joints at the same time have the same
+    std::vector<Eigen::Index> first_instant;  // [files + 1]
+    Eigen::VectorXd scale;                    // [joints] rows of a joint were divided by it: its noise, N m or N
+
+    std::size_t joints() const { return static_cast<std::size_t>(scale.size()); }
+  };
+  std::optional<Arm> arm{};
+
   std::vector<std::string> recording_names;  // [recordings]
   std::vector<double> rate_hz;               // [recordings] as recorded
   double kept_rate_hz = 0.0;                 // of the rows

@@ -8,14 +8,15 @@
 #include <utility>
 
 #include "engine/base/stack_limit.hpp"
-#include "engine/data/change_of_rate.hpp"
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/health/make_recording.hpp"
+#include "engine/run/arm_assembly.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_recordings.hpp"
@@ -73,29 +74,6 @@ std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> 
   return recordings;
 }
 
-// The recordings of a job share one sampling rate: that of the first where all are about the same, else the lowest
-double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate) {
-  constexpr double about_the_same = 0.1;
-  double const first = train.front().rate_hz;
-  double lowest = first, highest = first;
-  for (auto const* recordings : {&train, &validate})
-    for (auto const& recording : *recordings) {
-      lowest = std::min(lowest, recording.rate_hz);
-      highest = std::max(highest, recording.rate_hz);
-    }
-  return highest <= (1.0 + about_the_same) * lowest ? first : lowest;
-}
-
-void bring_to_rate(std::vector<Recording>& recordings, double rate_hz) {
-  for (auto& recording : recordings) {
-    double const own = recording.rate_hz;
-    if (std::fabs(own - rate_hz) <= 1e-6 * rate_hz) continue;
-    recording = at_rate(std::move(recording), rate_hz);
-    recording.warnings.push_back(
-        {"rate", fmt::format("sampled at {:.6g} Hz, resampled to the {:.6g} Hz of the job", own, rate_hz)});
-  }
-}
-
 // what cannot be fitted: a joint that stands still tells nothing, in training
 void grade_standstill(std::vector<Recording>& recordings, Grade grade) {
   for (auto& recording : recordings)
@@ -107,7 +85,7 @@ void grade_standstill(std::vector<Recording>& recordings, Grade grade) {
 void refuse_faults(Experiment::Parts const& parts, Job const& job, RecordingOptions const& options) {
   std::vector<Problem> problems;
   auto const add = [&](std::vector<Recording> const& recordings, std::vector<std::string> const& files) {
-    for (std::size_t k = 0; k < recordings.size(); ++k)
+    for (std::size_t k = 0; k < std::min(recordings.size(), files.size()); ++k)
       for (auto const& finding : recordings[k].findings)
         if (is_fault(finding)) problems.push_back(problem_of(finding, job.resolve(files[k]).string()));
   };
@@ -141,6 +119,7 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
   Section const section = section_or_empty(parts.job, "recording");
   parts.train.recordings = read_recordings(parts.job, options.train, options, section);
   std::vector<Recording> unseen = read_recordings(parts.job, options.validate, options, section);
+  split_off_unseen(parts.train.recordings, unseen, options.train_share);
   double const rate_hz = rate_of_job(parts.train.recordings, unseen);
   bring_to_rate(parts.train.recordings, rate_hz);
   bring_to_rate(unseen, rate_hz);
@@ -216,7 +195,7 @@ void check_sizes(Experiment::Parts const& parts, std::vector<Problem>& problems)
     if (plan.is_closed_form()) continue;
     auto const members = static_cast<double>(plan.make_optimiser(parts.box, {})->largest_batch());
     double const entries = static_cast<double>(plan.stop_rules.generations) + 1.0;
-    double const numbers_per_member = static_cast<double>(parts.regressor->size()) + 1.0;
+    double const numbers_per_member = static_cast<double>(parts.parameters()) + 1.0;
     double const bytes =
         static_cast<double>(parts.experiment.runs) * entries * members * numbers_per_member * sizeof(double);
     if (bytes <= most_tebibytes * tebibyte) continue;
@@ -278,15 +257,21 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   parts->filter = read_options<FilterOptions>(job, problems);
   auto const recording = read_options<RecordingOptions>(job, problems);
   auto const model = read_options<ModelOptions>(job, problems);
+  bool const is_arm = !model.robot.empty();
   check_sources(job, recording, problems);
   check_work(job, purpose, problems);
   parts->diagnose = read_options<DiagnoseOptions>(job, problems);
   parts->estimators = plan_estimators(job.all("estimator"), problems);
   try {
-    parts->regressor = make_regressor(model, section_or_empty(job, "model"));
-    parts->box = read_search_box(parts->regressor->names(), job.find("model.bounds"), problems);
-    parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,
-                                    section_or_empty(job, "diagnose"), problems);
+    if (is_arm) {
+      refuse_joint_keys(job, purpose, problems);
+      parts->arm = read_arm(job, model);
+    } else {
+      parts->regressor = make_regressor(model, section_or_empty(job, "model"));
+      parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,
+                                      section_or_empty(job, "diagnose"), problems);
+    }
+    parts->box = read_search_box(parts->parameter_names(), job.find("model.bounds"), problems);
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   }
@@ -297,21 +282,25 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   if (!problems.empty()) throw Error(std::move(problems));
 
   // then the data
-  auto const n = static_cast<Eigen::Index>(parts->regressor->size());
+  auto const n = static_cast<Eigen::Index>(parts->parameters());
   parts->truth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
-  if (simulates)
-    use_simulation(*parts, plan, channels);
-  else
-    use_files(*parts, recording);
-  if (!simulates) choose_filter(*parts);
-  prepare(parts->train, *parts, channels);
-  if (parts->validate) prepare(*parts->validate, *parts, channels);
+  if (is_arm) {
+    use_arm_files(*parts, recording);
+  } else {
+    if (simulates)
+      use_simulation(*parts, plan, channels);
+    else
+      use_files(*parts, recording);
+    if (!simulates) choose_filter(*parts);
+    prepare(parts->train, *parts, channels);
+    if (parts->validate) prepare(*parts->validate, *parts, channels);
+  }
   auto const& rows = parts->train.regression;
   if (!too_few_rows(rows)) parts->reductions = reductions_of(rows);
   parts->health = regressor_health(rows, parts->reductions);
   if (!simulates) {
-    auto found = fit_findings(*parts, recording);
+    auto found = is_arm ? std::vector<Finding>() : fit_findings(*parts, recording);
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);

@@ -10,8 +10,9 @@ namespace {
 
 std::string group_of(std::string const& label) { return "/runs/" + label; }
 
-// "N m" -> "(N m)2", "N" -> "N2"
+// "N m" -> "(N m)2", "N" -> "N2", "1" -> "1"
 std::string squared(std::string const& unit) {
+  if (unit == "1") return unit;
   return unit.find(' ') == std::string::npos ? unit + "2" : "(" + unit + ")2";
 }
 

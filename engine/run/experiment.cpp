@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/base/digest.hpp"
+#include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/diagnosis_estimate.hpp"
@@ -57,6 +58,11 @@ std::string ruin_words(FilterOptions const& filter, double motion_hz, double noi
 
 }  // namespace
 
+std::string Experiment::Parts::torque_unit() const {
+  if (arm) return "1";
+  return regressor->joint() == JointKind::revolute ? "N m" : "N";
+}
+
 void Experiment::forget_motion() {
   parts_->train.regression.forget_motion();
   if (parts_->validate) parts_->validate->regression.forget_motion();
@@ -79,6 +85,7 @@ std::string Experiment::inputs_sha256() const {
   for (auto const& recording : parts_->train.recordings) digest.text(recording.sha256);
   if (parts_->validate)
     for (auto const& recording : parts_->validate->recordings) digest.text(recording.sha256);
+  if (parts_->arm) digest.text(parts_->arm->sha256);
   return digest.hex();
 }
 
@@ -91,8 +98,8 @@ std::string Experiment::job_line() const {
     labels.push_back(plan.label);
     runs += runs_of(plan, parts_->experiment);
   }
-  return fmt::format("{}: 1 joint, {}; {}; {}", name(), counted(parts_->regressor->size(), "parameter"),
-                     fmt::join(labels, ", "), counted(runs, "run"));
+  return fmt::format("{}: {}, {}; {}; {}", name(), counted(parts_->joints(), "joint"),
+                     counted(parts_->parameters(), "parameter"), fmt::join(labels, ", "), counted(runs, "run"));
 }
 
 std::vector<std::string> Experiment::fitness_lines() const {
@@ -186,7 +193,7 @@ std::vector<std::string> Experiment::remarks() const {
         parts_->filter.cutoff_hz, parts_->filter.parallel_cutoff_hz, parts_->filter.decimate_to_hz,
         parts_->train.recordings.front().name));
   if (parts_->box_is_default)
-    lines.push_back("search box (no [model.bounds]): " + box_words(parts_->regressor->names(), parts_->box));
+    lines.push_back("search box (no [model.bounds]): " + box_words(parts_->parameter_names(), parts_->box));
   // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what
   // costs an interval nothing but width is in the interval
   std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;
@@ -227,8 +234,12 @@ std::vector<CheckLine> Experiment::check(int threads) const {
   if (parts_->validate) add_set(*parts_->validate, "unseen");
 
   if (std::string const words = filter_warning(); !words.empty()) lines.push_back({Level::warn, "filter", words});
-  for (auto const& facts : parts_->train.excitation)
-    lines.push_back({Level::ok, "excitation", excitation_words(facts, parts_->regressor->joint())});
+  for (std::size_t k = 0; k < parts_->train.excitation.size(); ++k) {
+    std::size_t const j = k % parts_->joints();
+    std::string const whose = parts_->arm ? joint_title(j, parts_->arm->model.joint_names()) + ": " : std::string();
+    JointKind const kind = parts_->arm ? parts_->arm->model.chain().joints[j].kind : parts_->regressor->joint();
+    lines.push_back({Level::ok, "excitation", whose + excitation_words(parts_->train.excitation[k], kind)});
+  }
   if (parts_->health.words.empty())
     lines.push_back({Level::ok, "separable",
                      fmt::format("condition number {:.3g}{}{}", parts_->health.condition_number,
@@ -249,7 +260,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     lines.push_back({Level::warn, "diagnosis", words});
   if (parts_->estimators.empty()) return lines;
   double evaluations = 0.0, bytes = 0.0;
-  auto const parameters = static_cast<double>(parts_->regressor->size());
+  auto const parameters = static_cast<double>(parts_->parameters());
   for (auto const& plan : parts_->estimators) {
     if (plan.is_closed_form()) continue;
     auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->largest_batch());

@@ -18,7 +18,9 @@
 #include "engine/job/job.hpp"
 #include "engine/job/job_options.hpp"
 #include "engine/optim/objective.hpp"
+#include "engine/problem/arm_model.hpp"
 #include "engine/problem/fitness_choice.hpp"
+#include "engine/problem/joint_grams.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/single_precision.hpp"
@@ -36,6 +38,18 @@ struct DataSet {
   std::vector<Excitation> excitation;  // per recording
   bool simulated = false;
   std::vector<std::size_t> n_samples{};  // per recording, as read
+  // of an arm: `recordings` has one entry a file, with what was found in any joint; `excitation` one a joint of each,
+  // and `regression` the rows where a joint moves one way
+  RegressionData other_rows{};
+};
+
+// what a job's arm is, beside its recordings
+struct ArmParts {
+  ArmModel model;
+  std::string robot_file;          // as the job names it
+  std::string sha256;              // of the chain that was read from it
+  std::vector<JointGram> grams{};  // of the training rows
+  NoiseLevels noise{};             // of the joints
 };
 
 struct Experiment::Parts {
@@ -45,7 +59,8 @@ struct Experiment::Parts {
   FilterOptions filter;
   bool filter_is_chosen = false;           // the job has no [filter]
   double motion_hz = 0.0, noise_hz = 0.0;  // of the first recording (filter_suggestion.hpp); 0: not known
-  std::optional<Regressor> regressor;      // always there once loaded
+  std::optional<Regressor> regressor;      // of one joint; once loaded, either this
+  std::optional<ArmParts> arm;             // or that is there
   DataSet train;
   std::optional<DataSet> validate;
   Reductions reductions;  // of the training rows, until the floor of their squared errors is known
@@ -58,6 +73,13 @@ struct Experiment::Parts {
   std::optional<SinglePrecisionCheck> single_precision;  // when an estimator wants float32
   DiagnoseOptions diagnose;
   std::vector<Effect const*> effects;  // a diagnosis looks for
+
+  std::size_t joints() const { return arm ? arm->model.joints() : 1; }
+  std::vector<std::string> parameter_names() const { return arm ? arm->model.names() : regressor->names(); }
+  std::vector<std::string> parameter_units() const { return arm ? arm->model.units() : regressor->units(); }
+  std::size_t parameters() const { return arm ? arm->model.size() : regressor->size(); }
+  // of a row: "1" of an arm, whose rows are divided by the noise of their joint
+  std::string torque_unit() const;
 };
 
 // at most, of all runs of a population method

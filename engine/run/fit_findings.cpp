@@ -81,7 +81,7 @@ std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptio
     finding.column = torque->second;
   if (takes_work_out && finding.count == possible && possible >= 2) {
     finding.kind = FindingKind::wrong_sign;
-    finding.size = -options.torque_per_unit;
+    finding.size = -options.torque_factor();
   }
   return {finding};
 }

@@ -7,6 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/effects/joint_form.hpp"
+#include "engine/problem/arm_accuracy.hpp"
+#include "engine/run/arm_writer.hpp"
 #include "engine/run/disk_room.hpp"
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/population_stage.hpp"
@@ -27,7 +29,7 @@ struct Study {
   ProgressSink const& progress;
   ResultWriter& writer;
   SquaredErrorFloor const& floor;  // of the training rows: what every gap is measured with
-  std::string torque_unit;         // "N m" or "N"
+  std::string torque_unit;         // "N m" or "N"; "1" of an arm
   bool merges = false;             // nothing runs: segments have it all, or what there is
 };
 
@@ -44,6 +46,14 @@ void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string
 void measure_runs(Study const& study, RunResults& results) {
   results.train = prediction_metrics(study.parts.train.regression, results.parameters);
   if (study.parts.validate) results.validate = prediction_metrics(study.parts.validate->regression, results.parameters);
+  if (!study.parts.arm) return;
+  // rows are divided by the noise of their joint; an error in per cent is one of the torques
+  auto const in_torque = [&](RegressionData const& rows, std::vector<PredictionMetrics>& metrics) {
+    auto const relerr = arm_relerr(rows, results.parameters);
+    for (std::size_t run = 0; run < metrics.size(); ++run) metrics[run].relerr = relerr[run];
+  };
+  in_torque(study.parts.train.regression, results.train);
+  if (study.parts.validate) in_torque(study.parts.validate->regression, results.validate);
 }
 
 RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
@@ -52,7 +62,7 @@ RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
   RunResults results;
   keep_run(study, fit.parameters, "closed form", 1, 0, results);
   measure_runs(study, results);
-  auto const form = joint_form(*study.parts.regressor);
+  auto const form = study.parts.arm ? std::nullopt : joint_form(*study.parts.regressor);
   write_least_squares(study.writer, plan.label, fit, form ? &*form : nullptr);
   progress.count_evaluations(1);
   progress.count_run();
@@ -110,7 +120,7 @@ void warn_of_bounds(Study const& study, EstimatorPlan const& plan, RunResults co
   if (present.empty()) return;
   auto const best = *std::min_element(present.begin(), present.end(),
                                       [&](std::size_t a, std::size_t b) { return results.gap[a] < results.gap[b]; });
-  auto const names = on_bounds(study.parts.regressor->names(), study.parts.box, results.parameters[best]);
+  auto const names = on_bounds(study.parts.parameter_names(), study.parts.box, results.parameters[best]);
   if (names.empty()) return;
   tell(study.attempt.options, "warning",
        fmt::format("{} ends on the bound of {}: the best may lie outside; widen [model.bounds]", plan.label,
@@ -145,14 +155,14 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
 
   SquaredErrorFloor const floor(parts.train.regression, parts.reductions);
   experiment.forget_reductions();
-  bool const revolute = parts.regressor->joint() == JointKind::revolute;
-  Study const study{parts, attempt, progress, writer, floor, revolute ? "N m" : "N", merges};
+  Study const study{parts, attempt, progress, writer, floor, parts.torque_unit(), merges};
   IdentifyReport report;
   std::vector<std::string> order;
   for (auto const& plan : parts.estimators) {
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
     write_results(writer, plan, results, study.torque_unit);
+    if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     order.push_back(plan.label);
     report.runs += static_cast<std::int64_t>(results.runs());

@@ -161,7 +161,7 @@ Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given)
 
 HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& plan) {
   return {static_cast<std::size_t>(parts.experiment.runs), static_cast<std::size_t>(plan.stop_rules.generations),
-          plan.make_optimiser(parts.box, {})->largest_batch(), parts.regressor->size()};
+          plan.make_optimiser(parts.box, {})->largest_batch(), parts.parameters()};
 }
 
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {

@@ -19,7 +19,7 @@ RecordingOptions options_of(RecordingGuess const& guess) {
   if (reference_serves(guess.columns)) options.columns["reference"] = guess.columns.reference.column;
   options.time_per_unit = guess.stamps->per_unit;
   options.position_per_unit = guess.position_per_unit;
-  options.torque_per_unit = guess.torque_per_unit;
+  options.torque_per_unit = {guess.torque_per_unit};
   return options;
 }
 
@@ -31,7 +31,7 @@ Section written(RecordingOptions const& options) {
   };
   add("time_per_unit", options.time_per_unit);
   add("position_per_unit", options.position_per_unit);
-  add("torque_per_unit", options.torque_per_unit);
+  add("torque_per_unit", options.torque_factor());
   return section;
 }
 

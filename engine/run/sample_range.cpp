@@ -31,7 +31,7 @@ void refuse_huge_samples(RawTable const& table, RecordingOptions const& options)
   };
   for (auto const& [channel, column] : options.columns)
     check(channel, column,
-          channel == "torque" ? options.torque_per_unit
+          channel == "torque" ? options.torque_factor()
           : channel == "time" ? 1.0
                               : options.position_per_unit);
   if (!options.simulated_torque.empty()) check("torque", options.simulated_torque, 1.0);

@@ -30,6 +30,7 @@ std::string search_sha256(Experiment::Parts const& parts, EstimatorPlan const& p
   }
   // of the recordings what they hold, wherever they stand
   for (auto const& recording : parts.train.recordings) digest.text(recording.sha256);
+  if (parts.arm) digest.text(parts.arm->sha256);
   auto const sections = parts.job.all("estimator");
   for (std::size_t i = 0; i < sections.size(); ++i)
     if (parts.estimators[i].label == plan.label) add(digest, *sections[i]);

@@ -6,6 +6,7 @@
 
 #include "engine/effects/joint_form.hpp"
 #include "engine/health/finding_text.hpp"
+#include "engine/run/arm_writer.hpp"
 
 namespace torquescope {
 
@@ -25,13 +26,18 @@ void write_job(ResultWriter& writer, Experiment::Parts const& parts) {
 }
 
 void write_model(ResultWriter& writer, Experiment::Parts const& parts) {
-  Regressor const& regressor = *parts.regressor;
-  std::size_t const n = regressor.size();
-  writer.texts("/model/names", regressor.names(), {"1", "parameter names"});
-  writer.texts("/model/units", regressor.units(), {"1", "parameter units"});
+  std::size_t const n = parts.parameters();
+  writer.texts("/model/names", parts.parameter_names(), {"1", "parameter names"});
+  writer.texts("/model/units", parts.parameter_units(), {"1", "parameter units"});
   writer.numbers("/model/truth", {n}, numbers_of(parts.truth), {"SI", "true parameters of the simulated joint"});
   writer.numbers("/model/lower", {n}, parts.box.lower, {"SI", "lower end of the box"});
   writer.numbers("/model/upper", {n}, parts.box.upper, {"SI", "upper end of the box"});
+  if (parts.arm) {
+    writer.attribute("/model", "joint", std::string("arm"));
+    writer.attribute("/model", "equation", parts.arm->model.equation());
+    return;
+  }
+  Regressor const& regressor = *parts.regressor;
   bool const revolute = regressor.joint() == JointKind::revolute;
   writer.attribute("/model", "joint", std::string(revolute ? "revolute" : "prismatic"));
   writer.attribute("/model", "equation", regressor.equation());
@@ -101,7 +107,9 @@ void write_samples(ResultWriter& writer, std::string const& group, RegressionDat
 
 void write_data_set(ResultWriter& writer, std::string const& group, DataSet const& set,
                     Experiment::Parts const& parts) {
-  if (parts.output.samples)
+  if (parts.arm)
+    write_arm_samples(writer, group, set, parts);
+  else if (parts.output.samples)
     write_samples(writer, group, set.regression, parts.regressor->joint());
   else
     writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
@@ -134,6 +142,7 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   write_job(writer, parts);
   writer.attribute("/job", "inputs_sha256", experiment.inputs_sha256());
   write_model(writer, parts);
+  if (parts.arm) write_arm(writer, *parts.arm);
   write_data_set(writer, "/data/train", parts.train, parts);
   if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts);
   write_health(writer, parts.health);

@@ -1,10 +1,12 @@
 // Ordinary least squares: the smallest squared error that any parameters can have on the recordings.
 //
+// Arms       every N m of every joint counts alike, as in the recording: the scale of the joints' noise is undone
 // Source     seed eq. 11, solved by QR instead of the normal equations
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/problem/arm_regression.hpp"
 #include "engine/problem/estimator.hpp"
 
 namespace torquescope::estimators {
@@ -19,7 +21,23 @@ struct OlsOptions {
   }
 };
 
+// rows as they were recorded
+LeastSquaresFit fit_unscaled(RegressionData const& data, OlsOptions const& options) {
+  LeastSquaresFit fit;
+  fit.weights = unscaling_weights(data);
+  fit.parameters = solve_weighted(data, fit.weights);
+  Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
+  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
+  double const variance = fit.weights.dot(residual.cwiseAbs2()) / freedom;
+  auto const bread = inverse_information(data, fit.weights);
+  fit.covariance_naive = variance * bread;
+  fit.scale = std::sqrt(variance);
+  finish_fit(fit, data, fit.weights.cwiseProduct(residual), bread, options.hac_lags);
+  return fit;
+}
+
 LeastSquaresFit fit_ols(RegressionData const& data, OlsOptions const& options) {
+  if (data.arm) return fit_unscaled(data, options);
   LeastSquaresFit fit;
   fit.parameters = solve_weighted(data, {});
   Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;

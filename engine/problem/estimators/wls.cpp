@@ -1,8 +1,12 @@
 // Weighted least squares: each recording counts by the inverse of its own noise variance.
 //
 // Equation   w_k = (pooled variance) / (residual variance of recording k under OLS), scaled to a mean of 1 over the
-// rows Why        a noisy recording would otherwise decide the fit; with one recording there is nothing to weigh and
-// WLS is OLS Source     Gautier 1997 (weights from the errors of a first OLS fit); Aitken 1935
+//            rows
+// Why        a noisy recording would otherwise decide the fit; with one recording there is nothing to weigh and WLS is
+//            OLS
+// Arms       each joint counts by the inverse of its noise variance, found by turns (joint_grams.hpp): its rows were
+//            divided by its noise already, and all of them count alike
+// Source     Gautier 1997 (weights from the errors of a first OLS fit); Aitken 1935
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +20,9 @@ struct WlsOptions {
   std::int64_t hac_lags = -1;
 
   static OptionTable<WlsOptions> const& table() {
-    static OptionTable<WlsOptions> const table("estimator", "weighted least squares, one weight per recording",
-                                               {hac_lags_option<WlsOptions>()});
+    static OptionTable<WlsOptions> const table(
+        "estimator", "weighted least squares, one weight per recording, or per joint of an arm",
+        {hac_lags_option<WlsOptions>()});
     return table;
   }
 };
@@ -38,7 +43,9 @@ Eigen::VectorXd recording_weights(RegressionData const& data, Eigen::VectorXd co
 LeastSquaresFit fit_wls(RegressionData const& data, WlsOptions const& options) {
   LeastSquaresFit fit;
   fit.parameters = solve_weighted(data, {});
-  if (data.recordings() > 1) {
+  if (data.arm) {
+    fit.weights = Eigen::VectorXd::Ones(data.rows());
+  } else if (data.recordings() > 1) {
     fit.weights = recording_weights(data, data.tau - data.phi * fit.parameters);
     fit.parameters = solve_weighted(data, fit.weights);
     fit.iterations = 2;

@@ -27,7 +27,7 @@ Recording read(std::filesystem::path const& path, std::map<std::string, std::str
                double torque_per_unit = 1.0) {
   RecordingOptions options;
   options.columns = std::move(columns);
-  options.torque_per_unit = torque_per_unit;
+  options.torque_per_unit = {torque_per_unit};
   return make_recording(read_table(path, section()), options, section());
 }
 

@@ -85,7 +85,7 @@ TEST(MakeRecording, EvenRowsAreTakenBitForBit) {
 
 TEST(MakeRecording, UnitsScaleTheirOwnChannelsOnly) {
   auto options = options_of({{"time", "t_s"}, {"position", "q_rad"}, {"torque", "i_A"}, {"velocity", "qd_radps"}});
-  options.torque_per_unit = 10;
+  options.torque_per_unit = {10};
   options.position_per_unit = 0.5;
   options.simulated_torque = "sim_Nm";
   auto const table = table_at(even_times());
@@ -217,7 +217,7 @@ TEST(MakeRecording, ContradictingMappingsAreRefused) {
   table.names[3] = "q_rad";
   EXPECT_EQ(refused(table, options_of()).what, "arm.csv has 2 columns called \"q_rad\"");
   auto no_unit = options_of();
-  no_unit.torque_per_unit = 0;
+  no_unit.torque_per_unit = {0};
   EXPECT_EQ(refused(table, no_unit).what, "torque_per_unit = 0 would erase the signal");
 }
 

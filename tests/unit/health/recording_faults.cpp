@@ -160,7 +160,7 @@ TEST(TorqueExamination, RegistersWithoutSignAreDecoded) {
         auto table = sound;
         auto options = sample_options();
         double const unit = 8.0 / std::ldexp(1.0, bits - 1);
-        options.torque_per_unit = unit;
+        options.torque_per_unit = {unit};
         for (double& torque : table.columns[2]) {
           double const counts = std::round(torque / unit);
           double const sign_bit = std::ldexp(1.0, bits - 1);

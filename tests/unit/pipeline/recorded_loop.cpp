@@ -30,7 +30,7 @@ Recording read(std::filesystem::path const& path) {
   section.name = "recording";
   RecordingOptions options;
   options.columns = {{"time", "t_s"}, {"reference", "q_ref_m"}, {"position", "q_m"}, {"torque", "u_V"}};
-  options.torque_per_unit = newton_per_volt;
+  options.torque_per_unit = {newton_per_volt};
   return make_recording(read_table(path, section), options, section);
 }
 

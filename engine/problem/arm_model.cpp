@@ -1,0 +1,112 @@
+#include "engine/problem/arm_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/contract.hpp"
+#include "engine/robot/inverse_dynamics.hpp"
+
+namespace torquescope {
+namespace {
+
+std::vector<Regressor> friction_of(SerialChain const& chain, ArmTerms const& terms, Section const& model) {
+  std::vector<Regressor> friction;
+  if (terms.friction.empty()) return friction;
+  for (auto const& joint : chain.joints)
+    friction.emplace_back(terms.friction, joint.kind, terms.velocity_deadband, model);
+  return friction;
+}
+
+}  // namespace
+
+ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& model)
+    : chain_(std::move(chain)),
+      drives_(terms.drives),
+      base_(chain_, terms.drives),
+      friction_(friction_of(chain_, terms, model)),
+      own_(chain_.joints.size()) {
+  for (Eigen::Index k = 0; k < base_.size(); ++k) {
+    auto const& parameter = base_.parameters()[static_cast<std::size_t>(k)];
+    RegressorColumn column{parameter.name, parameter.unit};
+    column.needs_position = column.needs_velocity = column.needs_acceleration = true;
+    columns_.push_back(std::move(column));
+    for (Eigen::Index j = parameter.first_row; j <= parameter.last_row; ++j)
+      own_[static_cast<std::size_t>(j)].push_back(k);
+  }
+  for (std::size_t j = 0; j < friction_.size(); ++j) {
+    for (auto column : friction_[j].column_owners()) {
+      own_[j].push_back(static_cast<Eigen::Index>(columns_.size()));
+      column.name += fmt::format("_{}", j + 1);
+      columns_.push_back(std::move(column));
+    }
+  }
+}
+
+std::vector<std::string> ArmModel::names() const {
+  std::vector<std::string> names;
+  for (auto const& column : columns_) names.push_back(column.name);
+  return names;
+}
+
+std::vector<std::string> ArmModel::units() const {
+  std::vector<std::string> units;
+  for (auto const& column : columns_) units.push_back(column.unit);
+  return units;
+}
+
+std::vector<std::string> ArmModel::joint_names() const {
+  std::vector<std::string> names;
+  for (auto const& joint : chain_.joints) names.push_back(joint.name);
+  return names;
+}
+
+std::string ArmModel::torque_unit(std::size_t joint) const {
+  return chain_.joints[joint].kind == JointKind::revolute ? "N m" : "N";
+}
+
+std::string ArmModel::equation() const {
+  std::string text = "tau = Phi(q, dq, ddq) chi";
+  if (friction_.empty()) return text;
+  std::string const own = friction_.front().equation();
+  return text + " +" + own.substr(own.find('=') + 1) + " in each joint";
+}
+
+std::size_t ArmModel::rigid_columns(std::size_t joint) const {
+  return own_[joint].size() - (friction_.empty() ? 0 : friction_[joint].size());
+}
+
+void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const {
+  Eigen::Index const n = motion.front().q.size(), joints = chain_.size();
+  Eigen::VectorXd q(joints), dq(joints), ddq(joints);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      auto const& joint = motion[static_cast<std::size_t>(j)];
+      q[j] = joint.q[i];
+      dq[j] = joint.dq[i];
+      ddq[j] = joint.ddq[i];
+    }
+    Eigen::MatrixXd const phi = arm_regressor(chain_, q, dq, ddq, drives_);
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      for (std::size_t c = 0; c < rigid_columns(j); ++c)
+        rows[j](i, static_cast<Eigen::Index>(c)) =
+            phi(static_cast<Eigen::Index>(j), base_.columns()[static_cast<std::size_t>(own_[j][c])]);
+  }
+}
+
+std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion) const {
+  TORQUESCOPE_EXPECT(motion.size() == joints());
+  Eigen::Index const n = motion.front().q.size();
+  std::vector<Eigen::MatrixXd> rows;
+  for (std::size_t j = 0; j < joints(); ++j) {
+    TORQUESCOPE_EXPECT(motion[j].q.size() == n);
+    rows.emplace_back(n, static_cast<Eigen::Index>(own_[j].size()));
+    if (!friction_.empty())
+      rows[j].rightCols(static_cast<Eigen::Index>(friction_[j].size())) = friction_[j].columns(motion[j]);
+  }
+  fill_rigid(motion, rows);
+  return rows;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,37 @@
+#pragma once
+// One recording of an arm as rows of every joint, after the parallel filter: columns of the joint's own parameters.
+//
+// Rows       those where the joint moves one way, and the others: near a reversal friction changes its sign within the
+//            filter's memory. Instants that the recording leaves out are in neither
+// Shapes     columns: n x ArmModel::parameters_of(joint); instant: index of the kept sample, equal in all joints
+// Units      N m or N; s; rad or m
+// Errors     as differentiate() and ParallelFilter
+// Threads    free function
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/problem/arm_model.hpp"
+
+namespace torquescope {
+
+struct JointRows {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd torque, time_s, q, dq, ddq;
+  std::vector<Eigen::Index> instant;
+};
+
+struct ArmRows {
+  std::string recording;
+  double rate_hz = 0.0, kept_rate_hz = 0.0;
+  Eigen::Index instants = 0;              // kept samples
+  std::vector<JointRows> moving, others;  // [N]
+};
+
+// motion: one a joint; moves: [N][n], true where the joint surely moves one way
+ArmRows make_arm_rows(std::string recording, std::vector<Motion> const& motion,
+                      std::vector<std::vector<bool>> const& moves, FilterOptions const& options, ArmModel const& model,
+                      Section const& filter);
+
+}  // namespace torquescope

@@ -1,0 +1,197 @@
+#include "engine/run/arm_assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "engine/base/digest.hpp"
+#include "engine/data/arm_recording.hpp"
+#include "engine/data/filter_checks.hpp"
+#include "engine/data/filter_suggestion.hpp"
+#include "engine/health/make_arm_recording.hpp"
+#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/problem/arm_regression.hpp"
+#include "engine/problem/arm_rows.hpp"
+#include "engine/robot/robot_registry.hpp"
+#include "engine/run/job_sections.hpp"
+#include "engine/run/recordings_of_job.hpp"
+#include "engine/run/sample_range.hpp"
+
+namespace torquescope {
+namespace {
+
+using Joints = std::vector<Recording>;  // of one arm recording
+using Files = std::vector<Joints>;
+
+// everything that decides the columns of a regressor
+std::string digest_of(SerialChain const& chain) {
+  Digest digest;
+  digest.numbers({chain.gravity.data(), 3});
+  for (auto const& joint : chain.joints) {
+    double const kind = joint.kind == JointKind::revolute ? 0.0 : 1.0;
+    double const numbers[] = {kind, joint.a, joint.alpha, joint.d, joint.offset};
+    digest.text(joint.name).numbers(numbers);
+  }
+  return digest.hex();
+}
+
+Files read_files(Job const& job, std::vector<std::string> const& files, RecordingOptions const& options,
+                 std::vector<std::string> const& joint_names) {
+  Section const section = section_or_empty(job, "recording");
+  auto const of_joints = joint_options(options, joint_names, section);
+  Files recordings;
+  for (auto const& file : files) {
+    RawTable const table = read_table(job.resolve(file), section);
+    for (auto const& one : of_joints) refuse_huge_samples(table, one);
+    recordings.push_back(make_arm_recording(table, of_joints, joint_names, section).joints);
+  }
+  return recordings;
+}
+
+void split_files(Files& train, Files& unseen, double share) {
+  if (share >= 1.0) return;
+  for (auto& joints : train) {
+    Joints tails;
+    split_off_unseen(joints, tails, share);
+    unseen.push_back(std::move(tails));
+  }
+}
+
+void bring_files_to_one_rate(Files& train, Files& unseen) {
+  Joints first_of_train, first_of_unseen;
+  for (auto const& joints : train) first_of_train.push_back(joints.front());
+  for (auto const& joints : unseen) first_of_unseen.push_back(joints.front());
+  double const rate_hz = rate_of_job(first_of_train, first_of_unseen);
+  for (auto* files : {&train, &unseen})
+    for (auto& joints : *files) bring_to_rate(joints, rate_hz);
+}
+
+// an arm of which no joint moves tells nothing; one joint that stands still is worth a warning
+void grade_standstill(Joints& joints) {
+  auto const stands = [](Finding const& finding) { return finding.kind == FindingKind::standstill; };
+  bool const all_stand = std::all_of(joints.begin(), joints.end(), [&](Recording const& joint) {
+    return std::any_of(joint.findings.begin(), joint.findings.end(), stands);
+  });
+  if (!all_stand) return;
+  for (auto& joint : joints)
+    for (auto& finding : joint.findings)
+      if (stands(finding)) finding.grade = Grade::fault;
+}
+
+// of the joint whose motion is the fastest: what it keeps, all keep
+FilterSuggestion suggest_arm_filter(Files const& train, Files const& unseen) {
+  double shortest_s = std::numeric_limits<double>::infinity();
+  for (auto const* files : {&train, &unseen})
+    for (auto const& joints : *files)
+      shortest_s = std::min(shortest_s, static_cast<double>(joints.front().position.size()) / joints.front().rate_hz);
+  FilterSuggestion best;
+  for (auto const& joint : train.front()) {
+    FilterSuggestion const one = suggest_filter(joint, shortest_s);
+    if (one.options.cutoff_hz > best.options.cutoff_hz) best = one;
+  }
+  return best;
+}
+
+void choose_filter(Experiment::Parts& parts, Files const& train, Files const& unseen) {
+  FilterSuggestion const suggestion = suggest_arm_filter(train, unseen);
+  if (parts.job.find("filter") == nullptr) {
+    parts.filter = suggestion.options;
+    parts.filter_is_chosen = true;
+  }
+  parts.motion_hz = suggestion.motion_hz;
+  parts.noise_hz = suggestion.noise_hz;
+}
+
+// one recording of the arm: its rows, and into `set` what is to be said about it
+ArmRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, DataSet& set) {
+  Section const filter = section_or_empty(parts.job, "filter");
+  auto const& model = parts.arm->model;
+  auto const names = model.joint_names();
+  Recording whole;
+  whole.name = joints.front().name;
+  whole.sha256 = joints.front().sha256;
+  whole.rate_hz = joints.front().rate_hz;
+  set.n_samples.push_back(static_cast<std::size_t>(joints.front().time_s.size()));
+  std::vector<Motion> motion;
+  std::vector<std::vector<bool>> moves;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    auto& joint = joints[j];
+    char const* const unit = model.chain().joints[j].kind == JointKind::revolute ? "rad" : "m";
+    auto facts = measure_channels(joint);
+    whole.warnings.insert(whole.warnings.end(), joint.warnings.begin(), joint.warnings.end());
+    whole.findings.insert(whole.findings.end(), joint.findings.begin(), joint.findings.end());
+    motion.push_back(differentiate(std::move(joint), parts.filter, filter));
+    measure_motion(motion.back(), parts.filter, facts);
+    for (auto& warning : excitation_warnings(facts, unit))
+      whole.warnings.push_back({warning.topic, joint_title(j, names) + ": " + warning.text});
+    set.excitation.push_back(facts);
+    moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
+  }
+  auto rows = make_arm_rows(whole.name, motion, moves, parts.filter, model, filter);
+  set.recordings.push_back(std::move(whole));
+  return rows;
+}
+
+std::vector<ArmRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set) {
+  std::vector<ArmRows> rows;
+  for (auto& joints : files) rows.push_back(prepare_recording(std::move(joints), parts, set));
+  return rows;
+}
+
+void stack(std::vector<ArmRows> const& rows, Experiment::Parts const& parts, DataSet& set) {
+  Section const filter = section_or_empty(parts.job, "filter");
+  auto const of = [&](ArmRowChoice choice) {
+    return stack_rows(rows, choice, parts.arm->model, parts.arm->noise.deviation, filter);
+  };
+  set.regression = of(ArmRowChoice::moving);
+  set.other_rows = of(ArmRowChoice::others);
+}
+
+}  // namespace
+
+void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
+  if (Section const* model = job.find("model")) {
+    for (auto const* key : {"terms", "joint"})
+      if (model->find(key) != nullptr)
+        problems.push_back(problem_at(*model, key, std::string("model.") + key + " beside model.robot",
+                                      "the robot file says how its joints move; what each has beside the rigid arm is "
+                                      "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
+  }
+  if (Section const* simulate = job.find("simulate"))
+    problems.push_back(problem_at(*simulate, "", "[simulate] makes recordings of one joint, and the job has an arm",
+                                  "write recording.train"));
+  if (purpose == Experiment::Purpose::diagnose)
+    problems.push_back(problem_at(*job.find("model"), "robot", "an arm cannot be diagnosed yet",
+                                  "`torquescope run` identifies it; for one joint write a job without robot, with "
+                                  "recording.simulated_torque = the column of your arm model's torque"));
+}
+
+ArmParts read_arm(Job const& job, ModelOptions const& options) {
+  ArmTerms const terms{options.friction, options.drive_inertia ? DriveInertias::included : DriveInertias::left_out,
+                       options.velocity_deadband};
+  SerialChain chain = read_robot(job.resolve(options.robot));
+  std::string const sha256 = digest_of(chain);
+  return {ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
+}
+
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options) {
+  auto const names = parts.arm->model.joint_names();
+  Files train = read_files(parts.job, options.train, options, names);
+  Files unseen = read_files(parts.job, options.validate, options, names);
+  split_files(train, unseen, options.train_share);
+  bring_files_to_one_rate(train, unseen);
+  for (auto& joints : train) grade_standstill(joints);
+  choose_filter(parts, train, unseen);
+
+  auto const rows = prepare_files(std::move(train), parts, parts.train);
+  parts.arm->grams = joint_grams(rows, parts.arm->model);
+  parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
+  stack(rows, parts, parts.train);
+  if (unseen.empty()) return;
+  parts.validate.emplace();
+  stack(prepare_files(std::move(unseen), parts, *parts.validate), parts, *parts.validate);
+}
+
+}  // namespace torquescope

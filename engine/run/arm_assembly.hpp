@@ -1,0 +1,22 @@
+#pragma once
+// From a job with model.robot to the parts of an Experiment: the arm, its recordings joint by joint, and their rows.
+//
+// Errors     those of read_robot(), ArmModel, make_arm_recording() and the filters
+// Threads    free functions
+
+#include <vector>
+
+#include "engine/effects/model_options.hpp"
+#include "engine/run/experiment_parts.hpp"
+
+namespace torquescope {
+
+// what only a job about one joint may have, and commands that do not work on arms yet (78)
+void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems);
+
+ArmParts read_arm(Job const& job, ModelOptions const& options);
+
+// fills train, validate, the filter where the job has none, and what the arm's training rows tell
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options);
+
+}  // namespace torquescope

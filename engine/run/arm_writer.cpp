@@ -1,0 +1,140 @@
+#include "engine/run/arm_writer.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "engine/problem/arm_accuracy.hpp"
+#include "engine/robot/gather_text.hpp"
+
+namespace torquescope {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::string joint_group(std::string const& group, std::size_t joint) {
+  return group + "/joint_" + std::to_string(joint + 1);
+}
+
+void write_matrix(ResultWriter& writer, std::string const& path, RowMajor const& matrix, Note const& note) {
+  auto const rows = static_cast<std::size_t>(matrix.rows()), columns = static_cast<std::size_t>(matrix.cols());
+  writer.numbers(path, {rows, columns}, {matrix.data(), rows * columns}, note);
+}
+
+void write_vector(ResultWriter& writer, std::string const& path, Eigen::VectorXd const& vector, Note const& note) {
+  auto const n = static_cast<std::size_t>(vector.size());
+  writer.numbers(path, {n}, {vector.data(), n}, note);
+}
+
+void write_robot(ResultWriter& writer, ArmParts const& arm) {
+  auto const& chain = arm.model.chain();
+  auto const& base = arm.model.base();
+  auto const joints = static_cast<Eigen::Index>(arm.model.joints());
+  RowMajor frames(joints, 4);
+  std::vector<std::string> names, kinds;
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    auto const& joint = chain.joints[static_cast<std::size_t>(j)];
+    frames.row(j) << joint.alpha, joint.a, joint.offset, joint.d;
+    names.push_back(joint.name);
+    kinds.push_back(joint.kind == JointKind::revolute ? "revolute" : "prismatic");
+  }
+  std::vector<std::string> parameters, units, gathers;
+  for (Eigen::Index k = 0; k < base.size(); ++k) {
+    auto const& parameter = base.parameters()[static_cast<std::size_t>(k)];
+    parameters.push_back(parameter.name);
+    units.push_back(parameter.unit);
+    gathers.push_back(gather_text(base, k));
+  }
+  writer.attribute("/robot", "name", chain.name);
+  writer.attribute("/robot", "file", arm.robot_file);
+  writer.attribute("/robot", "sha256", arm.sha256);
+  writer.attribute("/robot", "gravity", std::vector<double>{chain.gravity.x(), chain.gravity.y(), chain.gravity.z()});
+  writer.texts("/robot/joints", names, {"1", "joint names, from the base to the tip"});
+  writer.texts("/robot/kinds", kinds, {"1", "how each joint moves"});
+  write_matrix(writer, "/robot/frames", frames, {"SI", "alpha, a, offset, d: modified Denavit-Hartenberg"});
+  writer.texts("/robot/base_parameters", parameters, {"1", "base parameters"});
+  writer.texts("/robot/base_units", units, {"1", "their units"});
+  writer.texts("/robot/gathers", gathers, {"1", "standard parameters that each is the sum of"});
+}
+
+void write_joint_errors(ResultWriter& writer, std::string const& group, std::string const& prefix,
+                        ArmAccuracy const& accuracy) {
+  std::vector<double> relerr, all_rows, rms;
+  for (auto const& joint : accuracy.joints) {
+    relerr.push_back(joint.relerr());
+    all_rows.push_back(joint.relerr_all_rows());
+    rms.push_back(joint.residual_rms());
+  }
+  auto const write = [&](char const* name, std::vector<double> const& values, Note const& note) {
+    writer.numbers(group + "/" + prefix + name, {values.size()}, values, note);
+  };
+  write("joint_relerr", relerr, {"1", "relative error of each joint, rows that move one way"});
+  write("joint_relerr_all_rows", all_rows, {"1", "relative error of each joint, all rows"});
+  write("joint_residual_rms", rms, {"N m or N", "residual of each joint, rows that move one way"});
+  writer.attribute(group, prefix + "relerr_all_rows", accuracy.arm.relerr_all_rows());
+}
+
+}  // namespace
+
+void write_arm(ResultWriter& writer, ArmParts const& arm) {
+  write_robot(writer, arm);
+  writer.attribute("/arm", "joints", static_cast<std::int64_t>(arm.model.joints()));
+  writer.attribute("/arm", "noise_iterations", std::int64_t{arm.noise.iterations});
+  write_vector(writer, "/arm/noise", arm.noise.deviation, {"N m or N", "noise of each joint: rows are divided by it"});
+  for (std::size_t j = 0; j < arm.grams.size(); ++j) {
+    auto const& gram = arm.grams[j];
+    std::string const group = joint_group("/arm", j);
+    std::vector<std::int64_t> const own(gram.parameters.begin(), gram.parameters.end());
+    writer.whole_numbers(group + "/parameters", {own.size()}, own, {"1", "parameters of this joint's rows"});
+    write_matrix(writer, group + "/gram", gram.gram, {"SI", "products of its columns and torque, training rows"});
+    writer.attribute(group, "rows", static_cast<std::int64_t>(gram.rows));
+    writer.attribute(group, "unit_torque", arm.model.torque_unit(j));
+  }
+}
+
+void write_arm_samples(ResultWriter& writer, std::string const& group, DataSet const& set,
+                       Experiment::Parts const& parts) {
+  auto const& rows = set.regression;
+  auto const& model = parts.arm->model;
+  writer.attribute(group, "samples", static_cast<std::int64_t>(rows.rows()));
+  writer.attribute(group, "samples_all_rows", static_cast<std::int64_t>(rows.rows() + set.other_rows.rows()));
+  if (!parts.output.samples) return;
+  for (std::size_t j = 0; j < model.joints(); ++j) {
+    std::vector<Eigen::Index> own;
+    std::vector<std::int64_t> recording;
+    for (std::size_t k = 0; k < rows.recordings(); ++k) {
+      if (rows.arm->joint[k] != j) continue;
+      for (Eigen::Index t = rows.first_row[k]; t < rows.first_row[k + 1]; ++t) {
+        own.push_back(t);
+        recording.push_back(static_cast<std::int64_t>(k / model.joints()));
+      }
+    }
+    std::string const path = joint_group(group, j);
+    bool const revolute = model.chain().joints[j].kind == JointKind::revolute;
+    std::string const length = revolute ? "rad" : "m";
+    double const noise = parts.arm->noise.deviation[static_cast<Eigen::Index>(j)];
+    write_vector(writer, path + "/time", rows.time_s(own), {"s", "time"});
+    writer.whole_numbers(path + "/recording", {recording.size()}, recording, {"1", "index of the recording"});
+    write_vector(writer, path + "/position", rows.q(own), {length, "position"});
+    write_vector(writer, path + "/velocity", rows.dq(own), {length + "/s", "velocity"});
+    write_vector(writer, path + "/acceleration", rows.ddq(own), {length + "/s2", "acceleration"});
+    write_vector(writer, path + "/torque", noise * rows.tau(own), {model.torque_unit(j), "torque"});
+    write_matrix(writer, path + "/regressor", noise * rows.phi(own, model.parameters_of(j)),
+                 {"SI", "columns of the joint's own parameters"});
+    writer.plottable(path, "torque", {"time"});
+  }
+}
+
+void write_arm_accuracy(ResultWriter& writer, std::string const& label, Experiment::Parts const& parts,
+                        RunResults const& results) {
+  auto const present = results.present();
+  if (present.empty()) return;
+  RunResults const some = results.only(present);
+  auto const& parameters = some.parameters[lower_median_index(some.gap)];
+  std::string const group = "/runs/" + label;
+  write_joint_errors(writer, group, "", arm_accuracy(parts.train.regression, parts.train.other_rows, parameters));
+  if (parts.validate)
+    write_joint_errors(writer, group, "validation_",
+                       arm_accuracy(parts.validate->regression, parts.validate->other_rows, parameters));
+}
+
+}  // namespace torquescope

@@ -1,0 +1,20 @@
+#pragma once
+// What the recordings of one job share: a sampling rate, and who may see them.
+//
+// Threads    free functions
+
+#include <vector>
+
+#include "engine/data/recording.hpp"
+
+namespace torquescope {
+
+// that of the first where all are about the same, else the lowest
+double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate);
+// what is resampled says so in its warnings
+void bring_to_rate(std::vector<Recording>& recordings, double rate_hz);
+
+// keeps the first `share` of every training recording; the rest stands behind `unseen`. A share of 1 changes nothing
+void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share);
+
+}  // namespace torquescope
