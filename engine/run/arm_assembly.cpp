@@ -80,17 +80,23 @@ void grade_standstill(Joints& joints) {
       if (stands(finding)) finding.grade = Grade::fault;
 }
 
-// of the joint whose motion is the fastest: what it keeps, all keep
+// Of the joint whose motion is the fastest: what it keeps, all keep. A cut-off is told to cut into the motion only where
+// it does so in every joint: what one seems to do faster than the others of its arm is mostly its noise
 FilterSuggestion suggest_arm_filter(Files const& train, Files const& unseen) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (auto const* files : {&train, &unseen})
     for (auto const& joints : *files)
       shortest_s = std::min(shortest_s, static_cast<double>(joints.front().position.size()) / joints.front().rate_hz);
   FilterSuggestion best;
+  double slowest_hz = std::numeric_limits<double>::infinity(), clearest_hz = 0.0;
   for (auto const& joint : train.front()) {
     FilterSuggestion const one = suggest_filter(joint, shortest_s);
+    if (one.motion_hz > 0.0) slowest_hz = std::min(slowest_hz, one.motion_hz);
+    clearest_hz = std::max(clearest_hz, one.noise_hz);
     if (one.options.cutoff_hz > best.options.cutoff_hz) best = one;
   }
+  best.motion_hz = std::isfinite(slowest_hz) ? slowest_hz : 0.0;
+  best.noise_hz = clearest_hz;
   return best;
 }
 

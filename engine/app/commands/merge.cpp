@@ -31,8 +31,9 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs)) {
     session.note(session.topic_line("done", "already complete: nothing is merged again"));
-    print_results(session, read_summary(output));
-    note_whereabouts(session, "kept", output);
+    ResultSummary const summary = read_summary(output);
+    print_results(session, summary);
+    note_whereabouts(session, "kept", output, {}, summary.arm ? Look::tables : Look::page);
     tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
@@ -58,8 +59,9 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     report = merge(std::move(experiment), options, arguments.partial ? Completeness::partial : Completeness::whole,
                    [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  print_results(session, summary_of(*report.result));
-  note_whereabouts(session, "wrote", output);
+  ResultSummary const summary = summary_of(*report.result);
+  print_results(session, summary);
+  note_whereabouts(session, "wrote", output, {}, summary.arm ? Look::tables : Look::page);
   return ExitCode::ok;
 }
 

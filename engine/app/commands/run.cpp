@@ -64,7 +64,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
-    note_whereabouts(session, "kept", output);
+    note_whereabouts(session, "kept", output, {}, summary.arm ? Look::tables : Look::page);
     tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
@@ -100,8 +100,9 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     report = identify(std::move(experiment), options,
                       [&print_progress](ProgressUpdate const& update) { print_progress(update); });
   }
-  print_results(session, summary_of(*report.result));
-  note_whereabouts(session, "wrote", output);
+  ResultSummary const summary = summary_of(*report.result);
+  print_results(session, summary);
+  note_whereabouts(session, "wrote", output, {}, summary.arm ? Look::tables : Look::page);
   return ExitCode::ok;
 }
 

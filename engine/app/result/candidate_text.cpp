@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::size_t candidates_shown = 3;
 
-
 std::string q_cell(double q) {
   if (!std::isfinite(q)) return "";
   return q < 0.0005 ? "<0.001" : fmt::format("{:.3f}", q);
@@ -39,8 +38,7 @@ std::vector<Candidate const*> in_order(JointDiagnosis const& joint) {
   };
   std::vector<Candidate const*> ordered;
   for (auto const& one : joint.candidates) ordered.push_back(&one);
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [&](auto const* a, auto const* b) { return rank(*a) < rank(*b); });
+  std::stable_sort(ordered.begin(), ordered.end(), [&](auto const* a, auto const* b) { return rank(*a) < rank(*b); });
   return ordered;
 }
 

@@ -24,6 +24,32 @@ Json parameters_json(ResultSummary const& summary, EstimatorSummary const& estim
   return list;
 }
 
+Json numbers_json(std::vector<double> const& values) {
+  Json list = Json::array();
+  for (double const value : values) list.push_back(number(value));
+  return list;
+}
+
+// beside what every estimator has
+void add_joint_errors(EstimatorSummary const& estimator, Json& json) {
+  json["arm"] = {{"joint_relerr", numbers_json(estimator.joint_relerr)},
+                 {"joint_relerr_all_rows", numbers_json(estimator.joint_relerr_all_rows)},
+                 {"relerr_all_rows", number(estimator.relerr_all_rows)},
+                 {"validation_joint_relerr", numbers_json(estimator.unseen_joint_relerr)},
+                 {"validation_joint_relerr_all_rows", numbers_json(estimator.unseen_joint_relerr_all_rows)},
+                 {"validation_relerr_all_rows", number(estimator.unseen_relerr_all_rows)}};
+}
+
+Json arm_json(ArmSummary const& arm) {
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < arm.parameters.size(); ++i)
+    parameters.push_back({{"name", arm.parameters[i]}, {"unit", arm.units.at(i)}, {"gathers", arm.gathers.at(i)}});
+  return {{"robot", arm.robot},
+          {"joints", arm.joints},
+          {"noise", numbers_json(arm.noise)},
+          {"base_parameters", parameters}};
+}
+
 Json estimator_json(ResultSummary const& summary, EstimatorSummary const& estimator) {
   return {{"name", estimator.name},
           {"kind", estimator.kind},
@@ -63,10 +89,13 @@ std::string result_json(ResultSummary const& summary) {
   for (std::size_t i = 0; i < summary.names.size(); ++i)
     truth.push_back({{"name", summary.names[i]}, {"unit", summary.units[i]}, {"truth", number(summary.truth.at(i))}});
   Json estimators = Json::array();
-  for (auto const& estimator : summary.estimators) estimators.push_back(estimator_json(summary, estimator));
+  for (auto const& estimator : summary.estimators) {
+    estimators.push_back(estimator_json(summary, estimator));
+    if (summary.arm) add_joint_errors(estimator, estimators.back());
+  }
 
   ProvenanceSummary const& made = summary.provenance;
-  Json const document = {
+  Json document = {
       {"schema", 1},
       {"file", summary.file.string()},
       {"bytes", summary.bytes},
@@ -92,6 +121,7 @@ std::string result_json(ResultSummary const& summary) {
         {"version", made.version},
         {"compiler", made.compiler},
         {"build_type", made.build_type}}}};
+  if (summary.arm) document["arm"] = arm_json(*summary.arm);
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -75,7 +75,30 @@ EstimatorSummary read_estimator(Source const& reader, std::string const& name, s
   summary.validation_relerr_median = number_or_nan(reader, group, "validation_relerr_median");
   summary.residual_std_median = number_or_nan(reader, group, "residual_std_median");
   for (auto const& reason : reader.texts(group + "/stop_reason")) ++summary.stop_reasons[reason];
+  auto const of_joints = [&](char const* errors) {
+    std::string const dataset = group + "/" + errors;
+    return reader.exists(dataset) ? reader.numbers(dataset).values : std::vector<double>();
+  };
+  summary.joint_relerr = of_joints("joint_relerr");
+  summary.joint_relerr_all_rows = of_joints("joint_relerr_all_rows");
+  summary.unseen_joint_relerr = of_joints("validation_joint_relerr");
+  summary.unseen_joint_relerr_all_rows = of_joints("validation_joint_relerr_all_rows");
+  summary.relerr_all_rows = number_or_nan(reader, group, "relerr_all_rows");
+  summary.unseen_relerr_all_rows = number_or_nan(reader, group, "validation_relerr_all_rows");
   return summary;
+}
+
+template <class Source>
+std::optional<ArmSummary> read_arm_summary(Source const& reader) {
+  if (!reader.exists("/arm")) return {};
+  ArmSummary arm;
+  arm.robot = text_or_empty(reader, "/robot", "name");
+  arm.joints = reader.texts("/robot/joints");
+  arm.noise = reader.numbers("/arm/noise").values;
+  arm.parameters = reader.texts("/robot/base_parameters");
+  arm.units = reader.texts("/robot/base_units");
+  arm.gathers = reader.texts("/robot/gathers");
+  return arm;
 }
 
 std::size_t samples_of(h5::Shape const& shape) { return shape.empty() ? 1 : shape.front(); }
@@ -190,6 +213,7 @@ ResultSummary summarise(Source const& reader) {
   summary.units = reader.texts("/model/units");
   summary.truth = reader.numbers("/model/truth").values;
   summary.health_words = text_or_empty(reader, "/data/regressor_health", "words");
+  summary.arm = read_arm_summary(reader);
   summary.train = read_data(reader, "/data/train");
   summary.has_validation = reader.exists("/data/validate");
   if (summary.has_validation) summary.validation = read_data(reader, "/data/validate");

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,17 @@ struct EstimatorSummary {
   double residual_std_median = 0.0;
   std::map<std::string, std::int64_t> stop_reasons;  // how many runs ended for which reason
   std::int64_t evaluations = 0;
+  // of an arm, of the median run: one a joint; unseen ones are empty without unseen data
+  std::vector<double> joint_relerr, joint_relerr_all_rows, unseen_joint_relerr, unseen_joint_relerr_all_rows;
+  double relerr_all_rows = 0.0, unseen_relerr_all_rows = 0.0;
+};
+
+// what only the result of an arm has
+struct ArmSummary {
+  std::string robot;
+  std::vector<std::string> joints;                      // names, from the base to the tip
+  std::vector<double> noise;                            // N m or N, of each joint
+  std::vector<std::string> parameters, units, gathers;  // base parameters, and what each is the sum of
 };
 
 struct DataSummary {
@@ -55,6 +67,7 @@ struct ResultSummary {
   std::string joint, equation, health_words;
   std::vector<std::string> names, units;  // [R]
   std::vector<double> truth;              // [R] NaN where unknown
+  std::optional<ArmSummary> arm{};
   DataSummary train;
   bool has_validation = false;
   DataSummary validation;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/app/result/arm_tables.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 
@@ -22,6 +23,11 @@ struct Column {
 
 std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.3g}", 100.0 * share); }
 
+std::string short_error(double value) { return std::isnan(value) ? "" : fmt::format("{:.2g}", value); }
+
+// whose mean square is the least there can be: an arm's rows are weighted
+std::string floor_kind(ResultSummary const& summary) { return summary.arm ? "wls" : "ols"; }
+
 bool knows_truth(ResultSummary const& summary) {
   return std::any_of(summary.truth.begin(), summary.truth.end(), [](double value) { return !std::isnan(value); });
 }
@@ -31,21 +37,28 @@ std::vector<Column> columns_of_result(ResultSummary const& summary) {
   if (knows_truth(summary))
     columns.push_back({"truth", [&](std::size_t i) { return short_number(summary.truth.at(i)); }});
   for (auto const& estimator : summary.estimators) {
-    bool const is_floor = estimator.kind == "ols";
+    bool const is_floor = estimator.kind == floor_kind(summary);
     columns.push_back({column_title(estimator), [&](std::size_t i) { return short_number(estimator.parameters.at(i)); },
                        short_number(estimator.mse_median), percent(estimator.relerr_median),
                        percent(estimator.validation_relerr_median),
                        is_floor ? "" : rough_number(estimator.gap_median)});
+    // sixty lines of "name error, name error" are nobody's table
+    if (summary.arm && !estimator.standard_error.empty())
+      columns.push_back({"std. error", [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
   }
   return columns;
 }
 
-std::string torque_unit(ResultSummary const& summary) { return summary.joint == "prismatic" ? "N" : "N m"; }
+std::string squared_unit(ResultSummary const& summary) {
+  if (summary.arm) return "noise2";
+  return fmt::format("({})2", summary.joint == "prismatic" ? "N" : "N m");
+}
 
 std::string gap_title(ResultSummary const& summary) {
   std::int64_t runs = 1;
   for (auto const& estimator : summary.estimators) runs = std::max(runs, estimator.runs);
-  return runs > 1 ? fmt::format("gap to OLS, median of {}", runs) : "gap to OLS";
+  std::string const gap = summary.arm ? "gap to WLS" : "gap to OLS";
+  return runs > 1 ? fmt::format("{}, median of {}", gap, runs) : gap;
 }
 
 // lines of names, units and right-aligned cells; the first line is the heading
@@ -106,7 +119,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
   for (std::size_t i = 0; i < summary.names.size(); ++i)
     text += block.line(printable(summary.names[i]), printable(summary.units[i]),
                        cells([i](Column const& column) { return column.parameter(i); }));
-  text += block.line("MSE", fmt::format("({})2", torque_unit(summary)), cells([](Column const& c) { return c.mse; }));
+  text += block.line("MSE", squared_unit(summary), cells([](Column const& c) { return c.mse; }));
   if (summary.has_validation) {
     text += block.line("error, train", "%", cells([](Column const& c) { return c.train; }));
     text += block.line("error, unseen", "%", cells([](Column const& c) { return c.unseen; }));
@@ -117,6 +130,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
 
 std::string standard_error_lines(ResultSummary const& summary) {
   std::string text;
+  if (summary.arm) return text;
   for (auto const& estimator : summary.estimators) {
     if (estimator.standard_error.empty()) continue;
     std::string list;
@@ -170,6 +184,7 @@ std::string result_table(ResultSummary const& summary, Ink const& ink) {
     begin += count;
   }
   text += standard_error_lines(summary);
+  if (summary.arm) text += "\n" + joint_error_table(summary, ink) + "\n";
   text += fmt::format("{} runs, {} evaluations", count_text(summary.runs()), count_text(summary.evaluations()));
   if (!std::isnan(summary.provenance.seconds)) text += ", " + seconds_text(summary.provenance.seconds);
   return text + "\n";
@@ -179,7 +194,8 @@ std::string estimator_lines(ResultSummary const& summary, Ink const& ink) {
   using Align = TextTable::Align;
   TextTable table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::left},
                   "  ");
-  table.row({"MSE above the OLS floor", "median", "quartile", "quartile", "best", "worst", ""});
+  table.row({summary.arm ? "MSE above the WLS floor" : "MSE above the OLS floor", "median", "quartile", "quartile",
+             "best", "worst", ""});
   for (auto const& estimator : summary.estimators)
     table.row({column_title(estimator), rough_number(estimator.gap_median), rough_number(estimator.gap_lower_quartile),
                rough_number(estimator.gap_upper_quartile), rough_number(estimator.gap_best),

@@ -1,0 +1,253 @@
+// Rows of a simulated arm: its torques, the pooled weighted fit against stacked least squares, noise levels, intervals.
+
+#include "engine/problem/arm_regression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/random_stream.hpp"
+#include "engine/problem/arm_accuracy.hpp"
+#include "engine/problem/estimator.hpp"
+#include "engine/problem/joint_grams.hpp"
+#include "engine/robot/inverse_dynamics.hpp"
+#include "engine/robot/robot_registry.hpp"
+#include "support/decompositions.hpp"
+
+namespace torquescope {
+namespace arm_regression_test {
+
+std::vector<std::string> const friction{"viscous", "coulomb", "offset"};
+std::vector<double> const noise{0.4, 0.9, 0.3, 0.05, 0.02};  // N m
+
+// five joints with synthetic masses
+ArmModel crs(DriveInertias drives = DriveInertias::included) {
+  auto chain = read_robot(std::filesystem::path(TORQUESCOPE_SOURCE_DIR) / "jobs/robots/crs_a465.toml");
+  return {std::move(chain), {friction, drives}, Section{"model", {}, {}}};
+}
+
+// three incommensurate sines a joint, all joints different
+std::vector<Motion> motion_of(std::size_t joints, Eigen::Index n, std::uint32_t draw) {
+  std::vector<Motion> motion(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    auto& one = motion[j];
+    one.rate_hz = 50.0;
+    for (auto signal : {&Motion::time_s, &Motion::q, &Motion::dq, &Motion::ddq, &Motion::torque})
+      (one.*signal).setZero(n);
+    RandomStream random({1, draw, RandomDomain::test}, 0, static_cast<std::uint32_t>(j));
+    for (int k = 0; k < 3; ++k) {
+      double const w = random.uniform(1.0, 5.0), phase = random.uniform(0.0, 6.28), amplitude = 1.2 / w;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        one.time_s[i] = static_cast<double>(i) / one.rate_hz;
+        double const x = w * one.time_s[i] + phase;
+        one.q[i] += amplitude * std::sin(x);
+        one.dq[i] += amplitude * w * std::cos(x);
+        one.ddq[i] -= amplitude * w * w * std::sin(x);
+      }
+    }
+  }
+  return motion;
+}
+
+double friction_torque(std::size_t joint, double dq) {
+  double const j = static_cast<double>(joint) + 1.0;
+  return 0.7 / j * dq + 1.1 / j * (dq > 0.0 ? 1.0 : -1.0) - 0.1 * j;
+}
+
+// by the inverse dynamics of the whole links, not by the regressor
+void add_torque(ArmModel const& model, std::vector<Motion>& motion) {
+  auto const parameters = standard_parameters(model.chain(), DriveInertias::included);
+  auto const joints = static_cast<Eigen::Index>(motion.size());
+  Eigen::VectorXd q(joints), dq(joints), ddq(joints);
+  for (Eigen::Index i = 0; i < motion.front().q.size(); ++i) {
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      auto const& one = motion[static_cast<std::size_t>(j)];
+      q[j] = one.q[i];
+      dq[j] = one.dq[i];
+      ddq[j] = one.ddq[i];
+    }
+    Eigen::VectorXd const tau = inverse_dynamics(model.chain(), parameters, q, dq, ddq);
+    for (Eigen::Index j = 0; j < joints; ++j)
+      motion[static_cast<std::size_t>(j)].torque[i] = tau[j] + friction_torque(static_cast<std::size_t>(j), dq[j]);
+  }
+}
+
+// common: share of each joint's variance that all joints have together
+void add_noise(std::vector<Motion>& motion, std::uint32_t draw, double common = 0.0) {
+  for (Eigen::Index i = 0; i < motion.front().q.size(); ++i) {
+    double const shared = RandomStream({2, draw, RandomDomain::test}, static_cast<std::uint32_t>(i), 99).normal();
+    for (std::size_t j = 0; j < motion.size(); ++j) {
+      double const own =
+          RandomStream({2, draw, RandomDomain::test}, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))
+              .normal();
+      motion[j].torque[i] += noise[j] * (std::sqrt(common) * shared + std::sqrt(1.0 - common) * own);
+    }
+  }
+}
+
+std::vector<std::vector<bool>> all_move(std::vector<Motion> const& motion) {
+  return {motion.size(), std::vector<bool>(static_cast<std::size_t>(motion.front().q.size()), true)};
+}
+
+ArmRows rows_of(ArmModel const& model, std::vector<Motion> const& motion) {
+  return make_arm_rows("x.csv", motion, all_move(motion), {.edge_s = 0.0}, model, Section{"filter", {}, {}});
+}
+
+std::vector<ArmRows> noisy_recordings(ArmModel const& model) {
+  std::vector<ArmRows> recordings;
+  for (std::uint32_t draw : {1u, 2u}) {
+    auto motion = motion_of(model.joints(), 900, draw);
+    add_torque(model, motion);
+    add_noise(motion, draw);
+    recordings.push_back(rows_of(model, motion));
+  }
+  return recordings;
+}
+
+RegressionData stacked(std::vector<ArmRows> const& recordings, ArmModel const& model, Eigen::VectorXd const& scale) {
+  return stack_rows(recordings, ArmRowChoice::moving, model, scale, Section{"filter", {}, {}});
+}
+
+Eigen::VectorXd estimate(char const* name, RegressionData const& data) {
+  std::vector<Problem> problems;
+  return find_estimator(name)->prepare({}, {}, problems)(data).parameters;
+}
+
+// every row of every joint below each other, of full width, divided by scale
+struct Dense {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd torque;
+};
+Dense dense(std::vector<ArmRows> const& recordings, ArmModel const& model, Eigen::VectorXd const& scale) {
+  Dense all;
+  for (auto const& recording : recordings)
+    for (std::size_t j = 0; j < model.joints(); ++j) {
+      auto const& rows = recording.moving[j];
+      Eigen::Index const n = rows.torque.size(), before = all.torque.size();
+      all.columns.conservativeResize(before + n, static_cast<Eigen::Index>(model.size()));
+      all.torque.conservativeResize(before + n);
+      all.columns.bottomRows(n).setZero();
+      for (std::size_t c = 0; c < model.parameters_of(j).size(); ++c)
+        all.columns.col(model.parameters_of(j)[c]).tail(n) =
+            rows.columns.col(static_cast<Eigen::Index>(c)) / scale[static_cast<Eigen::Index>(j)];
+      all.torque.tail(n) = rows.torque / scale[static_cast<Eigen::Index>(j)];
+    }
+  return all;
+}
+
+TEST(ArmModel, HasTheParametersOfFiveJoints) {
+  auto const model = crs();
+  EXPECT_EQ(model.base().size(), 32);  // Gautier and Khalil 1990: 28 of five links, four drives
+  EXPECT_EQ(model.size(), 47u);
+  auto const names = model.names();
+  EXPECT_EQ(names.back(), "offset_5");
+  EXPECT_EQ(model.parameters_of(4).back(), static_cast<Eigen::Index>(model.size()) - 1);
+  // the last joint's rows know its own link alone
+  EXPECT_LT(model.parameters_of(4).size(), model.parameters_of(0).size());
+}
+
+TEST(ArmRegression, FindsTheParametersOfNoiseFreeTorques) {
+  auto const model = crs();
+  auto motion = motion_of(5, 900, 1);
+  add_torque(model, motion);
+  std::vector<ArmRows> const recordings{rows_of(model, motion)};
+  Eigen::VectorXd const found = estimate("wls", stacked(recordings, model, Eigen::VectorXd::Ones(5)));
+  Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
+  for (Eigen::Index k = 0; k < base.size(); ++k)
+    EXPECT_NEAR(found[k], base[k], 1e-9) << model.names()[static_cast<std::size_t>(k)];
+  auto const names = model.names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (names[k] == "viscous_2") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], 0.35, 1e-9);
+    if (names[k] == "coulomb_5") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], 0.22, 1e-9);
+    if (names[k] == "offset_3") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], -0.3, 1e-9);
+  }
+}
+
+TEST(ArmRegression, IsStackedLeastSquaresOfWeightedRows) {
+  auto const model = crs();
+  auto const recordings = noisy_recordings(model);
+  Eigen::VectorXd scale(5);
+  scale << 0.5, 1.0, 0.2, 0.07, 0.03;
+  auto const data = stacked(recordings, model, scale);
+  auto const weighted = dense(recordings, model, scale), plain = dense(recordings, model, Eigen::VectorXd::Ones(5));
+  Eigen::VectorXd const expected = test::least_squares(weighted.columns, weighted.torque);
+  EXPECT_LT((estimate("wls", data) - expected).norm(), 1e-10 * expected.norm());
+  Eigen::VectorXd const unweighted = test::least_squares(plain.columns, plain.torque);
+  EXPECT_LT((estimate("ols", data) - unweighted).norm(), 1e-10 * unweighted.norm());
+  EXPECT_GT((expected - unweighted).norm(), 1e-4);
+}
+
+TEST(JointGrams, GiveResidualsAndNoiseLevels) {
+  auto const model = crs();
+  auto const recordings = noisy_recordings(model);
+  auto const grams = joint_grams(recordings, model);
+  auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
+  EXPECT_TRUE(levels.converged);
+  for (std::size_t j = 0; j < 5; ++j)
+    EXPECT_NEAR(levels.deviation[static_cast<Eigen::Index>(j)], noise[j], 0.05 * noise[j]);
+
+  auto const data = stacked(recordings, model, levels.deviation);
+  Eigen::VectorXd const found = estimate("wls", data);
+  auto const accuracy = arm_accuracy(data, data, found);
+  for (std::size_t j = 0; j < 5; ++j) {
+    double const direct = accuracy.joints[j].residual_energy;
+    EXPECT_NEAR(grams[j].residual_energy(found), direct, 1e-8 * grams[j].torque_energy());
+    // the weights belong to the fit they led to
+    EXPECT_NEAR(std::sqrt(direct / static_cast<double>(grams[j].rows)), levels.deviation[static_cast<Eigen::Index>(j)],
+                1e-5 * levels.deviation[static_cast<Eigen::Index>(j)]);
+  }
+}
+
+TEST(JointGrams, WithoutNoiseNoJointOutweighsTheOthersBeyondBounds) {
+  auto const model = crs();
+  auto motion = motion_of(5, 900, 1);
+  add_torque(model, motion);
+  std::vector<ArmRows> const recordings{rows_of(model, motion)};
+  auto const grams = joint_grams(recordings, model);
+  auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
+  for (std::size_t j = 0; j < 5; ++j)
+    EXPECT_GE(levels.deviation[static_cast<Eigen::Index>(j)],
+              0.99e-6 * std::sqrt(grams[j].torque_energy() / static_cast<double>(grams[j].rows)));
+}
+
+TEST(ArmRows, NearReversalsAreCountedAndNotFitted) {
+  auto const model = crs();
+  auto motion = motion_of(5, 900, 1);
+  add_torque(model, motion);
+  auto moves = all_move(motion);
+  for (std::size_t i = 100; i < 200; ++i) moves[2][i] = false;
+  motion[0].left_out = {{0.0, 0.5}};
+  auto const rows = make_arm_rows("x.csv", motion, moves, {.edge_s = 0.0}, model, Section{"filter", {}, {}});
+  EXPECT_EQ(rows.others[2].torque.size(), 100);
+  EXPECT_EQ(rows.others[2].instant.front(), 100);
+  // what one joint leaves out nobody fits: its motion is in every row
+  for (std::size_t j = 0; j < 5; ++j) EXPECT_GE(rows.moving[j].instant.front(), 25) << j;
+  EXPECT_EQ(rows.moving[0].torque.size(), rows.moving[2].torque.size() + 100);
+}
+
+// noise that all joints share: rows of one instant are not independent
+TEST(ArmRegression, IntervalsHoldThoughJointsShareNoise) {
+  auto const model = crs();
+  Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
+  auto clean = motion_of(5, 500, 3);
+  add_torque(model, clean);
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
+  int held = 0, counted = 0;
+  std::vector<Problem> problems;
+  auto const fit_wls = find_estimator("wls")->prepare({}, {}, problems);
+  for (std::uint32_t draw = 0; draw < 60; ++draw) {
+    auto motion = clean;
+    add_noise(motion, 100 + draw, 0.8);
+    std::vector<ArmRows> const recordings{rows_of(model, motion)};
+    auto const fit = fit_wls(stacked(recordings, model, scale));
+    for (Eigen::Index k = 0; k < base.size(); ++k, ++counted)
+      held += fit.ci95(k, 0) <= base[k] && base[k] <= fit.ci95(k, 1);
+  }
+  double const share = static_cast<double>(held) / counted;
+  EXPECT_GT(share, 0.91);
+  EXPECT_LT(share, 0.98);
+}
+
+}  // namespace arm_regression_test
+}  // namespace torquescope
