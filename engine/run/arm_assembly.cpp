@@ -80,8 +80,8 @@ void grade_standstill(Joints& joints) {
       if (stands(finding)) finding.grade = Grade::fault;
 }
 
-// Of the joint whose motion is the fastest: what it keeps, all keep. A cut-off is told to cut into the motion only where
-// it does so in every joint: what one seems to do faster than the others of its arm is mostly its noise
+// Of the joint whose motion is the fastest: what it keeps, all keep. A cut-off is told to cut into the motion only
+// where it does so in every joint: what one seems to do faster than the others of its arm is mostly its noise
 FilterSuggestion suggest_arm_filter(Files const& train, Files const& unseen) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (auto const* files : {&train, &unseen})

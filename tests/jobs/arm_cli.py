@@ -214,7 +214,8 @@ class Arm(unittest.TestCase):
         self.refused('name = "planar"', 'name = "planar2"', "an arm cannot be diagnosed yet", command="diagnose")
 
     def test_one_joint_takes_one_gain(self):
-        job = JOB.replace('robot = "arm_robot.toml"\nfriction = ["viscous", "coulomb", "offset"]', 'terms = ["inertia"]')
+        arm = 'robot = "arm_robot.toml"\nfriction = ["viscous", "coulomb", "offset"]'
+        job = JOB.replace(arm, 'terms = ["inertia"]')
         self.write("bad.toml", job.replace("{j}", "1"))
         done = self.here("check", "bad.toml")
         self.assertEqual(done.code, 78)

@@ -1,4 +1,4 @@
-// Real arms as whole jobs: the errors that jobs/panda.toml and jobs/ur10e.toml promise, on recordings nobody has fitted.
+// Real arms as whole jobs: the errors that jobs/panda.toml and jobs/ur10e.toml promise, on rows nobody has fitted.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -157,11 +158,12 @@ TEST(ArmRegression, FindsTheParametersOfNoiseFreeTorques) {
   for (Eigen::Index k = 0; k < base.size(); ++k)
     EXPECT_NEAR(found[k], base[k], 1e-9) << model.names()[static_cast<std::size_t>(k)];
   auto const names = model.names();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (names[k] == "viscous_2") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], 0.35, 1e-9);
-    if (names[k] == "coulomb_5") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], 0.22, 1e-9);
-    if (names[k] == "offset_3") EXPECT_NEAR(found[static_cast<Eigen::Index>(k)], -0.3, 1e-9);
-  }
+  auto const value = [&](char const* name) {
+    return found[std::find(names.begin(), names.end(), name) - names.begin()];
+  };
+  EXPECT_NEAR(value("viscous_2"), 0.35, 1e-9);
+  EXPECT_NEAR(value("coulomb_5"), 0.22, 1e-9);
+  EXPECT_NEAR(value("offset_3"), -0.3, 1e-9);
 }
 
 TEST(ArmRegression, IsStackedLeastSquaresOfWeightedRows) {
