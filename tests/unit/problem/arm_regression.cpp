@@ -228,8 +228,39 @@ TEST(ArmRows, NearReversalsAreCountedAndNotFitted) {
   EXPECT_EQ(rows.moving[0].torque.size(), rows.moving[2].torque.size() + 100);
 }
 
-// noise that all joints share: rows of one instant are not independent
-TEST(ArmRegression, IntervalsHoldThoughJointsShareNoise) {
+// Noise that all joints share, u_t s_j: the covariance of the fit is B (sum of g_t g_t') B with g_t the sum of the
+// joints' rows at t, and not B, which is that of independent rows
+TEST(ArmRegression, StandardErrorsKnowThatJointsShareNoise) {
+  auto const model = crs();
+  auto clean = motion_of(5, 500, 3);
+  add_torque(model, clean);
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
+  std::vector<Problem> problems;
+  Section const white{"estimator", {}, {{"hac_lags", std::int64_t{0}}}};
+  auto const fit_wls = find_estimator("wls")->prepare(white, {}, problems);
+  ASSERT_TRUE(problems.empty());
+  constexpr std::uint32_t draws = 20;
+  Eigen::VectorXd claimed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.size()));
+  RegressionData data;
+  for (std::uint32_t draw = 0; draw < draws; ++draw) {
+    auto motion = clean;
+    add_noise(motion, 100 + draw, 1.0);
+    data = stacked({rows_of(model, motion)}, model, scale);
+    claimed += fit_wls(data).covariance_hac.diagonal() / draws;
+  }
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(500, data.parameters());
+  for (Eigen::Index t = 0; t < data.rows(); ++t) sums.row(t % 500) += data.phi.row(t);
+  Eigen::MatrixXd const bread = inverse_information(data, {});
+  Eigen::VectorXd const truth = (bread * (sums.transpose() * sums) * bread).diagonal();
+  double farthest_from_independent = 0.0;
+  for (Eigen::Index k = 0; k < truth.size(); ++k) {
+    EXPECT_NEAR(claimed[k] / truth[k], 1.0, 0.25) << model.names()[static_cast<std::size_t>(k)];
+    farthest_from_independent = std::max(farthest_from_independent, std::abs(bread(k, k) / truth[k] - 1.0));
+  }
+  EXPECT_GT(farthest_from_independent, 0.5);
+}
+
+TEST(ArmRegression, IntervalsHold) {
   auto const model = crs();
   Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
   auto clean = motion_of(5, 500, 3);
@@ -240,9 +271,8 @@ TEST(ArmRegression, IntervalsHoldThoughJointsShareNoise) {
   auto const fit_wls = find_estimator("wls")->prepare({}, {}, problems);
   for (std::uint32_t draw = 0; draw < 60; ++draw) {
     auto motion = clean;
-    add_noise(motion, 100 + draw, 0.8);
-    std::vector<ArmRows> const recordings{rows_of(model, motion)};
-    auto const fit = fit_wls(stacked(recordings, model, scale));
+    add_noise(motion, 100 + draw, 0.5);
+    auto const fit = fit_wls(stacked({rows_of(model, motion)}, model, scale));
     for (Eigen::Index k = 0; k < base.size(); ++k, ++counted)
       held += fit.ci95(k, 0) <= base[k] && base[k] <= fit.ci95(k, 1);
   }
