@@ -7,8 +7,24 @@
 
 namespace torquescope {
 
+namespace {
+
+constexpr double fewest_encoder_steps = 20.0;
+
+}  // namespace
+
+bool covers_few_steps(std::vector<double> const& position) {
+  std::vector<double> values = position;
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (range_of(values) < fewest_encoder_steps * quantisation_step(values)) return true;
+  // a step that is seldom met is not known, but then there are few levels as well
+  std::sort(values.begin(), values.end());
+  auto const levels = std::unique(values.begin(), values.end()) - values.begin();
+  return static_cast<double>(levels) <= fewest_encoder_steps;
+}
+
 void find_standstill(Examination& exam) {
-  constexpr double deviations = 30.0, encoder_steps = 20.0;
+  constexpr double deviations = 30.0;
   std::vector<double> values = exam.values("position");
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.size() < 16) return;
@@ -16,7 +32,7 @@ void find_standstill(Examination& exam) {
   double const range = *most - *least;
   double const noise =
       white_noise(Eigen::Map<Eigen::VectorXd const>(values.data(), static_cast<Eigen::Index>(values.size())));
-  if (range < deviations * noise || range < encoder_steps * quantisation_step(values))
+  if (range < deviations * noise || covers_few_steps(values))
     exam.add(FindingKind::standstill, Grade::warning, Repair::none, "position", {},
              range * std::fabs(exam.options.position_per_unit));
 }

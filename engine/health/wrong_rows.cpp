@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/health/position_steps.hpp"
+#include "engine/health/standstill.hpp"
 
 namespace torquescope {
 namespace {
@@ -97,6 +98,7 @@ void report_jumps(Examination& exam, Roughness const& roughness) {
 
 void examine_position_rows(Examination& exam) {
   leave_out_zeros_at_the_ends(exam);
+  if (covers_few_steps(exam.values("position"))) return;
   if (is_interleaved(exam.values("position"))) {
     exam.add(FindingKind::rows_interleaved, Grade::fault, Repair::none, "position", {});
     return;

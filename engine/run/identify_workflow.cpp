@@ -42,10 +42,17 @@ void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string
   results.nonfinite.push_back(nonfinite);
 }
 
+// NaN where no row is left: an unseen recording of an arm that stands still
+std::vector<PredictionMetrics> metrics_of(RegressionData const& rows, std::vector<Eigen::VectorXd> const& parameters) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (rows.rows() > 0) return prediction_metrics(rows, parameters);
+  return std::vector<PredictionMetrics>(parameters.size(), {none, none, none, none, none});
+}
+
 // of all runs in one sweep over the rows
 void measure_runs(Study const& study, RunResults& results) {
-  results.train = prediction_metrics(study.parts.train.regression, results.parameters);
-  if (study.parts.validate) results.validate = prediction_metrics(study.parts.validate->regression, results.parameters);
+  results.train = metrics_of(study.parts.train.regression, results.parameters);
+  if (study.parts.validate) results.validate = metrics_of(study.parts.validate->regression, results.parameters);
   if (!study.parts.arm) return;
   // rows are divided by the noise of their joint; an error in per cent is one of the torques
   auto const in_torque = [&](RegressionData const& rows, std::vector<PredictionMetrics>& metrics) {

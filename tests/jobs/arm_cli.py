@@ -213,6 +213,18 @@ class Arm(unittest.TestCase):
         self.refused("train_share = 0.6", "train_share = 1.6", "train_share = 1.6 is out of range")
         self.refused('name = "planar"', 'name = "planar2"', "an arm cannot be diagnosed yet", command="diagnose")
 
+    def test_an_unseen_arm_that_stands_still_is_said_and_judges_nothing(self):
+        rows = self.text.splitlines()
+        still = [rows[0]] + [f"{k / 500:.4f},0.1,{0.2 + 1e-4 * (k % 900 == 7):.4f},{0.6 + 1e-3 * (k % 7):.4f},0.4{k % 3}"
+                             for k in range(2000)]
+        still[1] = "0.0000,0.1001,0.2000,0.6000,0.400"
+        self.write("still.csv", "\n".join(still) + "\n")
+        self.write("arm.toml", JOB.replace("train_share = 0.6", 'validate = "still.csv"'))
+        self.assertIn("the joint stands still", " ".join(self.here("check", "arm.toml").out.split()))
+        _, told = self.run_job()
+        self.assertIsNone(told["estimators"][0]["validation_relerr"])
+        self.assertIsNotNone(told["estimators"][0]["arm"]["validation_relerr_all_rows"])
+
     def test_one_joint_takes_one_gain(self):
         arm = 'robot = "arm_robot.toml"\nfriction = ["viscous", "coulomb", "offset"]'
         job = JOB.replace(arm, 'terms = ["inertia"]')

@@ -107,6 +107,21 @@ TEST(PositionExamination, MissingRowsAreNoJump) {
   for (auto const& finding : recording.findings) EXPECT_NE(finding.kind, FindingKind::position_jumps);
 }
 
+// an encoder that flickers between neighbouring steps is no second source, and no jump
+TEST(PositionExamination, AStandingJointStandsAndNothingElse) {
+  auto table = sample_table({100, 10, 0.9, 0.0, 0.02, 5});
+  for (std::size_t row = 0; row < table.columns[1].size(); ++row)
+    table.columns[1][row] = 1e-4 * static_cast<double>(row * row / 7 % 3 == 0);
+  auto flickers_seldom = table;
+  for (std::size_t row = 0; row < table.columns[1].size(); ++row)
+    flickers_seldom.columns[1][row] = 1e-4 * static_cast<double>(row > 400 && row < 404);
+  for (auto const& one : {table, flickers_seldom}) {
+    auto const recording = make_recording(one, health_test::sample_options(), section);
+    ASSERT_EQ(recording.findings.size(), 1u);
+    EXPECT_EQ(recording.findings.front().kind, FindingKind::standstill);
+  }
+}
+
 TEST(SplitRecording, SharesNoSampleAndKeepsStretches) {
   auto whole = make_recording(sample_table({.rate_hz = 100, .seconds = 10}), health_test::sample_options(), section);
   whole.left_out = {{6.0, 8.0}};
