@@ -11,7 +11,8 @@ namespace torquescope {
 
 void find_standstill(Examination& exam);
 
-// less than twenty encoder steps in all, or so many different values: such rows tell steps, and no motion that one of them could break
+// less than twenty encoder steps in all, or so many different values: such rows tell steps, and no motion that one of
+// them could break
 bool covers_few_steps(std::vector<double> const& position);
 
 }  // namespace torquescope

@@ -215,8 +215,10 @@ class Arm(unittest.TestCase):
 
     def test_an_unseen_arm_that_stands_still_is_said_and_judges_nothing(self):
         rows = self.text.splitlines()
-        still = [rows[0]] + [f"{k / 500:.4f},0.1,{0.2 + 1e-4 * (k % 900 == 7):.4f},{0.6 + 1e-3 * (k % 7):.4f},0.4{k % 3}"
-                             for k in range(2000)]
+        still = [rows[0]]
+        for k in range(2000):
+            flicker = 1e-4 * (k % 900 == 7)
+            still.append(f"{k / 500:.4f},0.1,{0.2 + flicker:.4f},{0.6 + 1e-3 * (k % 7):.4f},0.4{k % 3}")
         still[1] = "0.0000,0.1001,0.2000,0.6000,0.400"
         self.write("still.csv", "\n".join(still) + "\n")
         self.write("arm.toml", JOB.replace("train_share = 0.6", 'validate = "still.csv"'))
