@@ -1,13 +1,19 @@
 """What the page of the scoreboard says is what the file holds, in words a person reads."""
 
+import contextlib
+import io
 import json
 import re
+import tempfile
 import unittest
+from pathlib import Path
 
 import support
 
 import board
+import build_board
 import figure
+import make_board
 from figures import BOARD_MODULES, board_cases
 
 
@@ -70,6 +76,36 @@ class BoardPage(unittest.TestCase):
 
     def test_it_says_what_it_does_not_prove(self):
         self.assertIn("What this does not prove", self.text)
+
+
+class RealRecordings(unittest.TestCase):
+    def made(self, *boards):
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            (place / "real").mkdir()
+            (place / "real" / "real.json").write_text(json.dumps(make_board.real()))
+            for kind in boards:
+                (place / "board.json").write_bytes(support.result(kind).read_bytes())
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(build_board.main([folder]), 0)
+            return (place / "board.html").read_text(encoding="utf-8")
+
+    def test_they_have_a_page_of_their_own_where_no_case_was_concealed(self):
+        page = self.made()
+        rows = page.split("<tbody>")[1].split("</tbody>")[0]
+        self.assertEqual(rows.count("<tr>"), 3)
+        text = text_of(rows)
+        self.assertIn("cogging or torque ripple", text)
+        self.assertIn("88.0 % 13.2 % 6.6 % unseen 95.7 % 99.6 %", text)
+        self.assertIn('<span class="failed">wrong</span>', rows)
+        self.assertIn("too poor", text)
+        self.assertIn("One of 2 verdicts with names", text_of(page))
+
+    def test_they_stand_below_the_concealed_cases(self):
+        page = self.made("board_few")
+        self.assertLess(page.index("The table"), page.index("lab_joint_3"))
+        self.assertIn("Real joints are in a table of their own below.", text_of(page))
+        self.assertNotIn("have not been counted", page)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ Json const pattern = Json::parse(R"({
   "joints": [{
     "joint": 1, "name": "", "twins": 0,
     "baseline": {"parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}],
-                 "train_relerr": 0, "validation_relerr": 0},
+                 "train_relerr": 0, "validation_relerr": 0, "cv_relerr": 0},
     "mismatch": [{"axis": "", "from": 0, "to": 0, "unit": "", "time_share": 0, "energy_share": 0,
                   "repeatable_share": 0}],
     "effects": [{"name": "", "family": "", "acts_on": "", "equivalent": [""],
@@ -32,7 +32,7 @@ Json const pattern = Json::parse(R"({
                  "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}], "sentence": ""}],
     "candidates": [{"name": "", "family": "", "decision": "", "reason": "", "z": 0, "p": 0,
                     "p_is_bound": false, "p_extrapolated": 0, "q": 0, "gain": 0, "cv_gain": 0}],
-    "augmented": {"train_relerr": 0, "validation_relerr": 0, "floor_relerr": 0,
+    "augmented": {"train_relerr": 0, "validation_relerr": 0, "cv_relerr": 0, "floor_relerr": 0,
                   "parameters": [{"name": "", "value": 0, "unit": "", "ci95": [0]}]},
     "left_out": {"train": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0, "augmented_relerr_all_rows": 0},
                  "validation": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0,
@@ -83,6 +83,8 @@ TEST(DiagnosisJson, TellsTheNumbersUnrounded) {
   Json const& joint = document["joints"][0];
   EXPECT_EQ(joint["effects"][0]["p"], 1.0 / 201.0);
   EXPECT_EQ(joint["baseline"]["validation_relerr"], 0.1213);
+  EXPECT_EQ(joint["baseline"]["cv_relerr"], 0.1196);
+  EXPECT_EQ(joint["augmented"]["cv_relerr"], 0.0617);
   EXPECT_EQ(joint["effects"][0]["parameters"][0]["ci95"], Json::parse("[0.342, 0.366]"));
   EXPECT_EQ(joint["effects"][0]["equivalent"], Json::parse(R"(["presliding"])"));
   // regions of all axes in one list
