@@ -99,13 +99,12 @@ HeldOutGain gain_of(std::vector<HeldOutResiduals> const& residuals) {
   return held_out_gain(blocks);
 }
 
-// what held-out rows lose without each effect, for each unit of energy that it moves there
+// what held-out rows lose without each effect. Not by what it moves there: beside a law that throws the prediction off,
+// whatever little another one moves would look worse
 std::vector<double> worth_unseen(std::vector<UnseenResult> const& unseen, std::size_t n_effects) {
-  std::vector<PredictionEnergies> sum(n_effects);
+  std::vector<double> worth(n_effects, 0.0);
   for (auto const& result : unseen)
-    for (std::size_t i = 0; i < result.by_effect.size(); ++i) sum[i] += result.by_effect[i];
-  std::vector<double> worth;
-  for (auto const& one : sum) worth.push_back(one.moved > 0.0 ? one.gain() / one.moved : 0.0);
+    for (std::size_t i = 0; i < result.by_effect.size(); ++i) worth[i] += result.by_effect[i].gain();
   return worth;
 }
 
@@ -116,9 +115,7 @@ std::vector<double> worth_in_blocks(TrainingRows const& rows, ModelStage const& 
     auto const [first, width] = columns_of(stage, i);
     Eigen::MatrixXd others(rows.after.rows(), rows.after.cols() - width);
     others << rows.after.leftCols(first), rows.after.rightCols(rows.after.cols() - first - width);
-    Eigen::VectorXd const without = blocked_residuals(rows.torque, others, rows.memory_rows);
-    double const moved = (without - with).squaredNorm();
-    worth.push_back(moved > 0.0 ? (without.squaredNorm() - with.squaredNorm()) / moved : 0.0);
+    worth.push_back(blocked_residuals(rows.torque, others, rows.memory_rows).squaredNorm() - with.squaredNorm());
   }
   return worth;
 }

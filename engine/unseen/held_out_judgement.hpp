@@ -58,8 +58,8 @@ struct HeldOutEvidence {
 };
 HeldOutRefusal refusal_of(HeldOutEvidence const& evidence);
 
-// which of the accepted effects to go on without; worth: of each, what held-out rows lose without it for each unit of
-// energy that it moves there; bound: those that predict nothing elsewhere
+// which of the accepted effects to go on without; worth: of each, the energy that held-out rows have more without it;
+// bound: those that predict nothing elsewhere
 std::vector<std::size_t> spoilers_of(HeldOutRefusal refusal, std::vector<double> const& worth,
                                      std::vector<std::size_t> bound);
 

@@ -28,19 +28,16 @@ class HeldOutSearch {
     HeldOutSelection first = judged(std::move(selection));
     if (is_final(first)) return of_time_last(std::move(first));
     if (is_beyond_training(first)) return first;
-    std::vector<RejectedEffect> spoiled;
-    HeldOutSelection const* last = &first;
-    HeldOutSelection next;
-    for (int round = 0; round < most_rounds; ++round) {
-      leave_out_spoilers(*last, spoiled);
-      auto found = searched();
-      if (!found || found->selection.accepted.empty() || found->remainder.is_unexplained) break;
-      next = std::move(*found);
-      last = &next;
-      if (!next.judgement.holds()) continue;
-      next.selection.rejected.insert(next.selection.rejected.end(), spoiled.begin(), spoiled.end());
-      return next;
+    auto const all = options_.candidates;
+    if (has_law_of_time(first)) {
+      leave_out_laws_of_time();
+      if (auto found = searched(); found && is_answer(*found)) {
+        reject_laws_of_time(first, *found);
+        return std::move(*found);
+      }
+      options_.candidates = all;
     }
+    if (auto found = without_spoilers(first)) return of_time_last(std::move(*found));
     return first;
   }
 
@@ -69,6 +66,29 @@ class HeldOutSearch {
     return one.kept_to.has_value();
   }
 
+  static bool explains(HeldOutSelection const& one) {
+    return !one.selection.accepted.empty() && !one.remainder.is_unexplained;
+  }
+  static bool is_answer(HeldOutSelection const& one) { return explains(one) && one.judgement.holds(); }
+
+  // round by round without what spoiled the one before; nothing when no round ends with names that hold
+  std::optional<HeldOutSelection> without_spoilers(HeldOutSelection const& first) {
+    std::vector<RejectedEffect> spoiled;
+    HeldOutSelection const* last = &first;
+    HeldOutSelection next;
+    for (int round = 0; round < most_rounds; ++round) {
+      leave_out_spoilers(*last, spoiled);
+      auto found = searched();
+      if (!found || !explains(*found)) return std::nullopt;
+      next = std::move(*found);
+      last = &next;
+      if (!next.judgement.holds()) continue;
+      next.selection.rejected.insert(next.selection.rejected.end(), spoiled.begin(), spoiled.end());
+      return next;
+    }
+    return std::nullopt;
+  }
+
   void leave_out_spoilers(HeldOutSelection const& one, std::vector<RejectedEffect>& spoiled) {
     for (std::size_t const i : one.judgement.spoilers) {
       Effect const* effect = one.selection.accepted[i].effect;
@@ -89,21 +109,31 @@ class HeldOutSearch {
     }
   }
 
-  HeldOutSelection of_time_last(HeldOutSelection first) {
-    auto const& accepted = first.selection.accepted;
-    bool const has_any =
-        std::any_of(accepted.begin(), accepted.end(), [](auto const& one) { return is_of_time(*one.effect); });
-    if (!has_any || first.remainder.is_unexplained || first.judgement.is_adequate) return first;
+  static bool has_law_of_time(HeldOutSelection const& one) {
+    auto const& accepted = one.selection.accepted;
+    return std::any_of(accepted.begin(), accepted.end(), [](auto const& law) { return is_of_time(*law.effect); });
+  }
+
+  void leave_out_laws_of_time() {
     std::erase_if(options_.candidates, [](Effect const* effect) { return is_of_time(*effect); });
+  }
+
+  static void reject_laws_of_time(HeldOutSelection const& with, HeldOutSelection& without) {
+    for (auto const& one : with.selection.accepted)
+      if (is_of_time(*one.effect))
+        without.selection.rejected.push_back(
+            {one.effect, "held-out rows do not need a law of the time beside the others"});
+  }
+
+  HeldOutSelection of_time_last(HeldOutSelection first) {
+    if (!has_law_of_time(first) || first.remainder.is_unexplained || first.judgement.is_adequate) return first;
+    leave_out_laws_of_time();
     auto other = searched();
     if (!other || other->selection.accepted.empty() || !is_final(*other) || other->remainder.is_unexplained)
       return first;
     // a law of the time stays only where held-out rows need it: nothing else imitates so many others
     if (gain_over(other->judgement, first.judgement).change == HeldOutChange::lower) return first;
-    for (auto const& one : accepted)
-      if (is_of_time(*one.effect))
-        other->selection.rejected.push_back(
-            {one.effect, "held-out rows do not need a law of the time beside the others"});
+    reject_laws_of_time(first, *other);
     return std::move(*other);
   }
 

@@ -5,8 +5,9 @@
 // Rounds     at most three without what spoiled the round before; then the names of the first round are refused
 // Beyond     where unseen recordings spoil the names only beyond the training motion (unseen_range.hpp) nothing is
 //            searched on: the motion is to blame
-// Last       laws of an instant or a clock are tried last: where names with such a law hold in a model that is not
-//            adequate, a search without any of them is made too, and wins unless its held-out error is clearly higher
+// Last       laws of an instant or a clock are tried last. Where names with such a law are refused, the first round is
+//            one without any of them. Where they hold, in whichever round, in a model that is not adequate, such a
+//            search is made too, and wins unless its held-out error is clearly higher
 // Threads    as the stages
 
 #include <memory>

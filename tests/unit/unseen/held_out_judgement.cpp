@@ -110,6 +110,16 @@ TEST_F(HeldOutJudgementOfASpring, RefusesItBesideAPushWhereUnseenDataHaveNone) {
   EXPECT_TRUE(judge_held_out(setting, std::span(&with_it, 1), both, {}).holds());
 }
 
+// beside a prediction that is thrown off, whatever little a wave moves there may look as bad as what throws it off
+TEST_F(HeldOutJudgementOfASpring, BlamesItAndNoWaveBesideIt) {
+  for (double const order : {17.0, 23.0, 31.0, 41.0, 47.0}) {
+    Selection const both = selection_of({{find_effect("cogging"), {order}}, spring});
+    auto const judgement = judge_held_out(setting, std::span(&without_it, 1), both, {});
+    EXPECT_FALSE(judgement.holds());
+    EXPECT_THAT(judgement.spoilers, testing::ElementsAre(1U)) << order;
+  }
+}
+
 TEST_F(HeldOutJudgementOfASpring, CrossValidatesWhereNothingUnseenWasRecorded) {
   EXPECT_TRUE(judge_held_out(setting, {}, selection_of({spring}), {}).holds());
   // a wave of the position that nothing has
