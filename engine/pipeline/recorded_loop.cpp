@@ -28,6 +28,8 @@ double first_velocity(Recording const& recording) {
   return std::abs(slope) * static_cast<double>(n - 1) <= recording.rows.encoder_step ? 0.0 : slope * recording.rate_hz;
 }
 
+constexpr double runaway = 3.0;  // times the largest torque of the recording, or of the model along its motion
+
 RecordedLoop common_parts(Recording const& recording) {
   RecordedLoop result;
   result.loop.encoder_step =
@@ -37,7 +39,6 @@ RecordedLoop common_parts(Recording const& recording) {
   result.track.rate_hz = recording.rate_hz;
   result.track.start_position = recording.position[0];
   result.track.start_velocity = first_velocity(recording);
-  constexpr double runaway = 3.0;  // times the recording's largest torque
   result.track.largest_torque = runaway * recording.torque.cwiseAbs().maxCoeff();
   return result;
 }
@@ -73,6 +74,20 @@ Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const&
   longer.position.tail(pad) = 2.0 * q[n - 1] - q.segment(n - 1 - pad, pad).reverse().array();
   longer.torque = Eigen::VectorXd::Zero(longer.position.size());
   return differentiate(std::move(longer), filter, {}).q.segment(pad, n);
+}
+
+// The largest torque that the joint needs along a motion. A model that explains little of a recording may need more
+// than was recorded, on rows that nothing is fitted to: a joint that is led along has not run away for that
+double most_needed(TrackedJoint const& joint, Eigen::VectorXd const& q, double rate_hz) {
+  double most = 0.0;
+  for (Eigen::Index k = 1; k + 1 < q.size(); ++k) {
+    double const velocity = 0.5 * rate_hz * (q[k + 1] - q[k - 1]);
+    double const acceleration = rate_hz * rate_hz * (q[k + 1] - 2.0 * q[k] + q[k - 1]);
+    double const dry = velocity > 0.0 ? joint.forward : joint.backward;
+    double const gravity = joint.gravity_sin * std::sin(q[k]) + joint.gravity_cos * std::cos(q[k]);
+    most = std::max(most, std::abs(joint.inertia * acceleration + joint.viscous * velocity + dry + gravity));
+  }
+  return most;
 }
 
 // Below it the velocity of the smoothed motion may be noise alone. What smoothing takes away is noise, and as much of
@@ -135,6 +150,9 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
+  if (recording.reference.size() != recording.position.size())
+    result.track.largest_torque =
+        std::max(result.track.largest_torque, runaway * most_needed(joint, result.track.reference, recording.rate_hz));
   double const bandwidth_hz =
       std::min(bandwidth_share * recording.rate_hz, widest_of_encoder(recording, joint.inertia));
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);

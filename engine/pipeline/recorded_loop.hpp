@@ -3,8 +3,8 @@
 //
 // Sources    identified: one linear law with a white remainder. approximated: a law whose remainder is coloured;
 //            replicates carry its spectrum. tracking: no reference; a stiff loop of our own (bandwidth 3 % of the rate
-//            or less) follows the smoothed motion, with the needed torque fed forward. Not calibrated for elasticity,
-//            payload and delay
+//            or less) follows the smoothed motion, with the needed torque fed forward; thrice that torque is no
+//            runaway. Not calibrated for elasticity, payload and delay
 // Limit      of the torque: the drive's, or the measurement channel's when the joint got most of what was asked beyond
 //            it
 // Noise      tracking: white noise from second differences, an upper bound; measured with replicates: torque_colour.hpp

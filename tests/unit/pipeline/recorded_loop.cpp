@@ -83,6 +83,21 @@ TEST(RecordedLoop, HasNoLimitOnTheOneSideThatIsCut) {
   EXPECT_TRUE(std::isinf(found.loop.law.least));
 }
 
+// a model that explains little of a recording needs more along its motion than was recorded
+TEST(RecordedLoop, LetsALedJointHaveTheTorqueThatItsOwnModelNeeds) {
+  auto const simulated = simulate_joint(limited_joint().plan, 5);
+  auto recording = test::recorded(simulated);
+  recording.torque *= 0.01;
+  double const most_recorded = recording.torque.cwiseAbs().maxCoeff();
+  TrackedJoint const joint{0.08, 0.3, 0.3, -0.3};
+  // beside a reference such a torque is another signal or unit, and twins that run away say so
+  EXPECT_DOUBLE_EQ(tracking_loop(recording, joint, test::clean_filter()).track.largest_torque, 3.0 * most_recorded);
+  recording.reference.resize(0);
+  double const needed = simulated.true_torque.cwiseAbs().maxCoeff();
+  double const least_allowed = 2.0 * needed;  // of thrice; smoothing takes off peaks
+  EXPECT_GT(tracking_loop(recording, joint, test::clean_filter()).track.largest_torque, least_allowed);
+}
+
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   auto const path = emps("emps_train.csv.gz");
   SKIP_WITHOUT(path);
