@@ -79,7 +79,7 @@ def gains_nothing(said):
 def grade(said, answer):
     """-> (grade, why)"""
     if said.verdict == "no answer":
-        return "useless", "no answer"
+        return "useless", _first_error(said.text)
     words = re.sub(r"\s+", " ", said.text)
     says_so = bool(answer.say) and said.verdict in answer.say_verdicts and bool(re.search(answer.say, words, re.I))
     kept = names_of(said)
@@ -88,6 +88,12 @@ def grade(said, answer):
     if says_so:
         return "right", "says so"
     return answer.verdicts.get(said.verdict, "wrong"), ""
+
+
+def _first_error(screen):
+    """The first line that the program calls an error; its help is in the file of the screen."""
+    lines = [" ".join(line.split()) for line in screen.splitlines() if line.startswith("error")]
+    return lines[0] if lines else "no answer"
 
 
 def _of_names(said, kept, answer, says_so):

@@ -64,6 +64,8 @@ class Grading(unittest.TestCase):
         self.assertEqual(self.graded(said("insufficient")), "useless")
         self.assertEqual(self.graded(said("none")), "wrong")
         self.assertEqual(self.graded(grading.Said()), "useless")
+        broken = grading.said_of(None, "job  one\nerror: no such file      [66]\n  --> job.toml:3\n")
+        self.assertEqual(grading.grade(broken, answer(**COGGING)), ("useless", "error: no such file [66]"))
         # names that were withdrawn are no names
         self.assertEqual(self.graded(said("unexplained", effect("contact"))), "acceptable")
 
