@@ -71,6 +71,7 @@ RawTable TableBuilder::finish() && {
   validate(!table_.columns.empty(), [&] {
     auto problem = bad_data(fmt::format("{} holds no columns of numbers", table_.path), table_.path, 0,
                             "store every signal as a vector of numbers, all of one length");
+    problem.notes = table_.remarks;
     for (auto const& column : table_.unusable) problem.notes.push_back("\"" + column.name + "\" " + column.reason);
     if (problem.notes.size() > 8) problem.notes.resize(8);
     return problem;

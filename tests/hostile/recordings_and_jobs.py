@@ -145,6 +145,25 @@ class Hdf5Recordings(Folder):
             with self.subTest(words=words):
                 self.assert_refused(self.check(self.recording(make)), 65, words)
 
+    def test_very_many_groups_are_listed_once(self):
+        # asking for the k-th link of a group walks over all before it: 30 000 took 13 s of the processor
+        def empty_groups(file):
+            for i in range(30_000):
+                file.create_group(f"a{i:05}")
+
+        with h5py.File(self.path("empty.h5"), "w") as file:
+            empty_groups(file)
+        refused = self.check("empty.h5")
+        self.assert_refused(refused, 65, "holds no columns of numbers")
+        self.assertIn("30001 groups and 0 datasets were looked at", " ".join(refused.err.split()))
+
+        def behind_them(file):
+            empty_groups(file)
+            file["tau_Nm"] = DATA[:, 2]
+
+        outcome = self.check(self.recording(behind_them))
+        self.assertEqual(outcome.code, 0, outcome.err)
+
     def test_sizes_beyond_the_file_cost_nothing(self):
         for shape in [(1 << 62,), (1 << 40,), (1 << 27,), (1 << 40, 1 << 20)]:
             def huge(file, shape=shape):
