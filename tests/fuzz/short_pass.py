@@ -50,10 +50,8 @@ class ShortPass(unittest.TestCase):
             with self.subTest(reader=reader):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 read, refused = map(int, re.search(r"(\d+) read, (\d+) refused", done.stdout).groups())
-                if reader == "segment":  # sealed: nearly every change is seen before HDF5 looks
-                    self.assertGreater(refused, 0.9 * COUNTS[reader])
-                    continue
-                # most changes matter, or what is tried is the container alone
+                # most changes matter, or what is tried is the container alone; a changed segment is sealed again, and
+                # one that is read has passed the digest of all its values: they are equal
                 self.assertGreater(min(read, refused), 0.02 * COUNTS[reader])
 
     def test_segments_that_lie(self):
