@@ -7,6 +7,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/store/own_folder.hpp"
 
 namespace torquescope {
 namespace {
@@ -168,7 +169,8 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
     std::lock_guard const alone(hdf5_);
     // a process that finished may have tidied up behind us
     make_segment_folder(setting_.folder);
-    write_segment(name, origin, estimators);
+    OwnFolder const folder(setting_.folder);
+    write_segment(folder.place(name.filename().string()), origin, estimators);
     pile_.add(name, origin, [&] {
       std::lock_guard const names(guard_);
       return names_.next();

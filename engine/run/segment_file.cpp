@@ -165,10 +165,9 @@ std::vector<std::size_t> counts(ResultReader const& reader, std::string const& p
 
 }  // namespace
 
-void write_segment(std::filesystem::path const& name, SegmentOrigin const& origin,
-                   std::vector<EstimatorParts> const& estimators) {
+void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vector<EstimatorParts> const& estimators) {
   ResultWriter writer(
-      name, {.expected_bytes = bytes_of(estimators), .inputs_sha256 = origin.inputs_sha256, .keeps = Keeps::work});
+      place, {.expected_bytes = bytes_of(estimators), .inputs_sha256 = origin.inputs_sha256, .keeps = Keeps::work});
   write_origin(writer, origin);
   std::vector<std::string> labels;
   for (auto const& estimator : estimators) {

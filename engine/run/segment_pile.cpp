@@ -66,8 +66,8 @@ void SegmentPile::add(std::filesystem::path const& segment, SegmentOrigin const&
       auto const full = std::exchange(levels_[level], {});
       if (bytes_of_files(full) > most_bytes_) return;
       newest = next_name();
-      write_segment(newest, origin, gathered_parts(full));
       OwnFolder const folder(newest.parent_path());
+      write_segment(folder.place(newest.filename().string()), origin, gathered_parts(full));
       for (auto const& file : full) folder.unlink(file.filename().string());
     }
   } catch (Error const&) {

@@ -145,7 +145,8 @@ void TwinFolder::fill_parts(TwinBatch const& batch, std::vector<Part> parts) {
 bool TwinFolder::take(TwinBatch const& batch, Part& part) {
   if (setting_.must_end && setting_.must_end()) throw TwinsAbandoned();
   numbers_.resize(part.range.size() * batch.numbers);
-  NumberFile const found = read_number_file(part.file, part.key, numbers_);
+  if (!folder_.is_open()) return false;
+  NumberFile const found = read_number_file(folder_.place(part.file.filename().string()), part.key, numbers_);
   if (found == NumberFile::damaged) {
     warn(fmt::format("{} is damaged; its twins are simulated again", part.file.string()));
     folder_.unlink(part.file.filename().string());
@@ -186,7 +187,7 @@ void TwinFolder::publish(TwinBatch const& batch, Part const& part) {
   publishes_ = !free || *free >= setting_.bytes_kept_free + number_file_bytes(numbers_.size());
   if (!publishes_) return warn("there is little room on the disk: twins are no longer shared");
   try {
-    write_number_file(part.file, part.key, numbers_);
+    write_number_file(folder_.place(part.file.filename().string()), part.key, numbers_);
   } catch (Error const& error) {
     publishes_ = false;
     warn(error.problems().front().what + "; twins are no longer shared");

@@ -32,9 +32,10 @@ Sha256 digest_of(Head const& head, std::span<double const> numbers) {
 class OpenFile {
  public:
   // O_NONBLOCK: a FIFO under this name must not be waited for
-  explicit OpenFile(std::filesystem::path const& name)
-      : descriptor_(
-            unless_interrupted([&] { return ::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK); })) {}
+  explicit OpenFile(FilePlace const& place)
+      : descriptor_(unless_interrupted([&] {
+          return ::openat(place.folder, place.name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+        })) {}
   ~OpenFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -66,18 +67,18 @@ class OpenFile {
 
 std::size_t number_file_bytes(std::size_t numbers) { return sizeof(Head) + numbers * sizeof(double) + sizeof(Sha256); }
 
-void write_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double const> numbers) {
+void write_number_file(FilePlace const& place, NumberFileKey const& key, std::span<double const> numbers) {
   Head const head = head_of(key, numbers.size());
   Sha256 const digest = digest_of(head, numbers);
-  TempFile file(name, number_file_bytes(numbers.size()));
+  TempFile file(place, number_file_bytes(numbers.size()));
   file.write_at(0, &head, sizeof head);
   file.write_at(sizeof head, numbers.data(), numbers.size_bytes());
   file.write_at(sizeof head + numbers.size_bytes(), digest.data(), digest.size());
   file.publish();
 }
 
-NumberFile read_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double> numbers) {
-  OpenFile const file(name);
+NumberFile read_number_file(FilePlace const& place, NumberFileKey const& key, std::span<double> numbers) {
+  OpenFile const file(place);
   if (!file.is_open()) return errno == ENOENT ? NumberFile::missing : NumberFile::foreign;
   Head const wanted = head_of(key, numbers.size());
   Head head{};

@@ -9,11 +9,11 @@
 // Threads    free functions
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 
 #include "engine/base/digest.hpp"
+#include "engine/store/file_place.hpp"
 
 namespace torquescope {
 
@@ -24,14 +24,14 @@ struct NumberFileKey {
 
 std::size_t number_file_bytes(std::size_t numbers);
 
-void write_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double const> numbers);
+void write_number_file(FilePlace const& place, NumberFileKey const& key, std::span<double const> numbers);
 
 // outdated: of this job, with another key. damaged: of this job, and not as it was written. foreign: not of this job,
 // or no file of numbers at all
 enum class NumberFile { whole, missing, outdated, damaged, foreign };
 
 // fills `numbers` when it is whole, and may leave anything in them when it is not
-NumberFile read_number_file(std::filesystem::path const& name, NumberFileKey const& key, std::span<double> numbers);
+NumberFile read_number_file(FilePlace const& place, NumberFileKey const& key, std::span<double> numbers);
 
 // the job that an open file of numbers says it is of; nothing when it is none
 std::optional<Sha256> number_file_identity(int descriptor);

@@ -12,6 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/interrupted_call.hpp"
+#include "engine/store/disk_failure.hpp"
 
 namespace torquescope {
 namespace {
@@ -46,6 +47,7 @@ OwnFolder::OwnFolder(fs::path folder)
           unless_interrupted([&] { return ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC); })) {
   struct stat facts {};
   if (descriptor_ < 0) {
+    error_number_ = errno;
     if (::lstat(path_.c_str(), &facts) != 0 || S_ISDIR(facts.st_mode)) return;
     bool const is_link = S_ISLNK(facts.st_mode);
     throw refused(path_, is_link ? "is a symbolic link" : "is not a folder",
@@ -86,6 +88,11 @@ int OwnFolder::open(std::string const& name, int flags, mode_t mode) const {
 
 bool OwnFolder::unlink(std::string const& name) const {
   return is_open() && ::unlinkat(descriptor_, name.c_str(), 0) == 0;
+}
+
+FilePlace OwnFolder::place(std::string const& name) const {
+  if (!is_open()) throw cannot_write(path_ / name, error_number_);
+  return {path_ / name, descriptor_, name};
 }
 
 }  // namespace torquescope

@@ -64,16 +64,16 @@ void ResultWriter::guarded(std::string const& path, Write&& write) {
   temp_.check();
 }
 
-ResultWriter::ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options)
+ResultWriter::ResultWriter(FilePlace const& place, ResultWriterOptions options)
     : options_(std::move(options)),
-      written_(final_name),
+      written_(place.path),
       chunks_(options_.gzip),
-      temp_(final_name, options_.expected_bytes) {
+      temp_(place, options_.expected_bytes) {
   try {
     file_ = h5::create_file(temp_, values_);
   } catch (h5::Failure const& failure) {
     temp_.check();
-    throw cannot_write(final_name, "/", failure);
+    throw cannot_write(place.path, "/", failure);
   }
   written_.keep_object("/");
   attribute("/", "format", result_format);

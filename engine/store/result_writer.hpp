@@ -56,7 +56,7 @@ enum class RunValues { number, whole_number };
 
 class ResultWriter {
  public:
-  explicit ResultWriter(std::filesystem::path const& final_name, ResultWriterOptions options = {});
+  explicit ResultWriter(FilePlace const& place, ResultWriterOptions options = {});
   ~ResultWriter();  // leaves nothing behind unless finished
 
   void numbers(std::string const& path, h5::Shape const& shape, std::span<double const> values, Note const& note);

@@ -34,8 +34,8 @@ constexpr std::size_t page = 4096;
 // below, waiting for the disk costs more than the page cache
 constexpr std::size_t least_direct_bytes = std::size_t{64} << 10;
 
-int open_file(char const* name, int flags, mode_t mode = 0) {
-  return unless_interrupted([&] { return ::open(name, flags, mode); });
+int open_file(int folder, std::string const& name, int flags, mode_t mode = 0) {
+  return unless_interrupted([&] { return ::openat(folder, name.c_str(), flags, mode); });
 }
 
 int sync_file(int descriptor) {
@@ -45,46 +45,56 @@ int sync_file(int descriptor) {
 // Linux has closed the descriptor whatever close() says. Returns errno of a failure
 int close_file(int descriptor) { return ::close(descriptor) == 0 || errno == EINTR ? 0 : errno; }
 
+// some network file systems have no fsync for folders: they keep names safe themselves
+int sync_open_folder(int descriptor) { return sync_file(descriptor) == 0 || errno == EINVAL ? 0 : errno; }
+
+bool is_folder(FilePlace const& place) {
+  struct stat facts {};
+  return ::fstatat(place.folder, place.name.c_str(), &facts, 0) == 0 && S_ISDIR(facts.st_mode);
+}
+
 }  // namespace
 
 int sync_folder_of(fs::path const& name) {
   fs::path const folder = name.has_parent_path() ? name.parent_path() : fs::path(".");
-  int const descriptor = open_file(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  int const descriptor = open_file(AT_FDCWD, folder.native(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return errno;
-  int const error_number = sync_file(descriptor) == 0 ? 0 : errno;
+  int const error_number = sync_open_folder(descriptor);
   static_cast<void>(close_file(descriptor));  // nothing was written through it
-  // some network file systems have no fsync for folders: they keep names safe themselves
-  return error_number == EINVAL ? 0 : error_number;
+  return error_number;
 }
 
-TempFile::TempFile(fs::path final_name, std::uintmax_t expected_bytes)
-    : final_name_(std::move(final_name)),
+int TempFile::sync_folder() const {
+  return place_.folder == AT_FDCWD ? sync_folder_of(place_.path) : sync_open_folder(place_.folder);
+}
+
+TempFile::TempFile(FilePlace place, std::uintmax_t expected_bytes)
+    : place_(std::move(place)),
       expected_bytes_(expected_bytes),
       writer_([this](FilePiece const& piece) { return write_piece(piece.offset, piece.bytes.data(), piece.size); },
               expected_bytes > 0 && expected_bytes < worth_a_thread ? 0 : most_waiting_blocks) {
-  std::error_code ignored;
-  validate(!fs::is_directory(final_name_, ignored), [&] {
+  validate(!is_folder(place_), [&] {
     return Problem{.code = ExitCode::exists,
-                   .what = final_name_.string() + " is a folder, not a file",
-                   .help = "name a file in it: " + (final_name_ / "result.h5").string()};
+                   .what = place_.path.string() + " is a folder, not a file",
+                   .help = "name a file in it: " + (place_.path / "result.h5").string()};
   });
 
   constexpr int attempts = 1000;
   constexpr mode_t anybody_as_umask_allows = 0666;
   for (int i = 0; i < attempts && descriptor_ < 0; ++i) {
-    temporary_name_ = fmt::format("{}.tmp.{}{}", final_name_.string(), ::getpid(), i ? fmt::format(".{}", i) : "");
-    descriptor_ =
-        open_file(temporary_name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, anybody_as_umask_allows);
+    ending_ = fmt::format(".tmp.{}{}", ::getpid(), i ? fmt::format(".{}", i) : "");
+    constexpr int new_file = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    descriptor_ = open_file(place_.folder, temporary(), new_file, anybody_as_umask_allows);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
-  if (descriptor_ < 0) throw cannot_write(final_name_, errno, expected_bytes_);
+  if (descriptor_ < 0) throw cannot_write(place_.path, errno, expected_bytes_);
   // where there are no locks, nothing is lost but a hint for whoever tidies up
   static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
 }
 
 TempFile::~TempFile() {
   if (descriptor_ < 0) return;
-  ::unlink(temporary_name_.c_str());
+  ::unlinkat(place_.folder, temporary().c_str(), 0);
   writer_.stop();
   ::close(descriptor_);
 }
@@ -241,7 +251,7 @@ void TempFile::resize(std::uint64_t size) noexcept {
 }
 
 void TempFile::check() const {
-  if (failed()) throw cannot_write(final_name_, error_number(), std::max<std::uintmax_t>(expected_bytes_, size_));
+  if (failed()) throw cannot_write(place_.path, error_number(), std::max<std::uintmax_t>(expected_bytes_, size_));
 }
 
 void TempFile::publish() {
@@ -254,12 +264,12 @@ void TempFile::publish() {
   // an fsync that failed is never tried again: the second one would not tell what the first one lost
   if (!failed() && sync_file(descriptor_) != 0) error_number_ = errno;
   check();
-  if (::rename(temporary_name_.c_str(), final_name_.c_str()) != 0) error_number_ = errno;
+  if (::renameat(place_.folder, temporary().c_str(), place_.folder, place_.name.c_str()) != 0) error_number_ = errno;
   check();
 
   error_number_ = close_file(std::exchange(descriptor_, -1));
   check();
-  error_number_ = sync_folder_of(final_name_);
+  error_number_ = sync_folder();
   check();
 }
 

@@ -14,8 +14,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "engine/store/disk_writer.hpp"
+#include "engine/store/file_place.hpp"
 
 namespace torquescope {
 
@@ -26,13 +28,13 @@ class TempFile {
  public:
   // creates FINAL.tmp.<pid> (with .1, .2, ... behind it when a killed process left that name); never follows a link
   // expected_bytes: how large it will be, as far as that is known; said where there is no room
-  explicit TempFile(std::filesystem::path final_name, std::uintmax_t expected_bytes = 0);
+  explicit TempFile(FilePlace place, std::uintmax_t expected_bytes = 0);
   ~TempFile();  // removes the file unless it was published
   TempFile(TempFile const&) = delete;
   TempFile& operator=(TempFile const&) = delete;
 
-  std::filesystem::path const& final_name() const { return final_name_; }
-  std::filesystem::path const& temporary_name() const { return temporary_name_; }
+  std::filesystem::path const& final_name() const { return place_.path; }
+  std::filesystem::path temporary_name() const { return place_.path.string() + ending_; }
   std::uintmax_t expected_bytes() const { return expected_bytes_; }
   std::uint64_t size() const { return size_; }  // as it would be had every write succeeded
 
@@ -56,9 +58,11 @@ class TempFile {
   void write_tail(std::uint64_t offset, std::byte const* bytes, std::size_t size);
   int write_piece(std::uint64_t offset, std::byte const* bytes, std::size_t size);
   bool write_past_cache(bool wanted);
+  std::string temporary() const { return place_.name + ending_; }  // as place_.name: in place_.folder
+  int sync_folder() const;
 
-  std::filesystem::path final_name_;
-  std::filesystem::path temporary_name_;
+  FilePlace place_;
+  std::string ending_;  // of the temporary name
   std::uintmax_t expected_bytes_;
   std::uint64_t size_ = 0;
   int descriptor_ = -1;

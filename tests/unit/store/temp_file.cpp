@@ -3,7 +3,10 @@
 #include "engine/store/temp_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "engine/base/error.hpp"
+#include "engine/store/own_folder.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace torquescope {
@@ -101,6 +104,29 @@ TEST(TempFile, LeavesNothingWhenItIsGivenUpWhileItsThreadWrites) {
     both.write(0, std::size_t{3} << 20, 'a');
   }
   EXPECT_EQ(folder.n_files(), 0U);
+}
+
+TEST(TempFile, StaysInTheFolderThatWasOpenedWhateverItsNameLeadsToNow) {
+  test::TemporaryFolder const folder;
+  std::filesystem::path const ours = folder / "ours", moved = folder / "moved", foreign = folder / "foreign";
+  for (auto const& made : {ours, foreign}) std::filesystem::create_directory(made);
+  OwnFolder const opened(ours);
+  TempFile published(opened.place("published"));
+  std::filesystem::rename(ours, moved);
+  std::filesystem::create_directory_symlink(foreign, ours);
+  published.write_at(0, "x", 1);
+  published.publish();
+  { TempFile const given_up(opened.place("given_up")); }
+  EXPECT_EQ(test::bytes_of(moved / "published"), "x");
+  EXPECT_FALSE(std::filesystem::exists(moved / ("given_up.tmp." + std::to_string(::getpid()))));
+  EXPECT_TRUE(std::filesystem::is_empty(foreign));
+}
+
+TEST(OwnFolder, ThatIsNotThereTakesNoFile) {
+  test::TemporaryFolder const folder;
+  OwnFolder const missing(folder / "missing");
+  EXPECT_FALSE(missing.is_open());
+  EXPECT_THROW(static_cast<void>(missing.place("file")), Error);
 }
 
 }  // namespace temp_file_test
