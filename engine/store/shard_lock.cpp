@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <string>
 #include <utility>
 
@@ -17,6 +19,25 @@ namespace torquescope {
 namespace {
 
 namespace fs = std::filesystem;
+
+// what a signal handler needs to take a lock away: memory that lives as long as the process
+struct LockInHand {
+  std::atomic<bool> is_held{false};
+  int folder = -1;
+  char folder_name[PATH_MAX] = {}, file_name[NAME_MAX + 1] = {};
+};
+LockInHand in_hand;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void take_in_hand(OwnFolder const& folder, std::string const& file) {
+  in_hand.is_held.store(false);
+  std::string const& path = folder.path().native();
+  if (path.size() >= sizeof in_hand.folder_name || file.size() >= sizeof in_hand.file_name) return;
+  in_hand.folder = folder.descriptor();
+  in_hand.folder_name[path.copy(in_hand.folder_name, path.size())] = '\0';
+  in_hand.file_name[file.copy(in_hand.file_name, file.size())] = '\0';
+  in_hand.is_held.store(true);
+}
 
 enum class Held { by_us, by_another, by_nobody };
 
@@ -86,6 +107,7 @@ ShardLock::ShardLock(fs::path const& result, ShardChoice const& shard)
   // a hint for people: nobody reads it but the message above and `status`
   who_ = fmt::format("{}{} on {}", lock_words, ::getpid(), host_name());
   say("");
+  take_in_hand(folder_, file_);
 }
 
 void ShardLock::say(std::string const& text) const {
@@ -116,7 +138,14 @@ std::vector<LockWords> locks_in(fs::path const& segment_folder) {
   return found;
 }
 
+void drop_held_lock() noexcept {
+  if (!in_hand.is_held.exchange(false)) return;
+  ::unlinkat(in_hand.folder, in_hand.file_name, 0);
+  ::rmdir(in_hand.folder_name);
+}
+
 ShardLock::~ShardLock() {
+  if (in_hand.folder == folder_.descriptor()) in_hand.is_held.store(false);
   if (descriptor_ >= 0) {
     folder_.unlink(file_);
     ::close(descriptor_);

@@ -6,6 +6,7 @@
 // File       RESULT.parts/shard-<I>-of-<N>.lock, locked (flock) as long as its process lives; its first line says who
 // that is, the rest is what say() was told last
 // Locks      where there are none (some network file systems), or where the file cannot be made, both go on
+// By force   a process that ends without its destructors calls drop_held_lock() first
 // Errors     73 when a living process holds it, or the folder is not ours (own_folder.hpp)
 // Threads    one at a time
 
@@ -38,6 +39,10 @@ class ShardLock {
   std::string who_;
   int descriptor_ = -1;
 };
+
+// takes the file of this process's lock away, and the folder when nothing else is in it; nothing when it holds none. Of
+// several locks it is the one made last. For signal handlers: calls nothing that they may not (signal-safety(7))
+void drop_held_lock() noexcept;
 
 // a lock as it stands in a folder of segments
 struct LockWords {

@@ -11,6 +11,8 @@
 #include <limits>
 #include <string_view>
 
+#include "engine/store/shard_lock.hpp"
+
 namespace torquescope {
 
 namespace {
@@ -36,27 +38,6 @@ double clock_s(clockid_t clock) {
 
 double const process_began_s = clock_s(CLOCK_MONOTONIC);
 
-void say(std::string_view text) {
-  if (!notice_spoken.load()) return;
-  [[maybe_unused]] auto const written = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
-void on_stop_signal(int number) {
-  int const saved_errno = errno;
-  if (number == SIGINT && interrupts_seen.fetch_add(1) > 0) ::_exit(128 + number);
-  int none = 0;
-  if (first_signal.compare_exchange_strong(none, number)) {
-    for (char const* part : {"\n", words_at_first.load(), " (Ctrl-C to stop at once)\n"}) say(part);
-    if (!saving.load()) ::alarm(seconds_to_stop);
-  }
-  errno = saved_errno;
-}
-
-void on_alarm(int) {
-  for (char const* part : {"\n", words_cut_short.load(), "\n"}) say(part);
-  ::_exit(stopped);
-}
-
 char const* name_of(int number) {
   switch (number) {
     case SIGINT:
@@ -70,6 +51,32 @@ char const* name_of(int number) {
     default:
       return "SIGHUP (its terminal went away)";
   }
+}
+
+void say(std::string_view text) {
+  [[maybe_unused]] auto const written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+[[noreturn]] void end_by_force(int code) {
+  drop_held_lock();
+  ::_exit(code);
+}
+
+void on_stop_signal(int number) {
+  int const saved_errno = errno;
+  if (number == SIGINT && interrupts_seen.fetch_add(1) > 0) end_by_force(128 + number);
+  int none = 0;
+  if (first_signal.compare_exchange_strong(none, number)) {
+    if (notice_spoken.load())
+      for (char const* part : {"\n", words_at_first.load(), " (Ctrl-C to stop at once)\n"}) say(part);
+    if (!saving.load()) ::alarm(seconds_to_stop);
+  }
+  errno = saved_errno;
+}
+
+void on_alarm(int) {
+  for (char const* part : {"\n", name_of(first_signal.load()), ": ", words_cut_short.load(), "\n"}) say(part);
+  end_by_force(stopped);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 //            SIGCONT is none: Slurm sends it along with SIGTERM. A batch system sends several signals in a row, so only
 //            Ctrl-C twice means "at once"
 // Exit       75 by way of stop_requested(); 75 at the latest after four seconds, whatever is being computed (segments
-//            on the disk are safe then, the rest is not), unless saving_begins() has said that the rest is on its way;
-//            130 on the second Ctrl-C
+//            on the disk are safe then, the rest is not), unless saving_begins() has said that the rest is on its way:
+//            this is said always; 130 on the second Ctrl-C. Either way the job's lock is taken away
 // Budget     stop_after() makes a time budget one more reason to stop
 // Threads    stop_requested() from any thread
 
@@ -14,7 +14,7 @@
 
 namespace torquescope {
 
-enum class StopNotice { spoken, silent };  // silent: --quiet
+enum class StopNotice { spoken, silent };  // of the first signal; silent: --quiet
 
 // what a signal handler prints: literals
 struct StopWords {
