@@ -39,7 +39,6 @@ TwinComparison by_itself(RecordPipeline const& pipeline, ProcessedRecord record)
   rows.twin_mean = Eigen::VectorXd::Zero(n);
   rows.twins = Eigen::MatrixXd::Zero(n, 2);
   result.common = std::move(record);
-  result.rows.motion = result.common.motion;
   return result;
 }
 

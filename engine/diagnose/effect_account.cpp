@@ -55,7 +55,7 @@ Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const&
 // friction there
 ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
   auto const& [effect, shape] = stage.model().effects()[i];
-  Motion const& motion = stage.comparison.rows.motion;
+  Motion const& motion = stage.comparison.common.motion;
   RecordPipeline const& pipeline = *stage.pipeline;
   Eigen::VectorXd const torque = beside_the_level(stage, *effect, stage.model().regressor().columns(motion),
                                                   columns.signals(*effect, shape) * parameters_of(stage, i));

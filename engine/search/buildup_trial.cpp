@@ -84,7 +84,7 @@ CandidateColumns buildup_columns(BuildupLook const& look, DrivenBy driven_by) {
   CandidateColumns columns(*look.rows.pipeline, comparison, look.reference, look.parameters, CandidateColumns::none,
                            driven_by);
   columns.add_nuisance(smeared_signs(
-      driven_by == DrivenBy::recording ? comparison.recording.motion : comparison.rows.motion, columns.scales()));
+      driven_by == DrivenBy::recording ? comparison.recording.motion : comparison.common.motion, columns.scales()));
   return columns;
 }
 

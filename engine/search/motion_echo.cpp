@@ -30,9 +30,9 @@ Eigen::MatrixXd past_accelerations(Motion const& motion, double cutoff_hz) {
 double motion_echo_p(ModelStage const& stage) {
   RecordPipeline const& pipeline = *stage.pipeline;
   auto const& rows = stage.comparison.rows;
-  Eigen::MatrixXd columns =
-      pipeline.filtered_columns(past_accelerations(rows.motion, pipeline.cutoff_hz()), stage.comparison.common);
-  pipeline.whiten(columns, stage.comparison.common.kept_rows);
+  ProcessedRecord const& common = stage.comparison.common;
+  Eigen::MatrixXd columns = pipeline.filtered_columns(past_accelerations(common.motion, pipeline.cutoff_hz()), common);
+  pipeline.whiten(columns, common.kept_rows);
   CandidateColumns const model(pipeline, stage.comparison, stage.reference(), stage.parameters());
   OrthonormalGroup const group =
       orthonormal_group(std::move(columns), model.nuisance(), std::vector<bool>(n_steps, false));

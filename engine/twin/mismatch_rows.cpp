@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "engine/statistics/blocked_cv.hpp"
@@ -23,6 +24,15 @@ void check_rows(std::vector<Eigen::Index> const& rows, RecordPipeline const& pip
   require_rows(rows.size(), wanted, name, fewer_reversals);
 }
 
+// one lane of a group, whose others are let go of; nothing when it runs away
+std::optional<Recording> without_noise(CleanTwin const& twin, TwinAddress const& address, double rate_hz) {
+  CleanTwin const quiet(twin.joint(), noiseless(twin.loop()), twin.track(), twin.step_s());
+  TwinGroup alone;
+  quiet.simulate(address, 0, alone);
+  if (alone.ran_away.front()) return std::nullopt;
+  return recording_of(alone, 0, rate_hz);
+}
+
 }  // namespace
 
 MismatchRows in_torque_itself(MismatchRows rows) {
@@ -36,13 +46,11 @@ MismatchRows in_torque_itself(MismatchRows rows) {
 TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& twin, RecordPipeline& pipeline,
                                   TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
   TwinComparison result;
-  CleanTwin const quiet(twin.joint(), noiseless(twin.loop()), twin.track(), twin.step_s());
-  TwinGroup alone;
-  quiet.simulate(address, 0, alone);
-  result.ran_away = alone.ran_away.front();
+  auto const alone = without_noise(twin, address, pipeline.rate_hz());
+  result.ran_away = !alone;
   if (result.ran_away) return result;
   // candidates are driven by it, whatever the model is: processed by itself, with its drive
-  result.common = pipeline.process(recording_of(alone, 0, pipeline.rate_hz()));
+  result.common = pipeline.process(*alone);
 
   // pilots: rows at which a twin may turn are not safe in any
   std::size_t const n_pilots = std::min<std::size_t>(twins, twin_lanes);
@@ -65,7 +73,6 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
   auto& rows = result.rows;
   rows.rate_hz = pipeline.kept_rate_hz();
   rows.kept_rows = safe;
-  rows.motion = result.common.motion;
   static_cast<MotionAxes&>(rows) =
       motion_axes(pipeline.model(), result.common, result.common.parameters).picked([&](Eigen::VectorXd const& signal) {
         return pipeline.picked(signal, result.common);

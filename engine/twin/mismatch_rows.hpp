@@ -14,7 +14,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/data/motion.hpp"
 #include "engine/pipeline/motion_axes.hpp"
 #include "engine/pipeline/record_pipeline.hpp"
 #include "engine/simulate/clean_twin.hpp"
@@ -26,7 +25,6 @@ namespace torquescope {
 struct MismatchRows : MotionAxes {
   double rate_hz = 0.0;                   // of the kept samples before the mask
   std::vector<Eigen::Index> kept_rows{};  // of each row: index among the pipeline's kept samples
-  Motion motion{};                        // common motion, full rate; its torque is that of the model
   Eigen::VectorXd torque{};               // of the recording, filtered, never whitened
   Eigen::VectorXd residual{};             // of the recording
   Eigen::VectorXd twin_mean{};            // mean residual of the twins

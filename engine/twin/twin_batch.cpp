@@ -48,9 +48,11 @@ bool put_numbers(std::vector<TwinPlaces> const& places, std::size_t twin, std::s
   return in[0] != 0.0;
 }
 
-Eigen::MatrixXd in_columns(std::array<Eigen::VectorXd, twin_lanes> const& signals) {
+// lets go of each as it is copied: at the full rate, twice is much
+Eigen::MatrixXd taken_in_columns(std::array<Eigen::VectorXd, twin_lanes>& signals) {
   Eigen::MatrixXd all(signals.front().size(), static_cast<Eigen::Index>(twin_lanes));
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) all.col(static_cast<Eigen::Index>(lane)) = signals[lane];
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    all.col(static_cast<Eigen::Index>(lane)) = std::exchange(signals[lane], {});
   return all;
 }
 
@@ -62,7 +64,7 @@ Recording recording_of(TwinGroup const& group, std::size_t lane, double rate_hz)
   recording.rate_hz = rate_hz;
   recording.position = group.position[lane];
   recording.torque = group.torque[lane];
-  Eigen::Index const samples = recording.position.size();
+  Eigen::Index const samples = recording.torque.size();
   recording.time_s = Eigen::VectorXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1) / rate_hz);
   return recording;
 }
@@ -81,7 +83,8 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
     std::size_t const now = std::min(wave, groups - first);
     parallel_for(now, threads, [&](std::size_t i, int) {
       twin.simulate(address, static_cast<std::uint32_t>(first + i), simulated[i]);
-      smooth[i] = pipeline.smoothed(in_columns(simulated[i].position));
+      smooth[i] = {};
+      smooth[i] = pipeline.smoothed(taken_in_columns(simulated[i].position));
     });
     std::size_t const twins = std::min(range.to - first * twin_lanes, now * twin_lanes);
     parallel_for(twins, threads, [&](std::size_t i, int thread) {

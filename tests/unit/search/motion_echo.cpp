@@ -81,7 +81,8 @@ TEST(MotionEcho, IsHeardOfWhatSwingsBehindTheJoint) {
   auto& rows = stage.comparison.rows;
   Eigen::VectorXd const noise = rows.residual;
   for (double const hertz : {3.0, 8.0}) {
-    Eigen::VectorXd const echo = on_rows(stage, swing(rows.motion.ddq, hertz, 0.1, rows.motion.rate_hz));
+    Motion const& motion = stage.comparison.common.motion;
+    Eigen::VectorXd const echo = on_rows(stage, swing(motion.ddq, hertz, 0.1, motion.rate_hz));
     // as loud as the noise
     rows.residual = noise + echo * (noise.norm() / echo.norm());
     EXPECT_LT(motion_echo_p(stage), follows_p) << hertz << " Hz";
