@@ -192,7 +192,7 @@ IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, P
   std::string const inputs = experiment.inputs_sha256();
   {
     ShardLock const lock(options.output, {});
-    Attempt attempt(experiment, options);
+    Attempt attempt(experiment, options, LeftSegments::are_gathered);
     tell_what_was_done(attempt);
     check_room(options, result_bytes(experiment.parts()), options.output);
     try {
@@ -208,7 +208,7 @@ IdentifyReport identify(Experiment experiment, IdentifyOptions const& options, P
 
 IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Completeness wanted,
                      ProgressSink const& progress) {
-  Attempt attempt(experiment, options);
+  Attempt attempt(experiment, options, LeftSegments::stay);
   tell_what_was_done(attempt);
   std::size_t count = 0;
   std::string const missing = missing_runs(experiment.parts(), attempt.saved, count);
@@ -224,7 +224,7 @@ IdentifyReport merge(Experiment experiment, IdentifyOptions const& options, Comp
     tell(options, "warning", fmt::format("{} of {} runs are missing: {}", count, attempt.runs_total, missing));
   check_room(options, result_bytes(experiment.parts()), options.output);
   std::string const inputs = experiment.inputs_sha256();
-  IdentifyReport const report = write_result(std::move(experiment), attempt, true, progress);
+  IdentifyReport report = write_result(std::move(experiment), attempt, true, progress);
   // of a part of the runs, the segments are still wanted
   if (count == 0) tidy_up(options, inputs);
   return report;

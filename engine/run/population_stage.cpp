@@ -62,6 +62,25 @@ SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& o
   return SavedRuns(request);
 }
 
+// ten thousand small ones take most of a minute to open, each time
+bool gather_left_segments_of(SavedRuns const& saved, IdentifyOptions const& options) {
+  auto const folder = segment_folder_of(options.output);
+  std::vector<LeftSegment> left;
+  for (std::size_t i = 0; i < saved.files().size(); ++i) {
+    auto const& origin = saved.origins()[i];
+    bool const is_of_this_share =
+        origin.shard_index == options.shard.index && origin.shard_count == options.shard.count;
+    if (is_of_this_share && saved.files()[i].parent_path() == folder) left.push_back({saved.files()[i], origin});
+  }
+  return gather_left_segments(left, SegmentNames(folder, options.shard), RunKeeper::Setting{}.most_bytes);
+}
+
+SavedRuns saved_runs_of(Experiment const& experiment, IdentifyOptions const& options, LeftSegments left) {
+  SavedRuns saved = find_saved_runs(experiment, options);
+  bool const are_fewer = left == LeftSegments::are_gathered && gather_left_segments_of(saved, options);
+  return are_fewer ? find_saved_runs(experiment, options) : std::move(saved);
+}
+
 // a new optimiser, or one that goes on from a part
 RunStart make_start(PopulationStage const& stage, std::size_t run, std::optional<RunPart> part) {
   RandomKey const key{static_cast<std::uint64_t>(stage.parts.experiment.seed), static_cast<std::uint32_t>(run)};
@@ -136,9 +155,9 @@ class Group {
 
 }  // namespace
 
-Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given)
+Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given, LeftSegments left)
     : options(given),
-      saved(find_saved_runs(experiment, given)),
+      saved(saved_runs_of(experiment, given, left)),
       keeper({.folder = segment_folder_of(given.output),
               .origin = origin_of(experiment, given),
               .shard = given.shard,

@@ -21,8 +21,11 @@
 namespace torquescope {
 
 // what one process of a job has: what was done before it, and where it keeps what it does
+// what killed processes of this share left: gathered where its lock is ours
+enum class LeftSegments { stay, are_gathered };
+
 struct Attempt {
-  Attempt(Experiment const& experiment, IdentifyOptions const& options);
+  Attempt(Experiment const& experiment, IdentifyOptions const& options, LeftSegments left);
   Attempt(Attempt const&) = delete;
 
   IdentifyOptions const& options;

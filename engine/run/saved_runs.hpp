@@ -43,8 +43,9 @@ class SavedRuns {
   // its history so far, and the optimiser's state when it has not ended; nothing when no segment has its beginning
   std::optional<RunPart> load(std::string const& label, HistoryShape const& shape, std::size_t run);
 
-  std::vector<SegmentOrigin> const& origins() const { return origins_; }  // of every segment taken
-  std::vector<std::string> const& warnings() const { return warnings_; }  // what was left aside, and why
+  std::vector<std::filesystem::path> const& files() const { return files_; }  // every segment taken
+  std::vector<SegmentOrigin> const& origins() const { return origins_; }      // of each of them
+  std::vector<std::string> const& warnings() const { return warnings_; }      // what was left aside, and why
   bool empty() const { return files_.empty(); }
   bool mixed() const { return mixed_; }
 

@@ -1,6 +1,8 @@
 #include "engine/run/segment_pile.hpp"
 
+#include <span>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -31,7 +33,50 @@ bool join(RunPart& known, RunPart& next, HistoryShape const& shape) {
   return true;
 }
 
+bool are_of_one_writer(SegmentOrigin const& a, SegmentOrigin const& b) {
+  auto const facts = [](SegmentOrigin const& o) {
+    return std::tie(o.job_sha256, o.inputs_sha256, o.numerics_sha256, o.job_name, o.shard_index, o.shard_count, o.host,
+                    o.pid, o.threads, o.started);
+  };
+  return facts(a) == facts(b);
+}
+
+// neighbours of one writer, as many as most_bytes allow
+std::vector<std::span<LeftSegment const>> batches_of(std::span<LeftSegment const> left, std::uintmax_t most_bytes) {
+  std::vector<std::span<LeftSegment const>> batches;
+  std::uintmax_t bytes = 0;
+  for (std::size_t i = 0, first = 0; i < left.size(); ++i) {
+    std::uintmax_t const more = bytes_of_files({left[i].file});
+    if (i == first || bytes + more > most_bytes || !are_of_one_writer(left[first].origin, left[i].origin)) {
+      first = i;
+      bytes = 0;
+      batches.emplace_back();
+    }
+    bytes += more;
+    batches.back() = left.subspan(first, i + 1 - first);
+  }
+  return batches;
+}
+
 }  // namespace
+
+bool gather_left_segments(std::vector<LeftSegment> const& left, SegmentNames names, std::uintmax_t most_bytes) {
+  bool any = false;
+  try {
+    for (auto const batch : batches_of(left, most_bytes)) {
+      if (batch.size() < segments_together) continue;
+      std::vector<std::filesystem::path> files;
+      for (auto const& one : batch) files.push_back(one.file);
+      auto const gathered = names.next();
+      OwnFolder const folder(gathered.parent_path());
+      write_segment(folder.place(gathered.filename().string()), batch.back().origin, gathered_parts(files));
+      any = true;
+      for (auto const& file : files) folder.unlink(file.filename().string());
+    }
+  } catch (Error const&) {  // they stay as they are
+  }
+  return any;
+}
 
 std::vector<EstimatorParts> gathered_parts(std::vector<std::filesystem::path> const& segments) {
   std::vector<EstimatorParts> all;
@@ -62,7 +107,7 @@ void SegmentPile::add(std::filesystem::path const& segment, SegmentOrigin const&
     for (std::size_t level = 0; gathers_; ++level) {
       if (level == levels_.size()) levels_.emplace_back();
       levels_[level].push_back(newest);
-      if (levels_[level].size() < together) return;
+      if (levels_[level].size() < segments_together) return;
       auto const full = std::exchange(levels_[level], {});
       if (bytes_of_files(full) > most_bytes_) return;
       newest = next_name();

@@ -21,7 +21,7 @@ namespace torquescope {
 ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, ProgressSink const& progress) {
   auto const start = std::chrono::steady_clock::now();
   ShardLock const lock(options.output, options.shard);
-  Attempt attempt(experiment, options);
+  Attempt attempt(experiment, options, LeftSegments::are_gathered);
   for (auto const& warning : attempt.saved.warnings())
     if (options.tell) options.tell("warning", warning);
   experiment.forget_motion();

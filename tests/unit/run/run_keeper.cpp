@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <thread>
 
 #include "engine/base/error.hpp"
@@ -200,6 +201,37 @@ TEST_F(Keeping, SegmentsThatAreGatheredMeanwhileAreFoundAgain) {
     expect_same_bits(part->history, *ended(run, 4));
   }
   EXPECT_TRUE(runs.warnings().empty());
+}
+
+// each process a segment per run, as those of before gathering left them
+TEST_F(Keeping, WhatKilledProcessesLeftIsGatheredWriterByWriter) {
+  auto const parts = folder_ / "r.h5.parts";
+  make_segment_folder(parts);
+  constexpr std::size_t many = 20, few = 3;
+  std::vector<LeftSegment> left;
+  for (std::size_t i = 0; i < many + few; ++i) {
+    SegmentOrigin of_writer = origin;
+    of_writer.pid = i < many ? 1 : 2;
+    RunPart part = part_of(*ended(i % 2, 4), shape, i % 2, 0, 4);
+    part.ended = true;
+    part.history.stop_reason = ended(i % 2, 4)->stop_reason;
+    part.history.parameters = ended(i % 2, 4)->parameters;
+    left.push_back({parts / ("shard-" + std::to_string(100 + i) + ".h5"), of_writer});
+    write_segment(left.back().file, of_writer, {{"de", "search", shape, {part}}});
+  }
+  EXPECT_TRUE(gather_left_segments(left, SegmentNames(parts, {}), 1U << 20));
+  EXPECT_EQ(segments(), 1 + few);
+  auto runs = saved();
+  EXPECT_TRUE(runs.warnings().empty());
+  std::set<std::int64_t> writers;
+  for (auto const& one : runs.origins()) writers.insert(one.pid);
+  EXPECT_EQ(writers, (std::set<std::int64_t>{1, 2}));
+  for (std::size_t run : {0u, 1u}) {
+    auto const part = runs.load("de", shape, run);
+    ASSERT_TRUE(part && part->ended);
+    expect_same_bits(part->history, *ended(run, 4));
+  }
+  EXPECT_FALSE(gather_left_segments({left.begin() + many, left.end()}, SegmentNames(parts, {}), 1U << 20));
 }
 
 TEST_F(Keeping, WaitsForEveryRunUnderWayBeforeItWrites) {
