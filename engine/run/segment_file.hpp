@@ -39,8 +39,7 @@ struct EstimatorParts {
   std::vector<RunPart> parts;
 };
 
-void write_segment(FilePlace const& place, SegmentOrigin const& origin,
-                   std::vector<EstimatorParts> const& estimators);
+void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vector<EstimatorParts> const& estimators);
 
 class SegmentFile {
  public:
