@@ -2,7 +2,8 @@
 
 The recordings are not ours to give: the tests are skipped with a message where the folder is absent. Each case names
 the finding that `check` must report, the exit code of `run`, and the parameters that `run` must give. Verdicts of
-`diagnose` take minutes and come with TORQUESCOPE_FULL=1.
+`diagnose` take minutes and come with TORQUESCOPE_FULL=1. What is expected is what the README of the case calls right.
+Where the program does not get there, the row says so as a known miss: it is printed and counted, never as passed.
 Use: TORQUESCOPE=build/release/bin/torquescope /usr/bin/python3 tests/cases/run_cases.py [CASE...]
 """
 
@@ -24,18 +25,36 @@ NO_TOLERANCE_BEYOND = 0.05  # of each parameter: what the sound copy is off by, 
 
 class Case:
     """found: codes that `check` reports (all of them); run: exit code of `run`; values: parameters that `run` gives;
-    says: words of `check` or `run`; verdict: what `diagnose` may say."""
+    says: words of `check` or `run`; verdict: what `diagnose` may say; advised: (text, text) of the job, written as the
+    program advises; known_miss: (what `diagnose` says instead, why). A known miss that is none any more fails."""
 
-    def __init__(self, folder, found=(), run=0, values=None, says=(), job="job.toml", verdict=None, sound=False):
+    def __init__(self, folder, found=(), run=0, values=None, says=(), job="job.toml", verdict=None, sound=False,
+                 advised=None, known_miss=None):
         self.folder, self.found, self.run, self.values = folder, found, run, values
         self.says, self.job, self.verdict, self.sound = says, job, verdict, sound
+        self.advised, self.known_miss = advised, known_miss
 
     @property
     def name(self):
-        return self.folder if self.job == "job.toml" else f"{self.folder}/{self.job}"
+        name = self.folder if self.job == "job.toml" else f"{self.folder}/{self.job}"
+        return name + (" as advised" if self.advised else "")
+
+    def job_in(self, folder):
+        """The job file: that of the case, or its copy with the advice followed, beside links to the recordings."""
+        job = CASES / self.folder / self.job
+        if not self.advised:
+            return job
+        for data in job.parent.glob("*.gz"):
+            (pathlib.Path(folder) / data.name).symlink_to(data)
+        text = job.read_text()
+        assert self.advised[0] in text, f"{job} does not hold {self.advised[0]}"
+        copy = pathlib.Path(folder) / self.job
+        copy.write_text(text.replace(*self.advised))
+        return copy
 
 
 NONE = ("none",)
+TOO_SHORT = ("insufficient", "seconds of motion hold fewer rows between reversals than ten blocks of ten")
 CASE_LIST = [
     Case("00_baseline", values=SOUND, sound=True, verdict=NONE),
     Case("01a_wrap_many", ["position_wraps"], values=SOUND, verdict=NONE),
@@ -64,7 +83,7 @@ CASE_LIST = [
     Case("14_velocity_lagging", ["velocity_late"], values=SOUND, job="job_unseen.toml", verdict=NONE),
     Case("14b_velocity_good", values=SOUND, sound=True, verdict=NONE),
     Case("14c_velocity_minus", ["velocity_factor"], values=SOUND, verdict=NONE),
-    Case("15a_other_joints_torque", ["less_than_none"], run=65, verdict=("data_fault",)),
+    Case("15a_other_joints_torque", ["less_than_none"], run=65, says=["less than none"], verdict=("data_fault",)),
     Case("15b_command_as_position", ["command_as_position"], verdict=("data_fault",)),
     Case("16_two_publishers", ["rows_interleaved"], run=65, verdict=("data_fault",)),
     Case("17_every_row_twice", ["rows_repeated"], values=SOUND, verdict=NONE),
@@ -77,10 +96,14 @@ CASE_LIST = [
     Case("22_hdf5_states", run=65, job="job_truncated.toml"),
     Case("22_hdf5_states", run=(65, 78), job="job_lengths_differ.toml"),
     Case("24_rostopic_echo_p", ["time_unit"], values=SOUND, verdict=NONE),
-    Case("25_milliseconds_4kHz", ["time_unit"], values=SOUND, verdict=("none", "insufficient")),
-    Case("25_milliseconds_4kHz", run=(65, 78), says=["cut-off"], job="job_as_advised.toml"),
-    Case("26_decimal_comma", values=SOUND, verdict=("none", "insufficient")),
-    Case("27_rates_differ", values=SOUND),
+    Case("25_milliseconds_4kHz", ["time_unit"], values=SOUND, says=["time_per_unit"], verdict=NONE,
+         known_miss=TOO_SHORT),
+    Case("25_milliseconds_4kHz", run=65, says=["cut-off"], job="job_as_advised.toml"),
+    Case("26_decimal_comma", values=SOUND, verdict=NONE, known_miss=TOO_SHORT),
+    Case("27_rates_differ", values=SOUND, verdict=NONE,
+         known_miss=(None, "a diagnosis is made of one training recording, and the job names two")),
+    Case("27_rates_differ", values=SOUND, verdict=NONE,
+         advised=('train = ["a.csv.gz", "b.csv.gz"]', 'train = "a.csv.gz"\nvalidate = "b.csv.gz"')),
     Case("28_nan_hole", ["stretch_left_out"], values=SOUND, verdict=NONE),
     Case("29_torque_30ms_late", verdict=("data_fault",)),
     Case("31_uneven_directions", sound=True, verdict=("named", "class")),
@@ -120,8 +143,8 @@ def parameters_of(document):
 
 def problems_with(case):
     found = []
-    job = CASES / case.folder / case.job
     with tempfile.TemporaryDirectory() as folder:
+        job = case.job_in(folder)
         code, document, text = call("check", job, folder)
         topics = {line["topic"]: line["level"] for line in document.get("lines", [])}
         for wanted in case.found:
@@ -143,8 +166,12 @@ def problems_with(case):
                     found.append(f"{name} = {got[name]:.4g}, not {value}")
         if FULL and case.verdict:
             _, document, text = call("diagnose", job, folder, "--out", "d.h5")
-            if document.get("verdict") not in case.verdict:
-                found.append(f"diagnose says {document.get('verdict')}, not {case.verdict}: {text.strip()[:500]}")
+            verdict = document.get("verdict")
+            wanted = (case.known_miss[0],) if case.known_miss else case.verdict
+            if verdict not in wanted:
+                found.append(f"diagnose says {verdict}, not {wanted}: {text.strip()[:500]}")
+            if case.known_miss and verdict in case.verdict:
+                found.append("this is no known miss any more: take known_miss out of its row")
     return found
 
 
@@ -152,15 +179,18 @@ def main(names):
     if not CASES.is_dir():
         print(f"skipped: {CASES} is not there (recordings that are not ours to give)")
         return 77
-    failed = 0
+    failed = missed = 0
     cases = [case for case in CASE_LIST if not names or any(name in case.name for name in names)]
     for case in cases:
         found = problems_with(case)
+        misses = FULL and case.known_miss is not None and not found
         failed += bool(found)
-        print(f"{'FAIL' if found else 'ok  '} {case.name}", flush=True)
+        missed += misses
+        reason = f": diagnose says {case.known_miss[0]}, not {case.verdict[0]}; {case.known_miss[1]}" if misses else ""
+        print(f"{'FAIL' if found else 'miss' if misses else 'ok  '} {case.name}{reason}", flush=True)
         for line in found:
             print("       " + line.replace("\n", "\n       "))
-    print(f"{len(cases) - failed} passed, {failed} failed")
+    print(f"{len(cases) - failed - missed} of {len(cases)} passed, {missed} known misses, {failed} failed")
     return 1 if failed else 0
 
 
