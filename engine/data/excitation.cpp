@@ -10,16 +10,14 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/order_statistic.hpp"
 #include "engine/data/filter_checks.hpp"
+#include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
 namespace {
 
-constexpr double moving_from = 0.01;         // of the largest speed
-constexpr double one_direction = 0.995;      // of moving time
-constexpr double one_speed = 1.3;            // speed_spread below which speeds are one speed
-constexpr double fewest_encoder_steps = 50;  // of position range
-constexpr double visited = 0.01;             // of moving time: a quadrant counts
+constexpr double moving_from = 0.01;  // of the largest speed
+constexpr double visited = 0.01;      // of moving time: a quadrant counts
 
 std::span<double const> numbers(Eigen::VectorXd const& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
@@ -159,20 +157,20 @@ std::vector<DataWarning> excitation_warnings(Excitation const& facts, char const
   double const fastest = std::max(std::fabs(facts.speed_least), std::fabs(facts.speed_most));
 
   double const one_way = std::max(facts.forward_share, 1 - facts.forward_share);
-  if (facts.moving_share > 0 && one_way > one_direction)
+  if (facts.moving_share > 0 && one_way > levels::one_direction)
     warn(
         fmt::format("only one direction of motion ({:.3g} % of the moving time): viscous, Coulomb friction and offset "
                     "cannot be separated; record both",
                     100 * one_way));
-  if (facts.moving_share > 0 && facts.speed_spread < one_speed)
+  if (facts.moving_share > 0 && facts.speed_spread < levels::one_speed_ratio())
     warn(fmt::format(
         "only one speed ({:.3g} {}/s): viscous and Coulomb friction cannot be told apart; record at least 4 speeds",
         fastest, unit));
-  if (facts.encoder_step > 0 && range < fewest_encoder_steps * facts.encoder_step)
+  if (facts.encoder_step > 0 && range < levels::fewest_encoder_steps * facts.encoder_step)
     warn(fmt::format(
         "the whole motion spans {:.0f} encoder steps ({:.3g} {}): speed is mostly quantisation; record a larger motion",
         range / facts.encoder_step, range, unit));
-  if (facts.moving_share > 0 && facts.reversals == 0 && one_way <= one_direction)
+  if (facts.moving_share > 0 && facts.reversals == 0 && one_way <= levels::one_direction)
     warn("the motion never reverses: friction at reversals cannot be seen");
   if (facts.torque_held_rows > 1)
     warn(fmt::format(

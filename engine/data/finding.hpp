@@ -45,9 +45,11 @@ enum class FindingKind {
   velocity_factor,       // size: velocity over derivative of the position; detail: what it may be
   velocity_late,         // size: s
   velocity_constant,
+  reference_factor,  // size: position over reference; detail: what it may be; errors before and after
   // the fit of the job's model
-  less_than_none,  // detail: the parameters and their values
-  wrong_sign,      // as less_than_none, and the torque takes work out of the joint
+  less_than_none,   // detail: the parameters and their values
+  wrong_sign,       // as less_than_none, and the torque takes work out of the joint
+  position_factor,  // size: the factor; detail: the unit, empty for a gear; errors before and after
   // motion
   other_joints_move,  // detail: their columns
   standstill,         // size: the whole range of the motion, SI
@@ -68,6 +70,8 @@ struct Finding {
   std::vector<std::int64_t> lines{};  // the first few
   double size = 0.0;
   std::string detail{};
+  double error_before = 0.0, error_after = 0.0;  // relative, of what a factor makes smaller
+  double written = 1.0;                          // the factor that the job has already
 };
 
 }  // namespace torquescope

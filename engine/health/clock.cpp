@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/base/order_statistic.hpp"
+#include "engine/data/levels.hpp"
 #include "engine/data/ros_stamp.hpp"
 #include "engine/data/sampling.hpp"
 #include "engine/data/unit_of_name.hpp"
@@ -181,27 +182,26 @@ void drop_repeats(Examination& exam, std::vector<double>& stamps) {
 // Rows that were stamped when they arrived, several at a time: most steps are far shorter than the mean one, and the
 // rate over pieces of the recording is the same everywhere, so that none is missing
 bool arrive_in_bursts(std::vector<double> const& stamps) {
-  constexpr double far_shorter = 0.25, most = 0.5, same_rate = 0.02;
-  constexpr std::size_t pieces = 10;
+  constexpr std::size_t pieces = levels::pieces_of_same_rate;
   std::size_t const n = stamps.size();
   double const mean = (stamps.back() - stamps.front()) / static_cast<double>(n - 1);
   double longest = 0.0;
   std::size_t short_steps = 0, bursts = 0;
   for (double step : steps_of(stamps)) {
-    short_steps += step < far_shorter * mean;
+    short_steps += step < levels::within_burst * mean;
     bursts += step > mean;
     longest = std::max(longest, step);
   }
-  if (static_cast<double>(short_steps) < most * static_cast<double>(n - 1)) return false;
+  if (static_cast<double>(short_steps) < levels::steps_within_bursts * static_cast<double>(n - 1)) return false;
   std::size_t const rows = n / pieces;
   // one long gap among even rows is no burst: the packets come again and again, at about the same distance
-  bool const come_again =
-      bursts >= pieces && longest <= 3.0 * (stamps.back() - stamps.front()) / static_cast<double>(bursts);
+  bool const come_again = bursts >= pieces && longest <= levels::longest_pause * (stamps.back() - stamps.front()) /
+                                                             static_cast<double>(bursts);
   if (rows < 2 || !come_again) return false;
   for (std::size_t k = 0; k < pieces; ++k) {
     double const seconds = stamps[std::min((k + 1) * rows, n - 1)] - stamps[k * rows];
     double const expected = mean * static_cast<double>(std::min((k + 1) * rows, n - 1) - k * rows);
-    if (std::fabs(seconds - expected) > same_rate * expected + longest) return false;
+    if (std::fabs(seconds - expected) > levels::same_rate * expected + longest) return false;
   }
   return true;
 }
@@ -216,8 +216,7 @@ void spread_bursts(Examination& exam, std::vector<double>& stamps) {
     product += from_middle * (stamps[i] - stamps.front());
     square += from_middle * from_middle;
   }
-  constexpr double known_to = 0.002;  // relative; a clock of arrivals tells no more
-  double const rate_hz = roundest(square / product, known_to);
+  double const rate_hz = roundest(square / product, levels::rate_of_arrivals_known_to);
   for (std::size_t i = 0; i < stamps.size(); ++i) stamps[i] = stamps.front() + static_cast<double>(i) / rate_hz;
   exam.add(FindingKind::stamps_of_arrival, Grade::warning, Repair::corrected, "time", {}, rate_hz);
 }

@@ -118,6 +118,14 @@ std::string what(Finding const& f) {
     case wrong_sign:
       return fmt::format("the torque takes work out of the joint ({}): {} has the wrong sign against the position",
                          f.detail, column);
+    case position_factor:
+      return fmt::format(
+          "taken as {}, {} leaves an error of {:.2g} % instead of {:.3g} %: its unit is not rad",
+          f.detail.empty() ? fmt::format("the angle of a motor behind a gear of {:.4g}", 1.0 / f.size) : f.detail,
+          column, 100 * f.error_after, 100 * f.error_before);
+    case reference_factor:
+      return fmt::format("{} times {:.4g} is the position to {:.2g} %, as it stands to {:.3g} %{}", column, f.size,
+                         100 * f.error_after, 100 * f.error_before, f.detail.empty() ? "" : ": " + f.detail);
     case other_joints_move:
       return fmt::format(
           "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
@@ -135,79 +143,6 @@ std::string what(Finding const& f) {
 }
 
 }  // namespace
-
-std::string code_of(FindingKind kind) {
-  using enum FindingKind;
-  switch (kind) {
-    case time_unit:
-      return "time_unit";
-    case time_unit_unknown:
-      return "time_unit_unknown";
-    case rows_out_of_order:
-      return "rows_out_of_order";
-    case clock_rolls_over:
-      return "clock_rolls_over";
-    case stamps_of_arrival:
-      return "stamps_of_arrival";
-    case clock_was_set:
-      return "clock_was_set";
-    case rows_missing:
-      return "rows_missing";
-    case position_wraps:
-      return "position_wraps";
-    case wraps_by_unknown:
-      return "wraps_by_unknown";
-    case position_jumps:
-      return "position_jumps";
-    case single_wrong_rows:
-      return "single_wrong_rows";
-    case rows_repeated:
-      return "rows_repeated";
-    case rows_interleaved:
-      return "rows_interleaved";
-    case position_in_counts:
-      return "position_in_counts";
-    case unit_in_name:
-      return "unit_in_name";
-    case unit_of_current:
-      return "unit_of_current";
-    case speed_implausible:
-      return "speed_implausible";
-    case command_as_position:
-      return "command_as_position";
-    case torque_spikes:
-      return "torque_spikes";
-    case unsigned_register:
-      return "unsigned_register";
-    case sign_magnitude:
-      return "sign_magnitude";
-    case torque_without_sign:
-      return "torque_without_sign";
-    case torque_switched_off:
-      return "torque_switched_off";
-    case velocity_contradicts:
-      return "velocity_contradicts";
-    case velocity_factor:
-      return "velocity_factor";
-    case velocity_late:
-      return "velocity_late";
-    case velocity_constant:
-      return "velocity_constant";
-    case less_than_none:
-      return "less_than_none";
-    case wrong_sign:
-      return "wrong_sign";
-    case other_joints_move:
-      return "other_joints_move";
-    case standstill:
-      return "standstill";
-    case stretch_left_out:
-      return "stretch_left_out";
-    case reader_remark:
-      return "reader_remark";
-  }
-  return {};
-}
 
 std::string grade_word(Grade grade) {
   return grade == Grade::fault ? "fault" : grade == Grade::warning ? "warning" : "note";
@@ -265,6 +200,10 @@ std::string cure_of(Finding const& f) {
       return "record a motion";
     case wrong_sign:
       return fmt::format("torque_per_unit = {:g}", f.size);
+    case position_factor:
+      return fmt::format("position_per_unit = {:.10g}", f.size * f.written);
+    case reference_factor:
+      return "log the reference in the unit of the position";
     case less_than_none:
       return "check columns.torque, its sign and delay_s";
     default:

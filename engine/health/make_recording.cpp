@@ -9,11 +9,13 @@
 #include "engine/data/columns.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/gaps.hpp"
+#include "engine/data/levels.hpp"
 #include "engine/data/resample.hpp"
 #include "engine/data/sampling.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/health/channel_units.hpp"
 #include "engine/health/clock.hpp"
+#include "engine/health/reference_channel.hpp"
 #include "engine/health/register_coding.hpp"
 #include "engine/health/repeated_rows.hpp"
 #include "engine/health/standstill.hpp"
@@ -26,7 +28,6 @@ namespace torquescope {
 namespace {
 
 constexpr std::size_t fewest_rows = 16;
-constexpr double worth_a_warning = 0.001;  // share of time at a torque limit
 
 void check_encoding(RecordingOptions const& options, Section const& section, std::vector<Problem>& problems) {
   for (auto const& [channel, word] : options.encoding) {
@@ -206,7 +207,7 @@ std::vector<DataWarning> warnings_of(RowFacts const& facts, double rate_hz) {
                                               counted(facts.repeated, facts.repeated == 1 ? "repeated time stamp"
                                                                                           : "repeated time stamps"),
                                               counted(facts.missing, "missing"))});
-  if (facts.torque_limit_share >= worth_a_warning)
+  if (facts.torque_limit_share >= levels::rows_at_limit_worth_saying)
     warnings.push_back(
         {"saturation", fmt::format("torque sits at its limit {:.2g} % of the time", 100 * facts.torque_limit_share)});
   return warnings;
@@ -238,6 +239,7 @@ void examine(Examination& exam) {
   unwrap_position(exam);
   examine_repeated_rows(exam);  // or what makes up for them would be jumps
   examine_position_rows(exam);
+  examine_reference(exam);
   examine_torque_rows(exam);
   examine_torque_sign(exam);
   if (exam.time_s.empty())

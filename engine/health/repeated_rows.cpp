@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
@@ -29,9 +30,8 @@ double step_beside(std::vector<double> const& x, std::size_t from, std::size_t u
 // A hold of several rows that ends in one step far longer than those after it, and no longer than the joint moves in
 // that time elsewhere: it moved meanwhile, and perhaps turned
 bool is_way_of_a_hold(std::vector<double> const& x, std::size_t first, std::size_t end, double encoder_step) {
-  constexpr double far_longer = 3.0, encoder_steps = 8.0;
-  constexpr std::size_t fewest = 2, nearby = 50;
-  if (end - first < fewest) return false;
+  constexpr std::size_t nearby = levels::rows_around_hold;
+  if (end - first < levels::shortest_hold) return false;
   double around = 0.0, fastest = 0.0;
   for (std::size_t i = first > nearby ? first - nearby : 1; i < std::min(x.size(), end + nearby); ++i) {
     if (i >= first && i <= end) continue;
@@ -39,13 +39,13 @@ bool is_way_of_a_hold(std::vector<double> const& x, std::size_t first, std::size
     if (i > end && i <= end + 2) around = std::max(around, std::fabs(x[i] - x[i - 1]));
   }
   double const way = std::fabs(x[end] - x[first - 1]);
-  return way > far_longer * around && way > encoder_steps * encoder_step &&
-         way <= 1.5 * static_cast<double>(end - first + 1) * fastest;
+  // either is known to a step
+  return way - encoder_step > levels::way_after_hold * (around + encoder_step) &&
+         way <= levels::faster_unseen * static_cast<double>(end - first + 1) * fastest;
 }
 
 // rows that repeat and are made up for by the row after them
 std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder_step) {
-  constexpr double made_up = 0.6, encoder_steps = 2.0;
   constexpr std::size_t beside = 3;
   std::vector<std::size_t> stale;
   for (std::size_t i = beside + 1; i + 1 < x.size(); ++i) {
@@ -56,9 +56,10 @@ std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder
     double const before = step_beside(x, i - beside, i), after = step_beside(x, end + 1, end + 1 + beside);
     auto const steps = static_cast<double>(end - i + 1);
     double const expected = steps * (before + after) / 2.0, way = x[end] - x[i - 1];
-    bool const is_fast = std::min(std::fabs(before), std::fabs(after)) > encoder_steps * encoder_step;
+    bool const is_fast = std::min(std::fabs(before), std::fabs(after)) > levels::steps_that_never_repeat * encoder_step;
     bool const goes_on = before * after > 0.0 && way * expected > 0.0;
-    bool const made_up_for = goes_on && is_fast && std::fabs(way) >= made_up * std::fabs(expected);
+    bool const made_up_for =
+        goes_on && is_fast && std::fabs(way) >= levels::made_up_share(end - i) * std::fabs(expected);
     if (made_up_for || is_way_of_a_hold(x, i, end, encoder_step))
       for (std::size_t k = i; k < end; ++k) stale.push_back(k);
     i = end;
@@ -69,13 +70,13 @@ std::vector<std::size_t> stale_rows(std::vector<double> const& x, double encoder
 }  // namespace
 
 void examine_repeated_rows(Examination& exam) {
-  constexpr double worth_saying = 1e-3;  // of the rows, and more than two
   auto& position = exam.values("position");
   auto const known = known_rows(position);
   std::vector<double> x;
   for (std::size_t row : known) x.push_back(position[row]);
   auto const places = stale_rows(x, coarseness(x));
-  if (static_cast<double>(places.size()) < std::max(3.0, worth_saying * static_cast<double>(x.size()))) return;
+  double const fewest = levels::share_of_repeats_worth_saying * static_cast<double>(x.size());
+  if (static_cast<double>(places.size()) < std::max(levels::repeats_worth_saying, fewest)) return;
   std::vector<std::size_t> rows;
   for (std::size_t place : places) rows.push_back(known[place]);
   // from the end, so that the row before is as it was

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
@@ -11,7 +12,6 @@ namespace {
 // changes of direction of a position by more than a fiftieth of its range, so that an encoder's dither counts for
 // nothing
 std::size_t reversals_of(std::vector<double> const& position) {
-  constexpr double share = 0.02;
   auto const rows = known_rows(position);
   if (rows.empty()) return 0;
   double least = position[rows.front()], most = least;
@@ -19,7 +19,7 @@ std::size_t reversals_of(std::vector<double> const& position) {
     least = std::min(least, position[row]);
     most = std::max(most, position[row]);
   }
-  double const enough = share * (most - least);
+  double const enough = levels::way_of_reversal * (most - least);
   double extreme = position[rows.front()];
   int direction = 0;
   std::size_t reversals = 0;
@@ -46,20 +46,34 @@ std::size_t touches_of_zero(std::vector<double> const& torque) {
   std::size_t touches = 0;
   for (double value : torque) {
     if (!std::isfinite(value)) continue;
-    if (is_up && value <= 0.05 * most) {
+    if (is_up && value <= levels::touch_of_zero * most) {
       ++touches;
       is_up = false;
-    } else if (value >= 0.2 * most) {
+    } else if (value >= levels::away_from_zero * most) {
       is_up = true;
     }
   }
   return touches;
 }
 
+// Mean torque forwards less backwards, over their sum. Friction makes that of a passive joint positive; a magnitude is
+// the same both ways
+double difference_of_ways(std::vector<double> const& position, std::vector<double> const& torque) {
+  double forward = 0.0, backward = 0.0, n_forward = 0.0, n_backward = 0.0;
+  for (std::size_t i = 1; i < torque.size(); ++i) {
+    double const way = position[i] - position[i - 1];
+    if (!std::isfinite(way) || !std::isfinite(torque[i])) continue;
+    if (way > 0.0) forward += torque[i], ++n_forward;
+    if (way < 0.0) backward += torque[i], ++n_backward;
+  }
+  if (n_forward == 0.0 || n_backward == 0.0) return 1.0;
+  forward /= n_forward, backward /= n_backward;
+  return forward + backward > 0.0 ? (forward - backward) / (forward + backward) : 1.0;
+}
+
 }  // namespace
 
 void examine_torque_sign(Examination& exam) {
-  constexpr std::size_t fewest_reversals = 4;
   auto const& torque = exam.values("torque");
   auto const rows = known_rows(torque);
   bool const never_negative =
@@ -67,7 +81,10 @@ void examine_torque_sign(Examination& exam) {
   if (!never_negative) return;
   auto const reversals = reversals_of(exam.values("position"));
   // a signed torque that gravity holds above zero does not come down to it at every turn
-  if (reversals >= fewest_reversals && 2 * touches_of_zero(torque) >= reversals)
+  double const touches = static_cast<double>(touches_of_zero(torque));
+  if (reversals >= levels::fewest_reversals &&
+      touches >= levels::touches_of_reversals * static_cast<double>(reversals) &&
+      std::fabs(difference_of_ways(exam.values("position"), torque)) < levels::same_both_ways)
     exam.add(FindingKind::torque_without_sign, Grade::fault, Repair::none, "torque", {},
              static_cast<double>(reversals));
 }

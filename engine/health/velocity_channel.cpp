@@ -1,8 +1,9 @@
 #include "engine/health/velocity_channel.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
+
+#include "engine/data/known_factors.hpp"
 
 namespace torquescope {
 namespace {
@@ -85,16 +86,11 @@ double best_lag(Pair const& pair, double sign) {
   return static_cast<double>(best) + (bend < 0.0 ? 0.5 * (left - right) / bend : 0.0);
 }
 
+// gain: velocity over derivative
 std::string factor_words(double gain) {
   constexpr double same = 0.03;
-  struct Factor {
-    double factor;
-    char const* words;
-  };
-  for (auto const& known : {Factor{60.0 / (2.0 * std::numbers::pi), "rpm"}, Factor{180.0 / std::numbers::pi, "deg/s"},
-                            Factor{1e3, "a thousandth of the unit"}, Factor{1.0, "the wrong sign"},
-                            Factor{1.0 / (2.0 * std::numbers::pi), "turns per second"}})
-    if (std::fabs(std::fabs(gain) / known.factor - 1.0) <= same) return known.words;
+  if (auto const* unit = nearest_known(speed_factors(), 1.0 / gain, same)) return unit->words;
+  if (auto const* unit = nearest_known(angle_factors(), gain, same)) return "a position in " + unit->words;
   return {};
 }
 

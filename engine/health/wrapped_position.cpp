@@ -29,19 +29,6 @@ std::vector<double> known_moduli(Examination& exam) {
   return moduli;
 }
 
-// the known modulus that explains nearly all jumps, and that the position never exceeds
-std::optional<double> modulus_of(Examination& exam, std::vector<Jump> const& jumps, Roughness const& roughness) {
-  double const range = range_of(exam.values("position"));
-  double const slack = 10.0 * roughness.bend + 2.0 * roughness.encoder_step;
-  for (double modulus : known_moduli(exam)) {
-    if (range > 1.001 * modulus + slack) continue;
-    auto const wraps =
-        std::count_if(jumps.begin(), jumps.end(), [&](Jump const& j) { return is_wrap(j, modulus, slack); });
-    if (static_cast<double>(wraps) >= share_of_jumps * static_cast<double>(jumps.size())) return modulus;
-  }
-  return {};
-}
-
 // adds or takes off a modulus at each step that is longer than half of it
 std::vector<std::size_t> unwrap(std::vector<double>& values, double modulus) {
   std::vector<std::size_t> wraps;
@@ -57,6 +44,36 @@ std::vector<std::size_t> unwrap(std::vector<double>& values, double modulus) {
     before = raw;
   }
   return wraps;
+}
+
+double longest_step(std::vector<double> const& values) {
+  double longest = 0.0, before = std::numeric_limits<double>::quiet_NaN();
+  for (double value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isfinite(before)) longest = std::max(longest, std::fabs(value - before));
+    before = value;
+  }
+  return longest;
+}
+
+// The known modulus that explains nearly all jumps, and that the position never exceeds. How far the motion itself
+// bends shows only when the wraps are out: where there are many they are most of the bends
+std::optional<double> modulus_of(Examination& exam) {
+  auto const& position = exam.values("position");
+  double const range = range_of(position), longest = longest_step(position);
+  for (double modulus : known_moduli(exam)) {
+    if (!(longest > modulus / 2)) continue;
+    auto unwrapped = position;
+    unwrap(unwrapped, modulus);
+    auto const roughness = roughness_of(unwrapped);
+    double const slack = 10.0 * roughness.bend + 2.0 * roughness.encoder_step;
+    if (range > 1.001 * modulus + slack) continue;
+    auto const jumps = jumps_of(position, {}, roughness);
+    auto const wraps =
+        std::count_if(jumps.begin(), jumps.end(), [&](Jump const& j) { return is_wrap(j, modulus, slack); });
+    if (wraps > 0 && static_cast<double>(wraps) >= share_of_jumps * static_cast<double>(jumps.size())) return modulus;
+  }
+  return {};
 }
 
 void unwrap_reference(Examination& exam, double modulus) {
@@ -89,15 +106,13 @@ bool has_unknown_modulus(std::vector<Jump> const& jumps, double range) {
 
 void unwrap_position(Examination& exam) {
   auto& position = exam.values("position");
-  auto const roughness = roughness_of(position);
-  auto const jumps = jumps_of(position, {}, roughness);
-  if (jumps.empty()) return;
-  if (auto const modulus = modulus_of(exam, jumps, roughness); modulus) {
+  if (auto const modulus = modulus_of(exam); modulus) {
     auto const wraps = unwrap(position, *modulus);
     unwrap_reference(exam, *modulus);
     exam.add(FindingKind::position_wraps, Grade::warning, Repair::corrected, "position", wraps, *modulus);
     return;
   }
+  auto const jumps = jumps_of(position, {}, roughness_of(position));
   if (!has_unknown_modulus(jumps, range_of(position))) return;
   double sum = 0.0;
   std::vector<std::size_t> rows;

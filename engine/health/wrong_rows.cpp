@@ -119,9 +119,9 @@ void examine_torque_rows(Examination& exam) {
   if (sizes.size() < 20) return;
   std::vector<double> sorted = sizes;
   std::sort(sorted.begin(), sorted.end());
-  auto const spikes_at_most = static_cast<std::size_t>(most_rows * static_cast<double>(sorted.size())) + 1;
+  auto const spikes_at_most = static_cast<std::size_t>(most_rows * static_cast<double>(sorted.size())) + longest;
   double limit = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k <= spikes_at_most; ++k) {
+  for (std::size_t k = 1; k <= std::min(spikes_at_most, sorted.size() - 1); ++k) {
     double const smaller = sorted[sorted.size() - k - 1];
     if (smaller > 0.0 && sorted[sorted.size() - k] > beyond_all_others * smaller) limit = sorted[sorted.size() - k];
   }

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
 namespace {
-
-constexpr double one_direction = 0.995;  // of moving time
-constexpr double one_speed = 1.3;        // 95th over 10th percentile
-constexpr double at_limit = 0.05;        // of time
-constexpr double no_relation = 0.9;      // relerr of a model that explains a fifth of the torque's energy
 
 bool remembers_reversals(Effect const& law) {
   auto const& axes = law.signature();
@@ -26,10 +22,10 @@ bool remembers_reversals(Effect const& law) {
 
 MotionLimits limits_of(Excitation const& facts, double relerr) {
   MotionLimits limits;
-  limits.has_one_direction = std::max(facts.forward_share, 1.0 - facts.forward_share) > one_direction;
-  limits.has_one_speed = facts.speed_spread < one_speed;
-  limits.is_saturated = facts.torque_limit_share > at_limit;
-  limits.has_no_relation = relerr > no_relation;
+  limits.has_one_direction = std::max(facts.forward_share, 1.0 - facts.forward_share) > levels::one_direction;
+  limits.has_one_speed = facts.speed_spread < levels::one_speed_ratio();
+  limits.is_saturated = facts.torque_limit_share > levels::rows_at_limit;
+  limits.has_no_relation = relerr > levels::no_relation;
   return limits;
 }
 
@@ -81,17 +77,17 @@ std::optional<Hopeless> blamed_for_silence(MotionLimits const& limits, Excitatio
 }
 
 std::vector<bool> saturated_samples(Recording const& recording, double cutoff_hz) {
-  constexpr double reach_in_periods = 0.5;  // of the cut-off: within it the filter's weight is largest
   Eigen::VectorXd const& torque = recording.torque;
   Eigen::Index const n = torque.size();
   std::vector<bool> left_out(static_cast<std::size_t>(n), false);
   double const share = recording.rows.torque_limit_share > 0.0
                            ? recording.rows.torque_limit_share
                            : limit_share({torque.data(), static_cast<std::size_t>(n)});
-  if (!(share > at_limit)) return left_out;
+  if (!(share > levels::rows_at_limit)) return left_out;
   double const most = torque.maxCoeff(), least = torque.minCoeff();
   auto const reach =
-      cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(reach_in_periods / cutoff_hz * recording.rate_hz)) : 0;
+      cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(levels::independent_after_s(cutoff_hz) * recording.rate_hz))
+                      : 0;
   Eigen::Index beyond = 0;  // of the last sample that is marked
   for (Eigen::Index k = 0; k < n; ++k) {
     if (torque[k] != most && torque[k] != least) continue;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "engine/data/levels.hpp"
+
 namespace torquescope {
 
 std::optional<Hopeless> check_recording(Excitation const& facts) {
-  constexpr double fewest_steps = 50;     // of the encoder, in the whole motion
-  constexpr double fewest_updates = 4.0;  // of a held torque, in a period of the cut-off
   auto const insufficient = [](std::string finding, std::string way_out) {
     return Hopeless{Verdict::insufficient, std::move(finding), std::move(way_out)};
   };
@@ -17,23 +17,22 @@ std::optional<Hopeless> check_recording(Excitation const& facts) {
   };
   double const range = facts.position_most - facts.position_least;
   if (!(facts.moving_share > 0.0)) return insufficient("the joint never moves", "record a motion");
-  if (facts.encoder_step > 0.0 && range < fewest_steps * facts.encoder_step)
+  if (facts.encoder_step > 0.0 && range < levels::fewest_encoder_steps * facts.encoder_step)
     return insufficient(fmt::format("the whole motion spans {:.0f} encoder steps: its speed is mostly rounding",
                                     range / facts.encoder_step),
                         "record a larger motion");
-  if (facts.torque_updates > 0.0 && facts.torque_updates < fewest_updates)
+  if (facts.torque_updates > 0.0 && facts.torque_updates < levels::fewest_updates_in_period)
     return fault(
         fmt::format("the torque changes on one row in {} only, {:.2g} times in a period of the filter's cut-off",
                     facts.torque_held_rows, facts.torque_updates),
         fmt::format("log the torque as often as the position, or set filter.parallel_cutoff_hz to {:.2g} times what it "
                     "is, or less",
-                    facts.torque_updates / fewest_updates));
+                    facts.torque_updates / levels::fewest_updates_in_period));
   return std::nullopt;
 }
 
 std::optional<Hopeless> check_silence(Excitation const& facts) {
-  constexpr double most_of_the_time = 0.75;
-  if (facts.one_speed_share < most_of_the_time) return std::nullopt;
+  if (facts.one_speed_share < levels::mostly_one_speed) return std::nullopt;
   return Hopeless{
       Verdict::insufficient,
       fmt::format("{:.0f} % of the moving time have one and the same speed: nothing else is missing, but laws of "

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/data/levels.hpp"
+
 namespace torquescope {
 namespace {
 
 // but for the few rows of the other direction that a joint which sticks and jumps leaves
 bool is_constant(Eigen::VectorXd const& column) {
-  constexpr double nearly = 0.15;
   double const mean = column.mean();
   double const spread = std::sqrt((column.array() - mean).square().mean());
-  return spread <= nearly * std::abs(mean);
+  return spread <= levels::spread_of_constant() * std::abs(mean);
 }
 
 // what least squares gives the column beside the ones that are told apart

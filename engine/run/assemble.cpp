@@ -11,6 +11,7 @@
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/health/make_recording.hpp"
+#include "engine/problem/position_factor.hpp"
 #include "engine/run/arm_assembly.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
@@ -139,9 +140,9 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   char const* const unit = parts.regressor->joint() == JointKind::revolute ? "rad" : "m";
   // the motion of the rows is for the result file and its page
   auto const for_the_file = set.recordings.size() == 1 ? RowMotion::once : RowMotion::kept;
-  auto const row_motion = channels == Channels::kept ? RowMotion::kept
-                          : parts.output.samples     ? for_the_file
-                                                     : RowMotion::used_up;
+  // and of the question which unit the position has, where the model tells one
+  bool const is_asked = parts.output.samples || (!set.simulated && tells_unit_of_position(*parts.regressor));
+  auto const row_motion = channels == Channels::kept ? RowMotion::kept : is_asked ? for_the_file : RowMotion::used_up;
   for (auto& recording : set.recordings) {
     set.n_samples.push_back(static_cast<std::size_t>(recording.time_s.size()));
     auto facts = measure_channels(recording);
@@ -303,6 +304,7 @@ Experiment Experiment::load(Job text, Purpose purpose) {
     auto found = is_arm ? std::vector<Finding>() : fit_findings(*parts, recording);
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
+    if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();
     if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);
   }
   if (job.find("model.bounds") == nullptr && searches(*parts)) {

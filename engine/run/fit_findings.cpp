@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "engine/data/levels.hpp"
 #include "engine/problem/least_squares.hpp"
+#include "engine/problem/position_factor.hpp"
 #include "engine/run/search_box.hpp"
 
 namespace torquescope {
 namespace {
-
-// 95 % where the work says the same, 3e-5 by itself
-constexpr double two_standard_errors = 2.0, four_standard_errors = 4.0;
 
 // What a passive joint has: 1 of a mass and of a friction whose column goes with the speed, -1 of one that goes against
 // it (friction of the negative direction), 0 of anything else
@@ -54,17 +54,20 @@ double work(RegressionData const& rows) {
   return rows.tau.dot(Eigen::Map<Eigen::VectorXd const>(velocity.data(), rows.rows()));
 }
 
-}  // namespace
+std::string torque_column(RecordingOptions const& options) {
+  auto const torque = options.columns.find("torque");
+  return torque != options.columns.end() ? torque->second : std::string();
+}
 
-std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOptions const& options) {
   auto const& rows = parts.train.regression;
-  if (too_few_rows(rows) || !parts.health.identifiable) return {};
+  if (!parts.health.identifiable) return {};
   Eigen::VectorXd const parameters = solve_reduced(rows, parts.reductions);
   Eigen::VectorXd const signs = required_signs(*parts.regressor);
   if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
 
   bool const takes_work_out = work(rows) < 0.0;
-  double const surely = takes_work_out ? two_standard_errors : four_standard_errors;
+  double const surely = takes_work_out ? levels::negative_beside_negative_work : levels::surely_negative;
   auto const fit = fit_with_errors(rows, parameters);
   Finding finding{FindingKind::less_than_none, takes_work_out ? Grade::fault : Grade::warning};
   std::int64_t const possible = (signs.array() != 0.0).count();
@@ -76,14 +79,40 @@ std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptio
                                   parameters[i], rows.columns[k].unit);
   }
   if (finding.count == 0) return {};
-  finding.recording = parts.train.recordings.front().name;
-  if (auto const torque = options.columns.find("torque"); torque != options.columns.end())
-    finding.column = torque->second;
+  finding.column = torque_column(options);
   if (takes_work_out && finding.count == possible && possible >= 2) {
     finding.kind = FindingKind::wrong_sign;
     finding.size = -options.torque_factor();
   }
-  return {finding};
+  return finding;
+}
+
+std::optional<Finding> factor_finding(Experiment::Parts const& parts, RecordingOptions const& options) {
+  auto const factor = position_factor(parts.train.regression, *parts.regressor);
+  if (!factor) return {};
+  // a unit that people forget is no accident; a ratio may be a law of the position that the model lacks
+  Finding finding{FindingKind::position_factor, factor->words.empty() ? Grade::warning : Grade::fault};
+  finding.size = factor->factor;
+  finding.detail = factor->words;
+  finding.written = options.position_per_unit;
+  finding.error_before = factor->error_before;
+  finding.error_after = factor->error_after;
+  if (auto const position = options.columns.find("position"); position != options.columns.end())
+    finding.column = position->second;
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+  std::vector<Finding> findings;
+  if (too_few_rows(parts.train.regression)) return findings;
+  for (auto& found : {sign_finding(parts, options), factor_finding(parts, options)}) {
+    if (!found) continue;
+    findings.push_back(*found);
+    findings.back().recording = parts.train.recordings.front().name;
+  }
+  return findings;
 }
 
 Bounds box_from_recordings(Experiment::Parts const& parts) {

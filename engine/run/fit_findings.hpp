@@ -1,7 +1,8 @@
 #pragma once
-// What the least squares fit of a job's model says of its recordings: masses and frictions that are surely negative.
+// What the least squares fit of a job's model says of its recordings: masses and frictions that are surely negative,
+// and a position in another unit (problem/position_factor.hpp).
 //
-// Surely     more than four HAC standard errors below zero (problem/hac.hpp); two where the torque also takes work out
+// Surely     data/levels.hpp, in HAC standard errors (problem/hac.hpp); fewer where the torque also takes work out
 //            of the joint, which no passive joint allows: that is a fault, the other a warning
 // Threads    free function
 
