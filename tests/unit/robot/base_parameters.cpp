@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "engine/robot/gather_text.hpp"
@@ -29,8 +31,16 @@ TEST(BaseParameters, RanksOfKnownArms) {
   EXPECT_EQ(rank(test::puma_560(), DriveInertias::included), 40);
 }
 
-// columns of length 1, motions of its own
-Eigen::MatrixXd sampled(SerialChain const& chain, int n_samples) {
+// columns of length 1 of motions of its own, and what rounding may add to a singular value of theirs
+struct SampledColumns {
+  Eigen::MatrixXd scaled;
+  double rounding;
+};
+
+// Rounding: an entry is a sum over the frames between its row and its link, about ten operations each, of terms as
+// large as those of the longest column; scaling a column to 1 scales its errors. A singular value moves by no more than
+// the norm of all errors (Weyl 1912).
+SampledColumns sampled(SerialChain const& chain, int n_samples) {
   std::mt19937 bits(7);
   std::uniform_real_distribution<double> uniform(-3.0, 3.0);
   Eigen::Index const n = chain.size();
@@ -41,23 +51,29 @@ Eigen::MatrixXd sampled(SerialChain const& chain, int n_samples) {
     };
     rows.middleRows(n * sample, n) = arm_regressor(chain, draw(), draw(), draw(), DriveInertias::included);
   }
-  // cos(pi / 2) is not quite 0: what it leaves of a column is no column
   Eigen::VectorXd const lengths = rows.colwise().norm();
-  for (Eigen::Index k = 0; k < rows.cols(); ++k)
-    rows.col(k) *= lengths[k] > 1e-12 * lengths.maxCoeff() ? 1.0 / lengths[k] : 0.0;
-  return rows;
+  double const longest = lengths.maxCoeff();
+  double errors = 0.0;
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    bool const stands = lengths[k] > 1e-12 * longest;  // cos(pi / 2) is not quite 0: what it leaves is no column
+    rows.col(k) *= stands ? 1.0 / lengths[k] : 0.0;
+    if (stands) errors += longest / lengths[k] * (longest / lengths[k]);
+  }
+  double const operations = 10.0 * static_cast<double>(n);
+  return {rows, operations * std::numeric_limits<double>::epsilon() * std::sqrt(errors)};
 }
 
 TEST(BaseParameters, AreAsManyAsTheRankOfFiveHundredRandomArms) {
   for (std::uint32_t number = 0; number < 500; ++number) {
     auto const chain = test::random_arm(number, number % 5 != 0).chain;
-    auto const values = test::singular_values(sampled(chain, 24));
+    auto const columns = sampled(chain, 24);
+    auto const values = test::singular_values(columns.scaled);
     Eigen::Index const n = rank(chain, DriveInertias::included);
     ASSERT_GT(n, 0);
-    // a gap of three decades; short columns (a length of millimetres) carry their rounding
-    EXPECT_GT(values[n - 1], 1e-6 * values[0]) << number;
+    // what is kept stands two decades above rounding, what is not is rounding
+    EXPECT_GT(values[n - 1], 100.0 * columns.rounding) << number;
     if (n < values.size()) {
-      EXPECT_LT(values[n], 1e-9 * values[0]) << number;
+      EXPECT_LT(values[n], columns.rounding) << number;
     }
   }
 }
@@ -105,8 +121,8 @@ TEST(BaseParameters, GiveTheTorqueOfTheStandardOnes) {
     auto const phi = arm_regressor(arm.chain, arm.q, arm.dq, arm.ddq, DriveInertias::included);
     Eigen::VectorXd const tau = phi * chi;
     auto const values = base.from_standard(chi);
-    EXPECT_LT((tau - base.pick(phi) * values).norm(), 1e-11 * tau.norm()) << number;
-    EXPECT_LT((tau - phi * base.to_standard(values)).norm(), 1e-11 * tau.norm()) << number;
+    EXPECT_LT((tau - base.pick(phi) * values).norm(), 1e-12 * tau.norm()) << number;
+    EXPECT_LT((tau - phi * base.to_standard(values)).norm(), 1e-12 * tau.norm()) << number;
     EXPECT_LT((base.from_standard(base.to_standard(values)) - values).norm(), 1e-15);
   }
 }

@@ -15,7 +15,7 @@ TEST(ForwardDynamics, UndoesInverseDynamics) {
     auto const chi = standard_parameters(arm.chain, DriveInertias::included);
     auto const tau = inverse_dynamics(arm.chain, chi, arm.q, arm.dq, arm.ddq);
     auto const ddq = forward_dynamics(arm.chain, chi, arm.q, arm.dq, tau);
-    EXPECT_LT((ddq - arm.ddq).norm(), 1e-11 * arm.ddq.norm()) << number;
+    EXPECT_LT((ddq - arm.ddq).norm(), 1e-12 * arm.ddq.norm()) << number;
   }
 }
 

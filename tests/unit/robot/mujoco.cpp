@@ -31,7 +31,7 @@ TEST(ForwardDynamics, OfBaseParametersIsThatOfMujoco) {
     Eigen::VectorXd const tau = 50.0 * arm.ddq;
     auto const expected = test::MujocoModel(arm.chain).forward_dynamics(arm.q, arm.dq, tau);
     auto const ddq = forward_dynamics(arm.chain, reduced, arm.q, arm.dq, tau);
-    EXPECT_LT((ddq - expected).norm(), 1e-11 * expected.norm()) << number;
+    EXPECT_LT((ddq - expected).norm(), 1e-12 * expected.norm()) << number;
   }
 }
 
