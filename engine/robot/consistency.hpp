@@ -1,0 +1,53 @@
+#pragma once
+// The standard parameters of bodies that exist, closest to base parameters that were estimated.
+//
+// Equation   min |R (b(x) - b)|^2 / 2 + w sum of divergences(link, prior), every pseudo-inertia positive definite, every
+//            drive inertia positive; b(x): base parameters of x; R: root of the estimate's information, so a unit is a
+//            standard error. Without weight the least distance, and of all that have it the least divergence
+// Method     convex: Newton steps along a shrinking barrier, which is the divergence itself. No smooth parametrisation
+//            (log-Cholesky: Rucker, Wensing 2022, doi:10.1109/LRA.2022.3144517) is needed where steps stay inside
+// Accuracy   the squared distance, to `gap` of its least
+// Threads    pure function
+// Source     pseudo_inertia.hpp; Boyd and Vandenberghe 2004, Convex Optimization, sections 9.6 and 11.3
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/robot/base_parameters.hpp"
+
+namespace torquescope {
+
+struct BaseEstimate {
+  Eigen::VectorXd values;  // of BaseParameters, in their order
+  Eigen::MatrixXd root;    // R: R' R is the inverse of their covariance; p x p
+};
+
+struct InertiaPrior {
+  std::vector<LinkInertia> links{};  // from CAD or a URDF, bodies each; none: a cube about each frame's origin, as long
+                                     // as the longest link, of a mass that fits the largest inertia
+  std::vector<double> drives{};      // kg m^2 or kg; none: the cube's
+  double weight = 0.0;               // squared standard errors per unit of divergence; 0: choose, do not pull
+};
+
+struct ConsistentParameters {
+  Eigen::VectorXd standard;  // 10 N or 11 N, as the base parameters had them
+  Eigen::VectorXd base;      // what they make of the base parameters
+  double distance = 0.0;     // |R (base - values)|: what consistency costs, in standard errors
+  double divergence = 0.0;   // of all links from their priors
+  double gap = 0.0;          // of the squared distance above its least, at most about
+  bool converged = false;    // gap is below visible_gap
+  int steps = 0;
+};
+
+// squared standard errors. The first is aimed at. It stays away where no least exists, because the closer bodies are
+// heavier without end: a small weight keeps them finite. The second is a hundredth of one parameter's variance
+inline constexpr double largest_gap = 1e-10, visible_gap = 1e-2;
+
+// Requires   root of full rank; priors that are bodies (body_fault()), one a link, or none
+ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParameters const& base,
+                                           BaseEstimate const& estimate, InertiaPrior const& prior = {});
+
+// R from a covariance. Requires it positive definite
+Eigen::MatrixXd information_root(Eigen::MatrixXd const& covariance);
+
+}  // namespace torquescope
