@@ -45,7 +45,7 @@ MujocoModel::MujocoModel(std::string const& xml) : model_(nullptr, mj_deleteMode
   data_.reset(mj_makeData(model_.get()));
 }
 
-MujocoModel MujocoModel::of_urdf(std::string const& urdf) { return MujocoModel(urdf); }
+MujocoModel MujocoModel::of_xml(std::string const& xml) { return MujocoModel(xml); }
 
 MujocoModel::MujocoModel(SerialChain const& chain) : MujocoModel(xml_of(chain)) {
   for (int k = 0; k < 3; ++k) model_->opt.gravity[k] = chain.gravity[k];

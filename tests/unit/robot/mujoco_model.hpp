@@ -14,8 +14,8 @@ class MujocoModel {
  public:
   // masses, inertias and attitudes are written into the loaded model: its reader rounds them
   explicit MujocoModel(SerialChain const& chain);
-  // as MuJoCo reads it
-  static MujocoModel of_urdf(std::string const& urdf);
+  // as MuJoCo reads it, URDF or MJCF
+  static MujocoModel of_xml(std::string const& xml);
 
   Eigen::VectorXd inverse_dynamics(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& ddq);
   Eigen::VectorXd forward_dynamics(Eigen::VectorXd const& q, Eigen::VectorXd const& dq, Eigen::VectorXd const& tau);

@@ -115,7 +115,7 @@ TEST(Urdf, KeepsLimitsKindsAndTheMassOfFixedLinks) {
 #if defined(TORQUESCOPE_MUJOCO)
 TEST(Urdf, TorqueIsThatOfMujocosOwnReader) {
   auto const chain = read(arm());
-  auto mujoco = test::MujocoModel::of_urdf(arm());
+  auto mujoco = test::MujocoModel::of_xml(arm());
   auto const chi = standard_parameters(chain, DriveInertias::left_out);
   for (double const scale : {0.3, 1.0, -0.7}) {
     Eigen::VectorXd q(5), dq(5), ddq(5);
