@@ -41,6 +41,7 @@ constexpr Command commands[] = {
     {"diagnose", [](CLI::App& app, ChosenCommand& chosen) { add_diagnose(app, chosen, diagnose); }},
     {"show", add_show},
     {"report", add_report},
+    {"export", add_export},
     {"merge", add_merge},
     {"status", add_status},
     {"submit", add_submit},

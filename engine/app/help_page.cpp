@@ -19,6 +19,7 @@ std::string program_help() {
   torquescope diagnose JOB.toml      find the physics the model lacks
   torquescope show     R.h5          tables here
   torquescope report   R.h5          one page with pictures
+  torquescope export   R.h5 --urdf FILE           an arm as URDF, TOML, ...
   torquescope simulate JOB.toml --out REC.csv     recordings from a model
   torquescope submit   JOB.toml --shards N        the same on a Slurm cluster
   torquescope merge    JOB.toml      one result of all shards

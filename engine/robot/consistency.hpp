@@ -1,9 +1,9 @@
 #pragma once
 // The standard parameters of bodies that exist, closest to base parameters that were estimated.
 //
-// Equation   min |R (b(x) - b)|^2 / 2 + w sum of divergences(link, prior), every pseudo-inertia positive definite, every
-//            drive inertia positive; b(x): base parameters of x; R: root of the estimate's information, so a unit is a
-//            standard error. Without weight the least distance, and of all that have it the least divergence
+// Equation   min |R (b(x) - b)|^2 / 2 + w sum of divergences(link, prior); every pseudo-inertia positive definite and
+//            every drive inertia positive; b(x): base parameters of x; R: root of the information of the estimate, so
+//            a unit is a standard error. w = 0: the least distance, and of all that have it the least divergence
 // Method     convex: Newton steps along a shrinking barrier, which is the divergence itself. No smooth parametrisation
 //            (log-Cholesky: Rucker, Wensing 2022, doi:10.1109/LRA.2022.3144517) is needed where steps stay inside
 // Accuracy   the squared distance, to `gap` of its least

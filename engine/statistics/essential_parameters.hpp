@@ -1,5 +1,5 @@
 #pragma once
-// The parameters that a recording is worth: those least certain are left out, one after the other, and the others fitted
+// The parameters that a recording is worth: the least certain are left out one after the other, the others fitted
 // again.
 //
 // Equation   while max_j e_j > ratio min_j e_j, e_j = standard error / |value|: the parameter with the largest e_j goes

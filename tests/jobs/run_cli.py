@@ -315,6 +315,11 @@ class CommandLine(Folder):
         self.assertIn("base parameters: 29 of the 50 numbers of the links; 32 with drive inertias", crs)
         self.assertIn("xxr2     kg m^2  = xx2 - yy2 - 0.0929 (m3 + m4 + m5)", crs)
 
+    def test_export_wants_a_format_and_a_result(self):
+        self.write("arm.txt", "no result\n")
+        self.assert_refused(self.run_here("export", "arm.txt"), 64, ["export needs a format"])
+        self.assert_refused(self.run_here("export", "arm.txt", "--urdf", "arm.urdf"), 65, ["arm.txt"])
+
     def test_a_wrong_robot_is_refused_at_its_place(self):
         self.write("arm.toml", "[robot]\n[[joint]]\nalpha_rad = 90\n")
         self.assert_refused(self.run_here("describe", "arm.toml"), 78, ["arm.toml:3", "is it in degrees?", "1.5707963"])

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+
+#include "engine/app/commands/command.hpp"
+#include "engine/app/result/result_summary.hpp"
+#include "engine/run/arm_export.hpp"
+
+namespace torquescope {
+
+namespace {
+
+struct ExportArguments {
+  std::string file, estimator;
+  std::map<std::string, std::string> out;  // by format
+};
+
+EstimatorSummary const& chosen_estimator(ResultSummary const& summary, std::string const& name) {
+  for (auto const& estimator : summary.estimators)
+    if (name.empty() || estimator.name == name) return estimator;
+  Problem problem;
+  problem.code = ExitCode::usage;
+  problem.what = fmt::format("{} has no estimator \"{}\"", summary.file.string(), name);
+  for (auto const& estimator : summary.estimators) problem.notes.push_back(estimator.name);
+  problem.help = "name one of these with --estimator, or leave it out for the first";
+  throw Error(std::move(problem));
+}
+
+void write_text(std::string const& file, std::string const& text, Session const& session) {
+  if (file == "-") {
+    session.verdict(text);
+    return;
+  }
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  validate(stream.good(), [&] {
+    return Problem{
+        .code = ExitCode::io, .what = file + " cannot be written", .help = "look at its folder and the disk"};
+  });
+}
+
+ExitCode export_result(ExportArguments const& arguments, Session const& session) {
+  validate(!arguments.out.empty(), [] {
+    return Problem{.code = ExitCode::usage,
+                   .what = "export needs a format",
+                   .help = "torquescope export arm.h5 --urdf arm.urdf; --toml, --json and --mjcf likewise"};
+  });
+  auto const summary = read_summary(arguments.file);
+  look_at_result(summary.file, [](ResultReader const& there) { read_identified_arm(there); });
+  auto const arm = read_identified_arm(ResultReader(summary.file));
+  auto const& estimator = chosen_estimator(summary, arguments.estimator);
+  Eigen::VectorXd const values =
+      Eigen::VectorXd::Map(estimator.parameters.data(), static_cast<Eigen::Index>(estimator.parameters.size()));
+  bool first = true;
+  for (auto const& [format, file] : arguments.out) {
+    auto const written = export_arm(arm, summary.names, values, format);
+    write_text(file, written.text, session);
+    if (file != "-") session.note(session.topic_line("wrote", file));
+    for (auto const& note : written.notes)
+      if (first) session.note(session.topic_line("numbers", note));
+    first = false;
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, ChosenCommand& chosen) {
+  auto const arguments = std::make_shared<ExportArguments>();
+  CLI::App* command =
+      app.add_subcommand("export", "Writes the arm of a result as a robot file: URDF, TOML, JSON, MJCF.");
+  command->footer(
+      "  torquescope export arm.h5 --urdf arm.urdf\n"
+      "  torquescope export arm.h5 --json - --estimator wls\n");
+  command->add_option("R.h5", arguments->file, "result file of torquescope run of an arm, HDF5")->required();
+  command->add_option("--estimator", arguments->estimator, "whose parameters; the first by default")->group("results");
+  for (auto const& format : export_formats())
+    command
+        ->add_option_function<std::string>(
+            "--" + format.name,
+            [arguments, name = format.name](std::string const& file) { arguments->out[name] = file; },
+            "write " + format.meaning + "; - is stdout")
+        ->option_text("FILE")
+        ->group("results");
+  add_quiet_option(*command, chosen);
+  add_colour_option(*command, chosen);
+  command->callback([arguments, &chosen] {
+    chosen.work = [arguments](Session const& session) { return export_result(*arguments, session); };
+  });
+}
+
+}  // namespace torquescope

@@ -1,0 +1,193 @@
+#include "engine/run/arm_export.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/error.hpp"
+#include "engine/robot/consistency.hpp"
+#include "engine/robot/robot_registry.hpp"
+#include "engine/robot/robot_writers.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+
+void expect(bool holds, ResultReader const& reader, std::string const& what) {
+  validate(holds, [&] {
+    return Problem{.code = ExitCode::bad_data,
+                   .what = fmt::format("{} {}", reader.name().string(), what),
+                   .help = "export takes a result of torquescope run whose job has [model] robot = \"...\""};
+  });
+}
+
+SerialChain chain_of(ResultReader const& reader) {
+  auto const names = reader.texts("/robot/joints"), kinds = reader.texts("/robot/kinds");
+  auto const frames = reader.numbers("/robot/frames");
+  auto const gravity = reader.attribute<std::vector<double>>("/robot", "gravity");
+  expect(
+      !names.empty() && kinds.size() == names.size() && frames.values.size() == 4 * names.size() && gravity.size() == 3,
+      reader, "has tables of an arm that differ in length");
+  SerialChain chain;
+  chain.name = reader.attribute<std::string>("/robot", "name");
+  chain.gravity = Eigen::Vector3d::Map(gravity.data());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ChainJoint joint;
+    joint.name = names[i];
+    joint.kind = kinds[i] == "prismatic" ? JointKind::prismatic : JointKind::revolute;
+    joint.alpha = frames.values[4 * i];
+    joint.a = frames.values[4 * i + 1];
+    joint.offset = frames.values[4 * i + 2];
+    joint.d = frames.values[4 * i + 3];
+    chain.joints.push_back(std::move(joint));
+  }
+  return chain;
+}
+
+bool is_same_arm(SerialChain const& a, SerialChain const& b) {
+  auto const same = [](ChainJoint const& one, ChainJoint const& other) {
+    return one.name == other.name && one.kind == other.kind && one.a == other.a && one.alpha == other.alpha &&
+           one.d == other.d && one.offset == other.offset;
+  };
+  return a.gravity == b.gravity && std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(), b.joints.end(), same);
+}
+
+// limits and gears, which a result does not hold
+SerialChain with_limits(SerialChain chain, std::string const& file) {
+  if (std::error_code none; !std::filesystem::is_regular_file(file, none)) return chain;
+  try {
+    auto whole = read_robot(file);
+    return is_same_arm(whole, chain) ? whole : chain;
+  } catch (Error const&) {
+    return chain;  // changed since: the result knows the arm
+  }
+}
+
+// sum over joints of the products of their columns, over the noise
+Eigen::MatrixXd information_of(ResultReader const& reader, std::size_t joints) {
+  auto const noise = reader.numbers("/arm/noise").values;
+  expect(noise.size() == joints, reader, "has no noise of every joint");
+  Eigen::MatrixXd sum;
+  for (std::size_t j = 0; j < joints; ++j) {
+    std::string const group = fmt::format("/arm/joint_{}", j + 1);
+    auto const own = reader.whole_numbers(group + "/parameters").values;
+    auto const gram = reader.numbers(group + "/gram");
+    std::size_t const n = own.size() + 1;
+    expect(noise[j] > 0.0 && gram.values.size() == n * n, reader, "has a Gram of another size");
+    for (std::size_t a = 0; a < own.size(); ++a) {
+      expect(own[a] >= 0 && own[a] < 100000, reader, "numbers a parameter that there is not");
+      if (own[a] >= sum.rows()) sum.conservativeResizeLike(Eigen::MatrixXd::Zero(own[a] + 1, own[a] + 1));
+    }
+    for (std::size_t a = 0; a < own.size(); ++a)
+      for (std::size_t b = 0; b < own.size(); ++b)
+        sum(own[a], own[b]) += gram.values[a * n + b] / (noise[j] * noise[j]);
+  }
+  return sum;
+}
+
+// of the base parameters, whatever the others are: the Schur complement, of unit columns
+Eigen::MatrixXd base_root(Eigen::MatrixXd const& information, Index p) {
+  Index const others = information.rows() - p;
+  Eigen::VectorXd const lengths = information.diagonal().cwiseSqrt();
+  Eigen::MatrixXd const unit = lengths.cwiseInverse().asDiagonal() * information * lengths.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd schur = unit.topLeftCorner(p, p);
+  if (others > 0)
+    schur -= unit.topRightCorner(p, others) *
+             unit.bottomRightCorner(others, others).llt().solve(unit.bottomLeftCorner(others, p));
+  Eigen::LLT<Eigen::MatrixXd> const factor(schur);
+  validate(factor.info() == Eigen::Success, [] {
+    return Problem{.code = ExitCode::bad_data,
+                   .what = "the recordings of this result cannot tell its base parameters apart",
+                   .help = "record a motion that moves every joint, and identify again"};
+  });
+  return Eigen::MatrixXd(factor.matrixU()) * lengths.head(p).asDiagonal();
+}
+
+std::string listed(std::vector<std::string> const& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+// which of the standard parameters are identified as they are, within sums, not at all
+std::vector<std::string> words_of(BaseParameters const& base) {
+  std::vector<std::string> alone, sums;
+  std::vector<bool> is_alone(static_cast<std::size_t>(base.standard_size()), false);
+  for (auto const& parameter : base.parameters())
+    is_alone[static_cast<std::size_t>(parameter.column)] = parameter.gathers.empty();
+  auto const& without = base.without_effect();
+  for (std::size_t k = 0; k < is_alone.size(); ++k) {
+    auto const& name = base.standard_names()[k];
+    if (std::find(without.begin(), without.end(), name) == without.end()) (is_alone[k] ? alone : sums).push_back(name);
+  }
+  std::vector<std::string> words;
+  if (!alone.empty()) words.push_back("Identified as they are: " + listed(alone) + ".");
+  if (!sums.empty())
+    words.push_back("Only sums of these are identified, each value is chosen among bodies: " + listed(sums) + ".");
+  if (!without.empty()) words.push_back("No torque depends on these, they are chosen: " + listed(without) + ".");
+  return words;
+}
+
+}  // namespace
+
+IdentifiedArm read_identified_arm(ResultReader const& reader) {
+  expect(reader.exists("/robot") && reader.exists("/arm"), reader, "is no result of an arm");
+  IdentifiedArm arm;
+  auto const chain = chain_of(reader);
+  arm.information = information_of(reader, chain.joints.size());
+  auto const names = reader.texts("/robot/base_parameters");
+  bool found = false;
+  for (auto const drives : {DriveInertias::included, DriveInertias::left_out}) {
+    BaseParameters const base(chain, drives);
+    bool const same = std::equal(names.begin(), names.end(), base.parameters().begin(), base.parameters().end(),
+                                 [](auto const& name, auto const& parameter) { return name == parameter.name; });
+    if (!same || found) continue;
+    arm.drives = drives;
+    found = true;
+  }
+  expect(found && arm.information.rows() >= static_cast<Index>(names.size()), reader,
+         "has other base parameters than its arm");
+  auto const file = reader.find_attribute<std::string>("/robot", "file");
+  arm.chain = with_limits(chain, file.value_or(""));
+  return arm;
+}
+
+std::vector<ExportFormat> export_formats() {
+  std::vector<ExportFormat> formats;
+  for (auto const& writer : robot_writers()) formats.push_back({writer.name, writer.meaning});
+  return formats;
+}
+
+ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
+                     std::string const& format) {
+  BaseParameters const base(arm.chain, arm.drives);
+  Index const p = base.size();
+  validate(values.size() == arm.information.rows() && names.size() == static_cast<std::size_t>(values.size()), [] {
+    return Problem{.code = ExitCode::bad_data, .what = "the parameters of this result do not fit its arm", .help = ""};
+  });
+  // costs no more than can be seen, and keeps masses finite that no torque limits
+  InertiaPrior prior;
+  prior.weight = visible_gap;
+  auto const found = consistent_parameters(arm.chain, base, {values.head(p), base_root(arm.information, p)}, prior);
+  SerialChain chain = arm.chain;
+  chain.links.clear();
+  for (Index i = 0; i < chain.size(); ++i) {
+    chain.links.push_back(LinkInertia::from_vector(found.standard.segment<numbers_per_link>(numbers_per_link * i)));
+    if (arm.drives == DriveInertias::included)
+      chain.joints[static_cast<std::size_t>(i)].drive_inertia = found.standard[numbers_per_link * chain.size() + i];
+  }
+  ArmExport out;
+  out.distance = found.distance;
+  out.notes.push_back(
+      fmt::format("Identified by Torquescope: the bodies closest to {} base parameters, {:.3g} standard errors away.",
+                  p, found.distance));
+  for (auto const& words : words_of(base)) out.notes.push_back(words);
+  std::vector<std::string> beside;
+  for (Index k = p; k < values.size(); ++k)
+    beside.push_back(fmt::format("{} = {:.6g}", names[static_cast<std::size_t>(k)], values[k]));
+  if (!beside.empty()) out.notes.push_back("Beside the links: " + listed(beside) + ".");
+  for (auto const& writer : robot_writers())
+    if (writer.name == format) out.text = writer.write(chain, out.notes);
+  return out;
+}
+
+}  // namespace torquescope

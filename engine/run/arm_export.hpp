@@ -1,0 +1,40 @@
+#pragma once
+// An identified arm as a robot file: the bodies closest to its base parameters, and a word on which numbers are known.
+//
+// Reads      /robot and /arm of a result (RESULT_FORMAT.md)
+// Errors     Error 65 when the result is of no arm, or its tables do not fit each other; those of ResultReader
+// Threads    as ResultReader
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/robot/base_parameters.hpp"
+#include "engine/store/result_reader.hpp"
+
+namespace torquescope {
+
+struct IdentifiedArm {
+  SerialChain chain{};  // limits and gears from the robot file, where it is still the same arm
+  DriveInertias drives = DriveInertias::included;
+  Eigen::MatrixXd information{};  // of all parameters: inverse of their covariance
+};
+
+IdentifiedArm read_identified_arm(ResultReader const& reader);
+
+struct ExportFormat {
+  std::string name, meaning;  // "urdf"
+};
+std::vector<ExportFormat> export_formats();
+
+struct ArmExport {
+  std::string text;                // the file
+  std::vector<std::string> notes;  // what it says of its numbers, as in the file
+  double distance = 0.0;           // standard errors that consistency cost
+};
+
+// names, values: of all parameters of the result, base parameters first
+ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
+                     std::string const& format);
+
+}  // namespace torquescope
