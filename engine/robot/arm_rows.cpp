@@ -1,0 +1,99 @@
+#include "engine/robot/arm_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/contract.hpp"
+#include "kernels/aligned_doubles.hpp"
+
+namespace torquescope {
+
+namespace {
+
+using Eigen::Index;
+
+std::size_t place(Index i) { return static_cast<std::size_t>(i); }
+
+kernels::ArmPlan plan_of(SerialChain const& chain, BaseParameters const& base,
+                         std::span<FrictionColumns const> friction) {
+  TORQUESCOPE_EXPECT(friction.size() == chain.joints.size());
+  std::vector<kernels::ArmJoint> joints(chain.joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    auto const& from = chain.joints[j];
+    auto const motion = from.kind == JointKind::revolute ? kernels::JointMotion::turns : kernels::JointMotion::slides;
+    int own = 0;
+    if (friction[j].viscous) own |= kernels::own_speed;
+    if (friction[j].coulomb) own |= kernels::own_direction;
+    if (friction[j].offset) own |= kernels::own_one;
+    joints[j] = {from.a, from.d, std::cos(from.alpha),          std::sin(from.alpha), from.offset,
+                 motion, 0,      static_cast<std::uint8_t>(own)};
+  }
+  Index const n_links = numbers_per_link * chain.size();
+  for (Index const column : base.columns()) {
+    if (column < n_links)
+      joints[place(column / numbers_per_link)].link_columns |=
+          static_cast<std::uint16_t>(1U << (column % numbers_per_link));
+    else
+      joints[place(column - n_links)].own_columns |= kernels::own_acceleration;
+  }
+  return {std::move(joints), {chain.gravity.x(), chain.gravity.y(), chain.gravity.z()}};
+}
+
+std::vector<ArmColumn> columns_of(BaseParameters const& base, Index joint, FrictionColumns const& friction) {
+  std::vector<ArmColumn> columns;
+  for (Index k = 0; k < base.size(); ++k) {
+    auto const& parameter = base.parameters()[place(k)];
+    if (parameter.first_row <= joint && joint <= parameter.last_row) columns.push_back({parameter.name, k});
+  }
+  std::string const number = std::to_string(joint + 1);
+  auto const append = [&](bool wanted, char const* name) {
+    if (wanted) columns.push_back({name + number, ArmColumn::of_the_joint});
+  };
+  append(friction.viscous, "viscous_");
+  append(friction.coulomb, "coulomb_");
+  append(friction.offset, "offset_");
+  return columns;
+}
+
+}  // namespace
+
+ArmRows::ArmRows(SerialChain const& chain, BaseParameters const& base, std::span<FrictionColumns const> friction)
+    : plan_(plan_of(chain, base, friction)) {
+  for (Index joint = 0; joint < chain.size(); ++joint) {
+    columns_.push_back(columns_of(base, joint, friction[place(joint)]));
+    TORQUESCOPE_ENSURE(columns_.back().size() + 1 == plan_.row_width(place(joint)));
+  }
+}
+
+Eigen::MatrixXd ArmRows::rows(std::span<JointSamples const> samples, Index joint) const {
+  TORQUESCOPE_EXPECT(place(joints()) == samples.size() && joint >= 0 && joint < joints());
+  auto const signals = signals_of(samples);
+  std::size_t const n = samples.front().q.size(), width = plan_.row_width(place(joint));
+  kernels::AlignedDoubles block(plan_.rows_before(plan_.size()));
+  kernels::AlignedDoubles workspace(kernels::arm_rows_workspace_size(plan_));
+  Eigen::MatrixXd rows(static_cast<Index>(n), static_cast<Index>(width));
+  for (std::size_t first = 0; first < n; first += kernels::row_block_samples) {
+    std::size_t const count = std::min(kernels::row_block_samples, n - first);
+    kernels::arm_rows(plan_, signals.data(), first, count, block.data(), workspace.data());
+    double const* const from = block.data() + plan_.rows_before(place(joint));
+    for (std::size_t t = 0; t < count; ++t)
+      for (std::size_t c = 0; c < width; ++c)
+        rows(static_cast<Index>(first + t), static_cast<Index>(c)) =
+            from[(t / kernels::n_lanes * width + c) * kernels::n_lanes + t % kernels::n_lanes];
+  }
+  return rows;
+}
+
+std::vector<kernels::JointSignals> signals_of(std::span<JointSamples const> samples) {
+  std::vector<kernels::JointSignals> signals;
+  for (auto const& joint : samples) {
+    std::size_t const n = samples.front().q.size();
+    TORQUESCOPE_EXPECT(joint.q.size() == n && joint.dq.size() == n && joint.ddq.size() == n && joint.tau.size() == n);
+    TORQUESCOPE_EXPECT(joint.root_weight.empty() || joint.root_weight.size() == n);
+    signals.push_back({joint.q.data(), joint.dq.data(), joint.ddq.data(), joint.tau.data(),
+                       joint.root_weight.empty() ? nullptr : joint.root_weight.data()});
+  }
+  return signals;
+}
+
+}  // namespace torquescope
