@@ -48,14 +48,14 @@ class ArmPlan {
   // columns that stand of the links before `link`, which may be size()
   std::size_t columns_before(std::size_t link) const { return columns_before_[link]; }
   // numbers in a row of `joint`: its columns and the torque
-  std::size_t row_width(std::size_t joint) const;
+  std::size_t row_width(std::size_t joint) const { return row_width_[joint]; }
   // doubles of a block before the rows of `joint`, which may be size(): the doubles of a block
   std::size_t rows_before(std::size_t joint) const { return rows_before_[joint]; }
 
  private:
   std::vector<ArmJoint> joints_;
   std::array<double, 3> gravity_;
-  std::vector<std::size_t> columns_before_, rows_before_;
+  std::vector<std::size_t> columns_before_, row_width_, rows_before_;
 };
 
 // of one joint; finite numbers, also where the weight is 0; |angle| as in cosine_sine_of_multiple()
@@ -73,6 +73,10 @@ std::size_t arm_rows_workspace_size(ArmPlan const& plan);
 // Writes rows_before(size()) doubles at most: groups of 8 that hold no sample are left as they are
 void arm_rows(ArmPlan const& plan, JointSignals const* signals, std::size_t first, std::size_t count, double* rows,
               double* workspace);
+
+// asks for samples first .. first + count: many short streams, which the hardware does not foresee. Ask joint by joint
+// between other work: more than some 60 lines at once wait for each other
+void prefetch_samples(JointSignals const& signals, std::size_t first, std::size_t count);
 
 // groups of 8 samples
 constexpr std::size_t group_count(std::size_t n_samples) { return (n_samples + n_lanes - 1) / n_lanes; }

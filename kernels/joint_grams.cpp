@@ -112,11 +112,12 @@ void sum_block(ArmPlan const& plan, JointSignals const* signals, std::size_t fir
   std::size_t const n_pairs = pairs_before(plan, plan.size());
   std::fill_n(lanes, n_pairs * n_lanes, 0.0);
   for (std::size_t begin = 0; begin < count; begin += row_block_samples) {
-    std::size_t const samples = std::min(row_block_samples, count - begin);
+    std::size_t const samples = std::min(row_block_samples, count - begin), next = begin + samples;
     arm_rows(plan, signals, first + begin, samples, rows, workspace);
     double* of_joint = lanes;
     for (std::size_t j = 0; j < plan.size(); ++j) {
       std::size_t const width = plan.row_width(j);
+      prefetch_samples(signals[j], first + next, std::min(row_block_samples, count - next));
       add_products(rows + plan.rows_before(j), width, group_count(samples), of_joint);
       of_joint += pairs_of(width) * n_lanes;
     }

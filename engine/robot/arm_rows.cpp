@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/base/contract.hpp"
 #include "kernels/aligned_doubles.hpp"
@@ -14,6 +15,17 @@ using Eigen::Index;
 
 std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
+struct CosineSine {
+  double cosine, sine;
+};
+
+// of a multiple of a right angle without the rounding that cos(pi / 2) has: kernels leave out products with 0
+CosineSine cosine_sine(double angle) {
+  double const quarters = angle / (std::numbers::pi / 2.0), cosine = std::cos(angle), sine = std::sin(angle);
+  if (quarters != std::round(quarters)) return {cosine, sine};
+  return {std::round(cosine), std::round(sine)};
+}
+
 kernels::ArmPlan plan_of(SerialChain const& chain, BaseParameters const& base,
                          std::span<FrictionColumns const> friction) {
   TORQUESCOPE_EXPECT(friction.size() == chain.joints.size());
@@ -25,8 +37,8 @@ kernels::ArmPlan plan_of(SerialChain const& chain, BaseParameters const& base,
     if (friction[j].viscous) own |= kernels::own_speed;
     if (friction[j].coulomb) own |= kernels::own_direction;
     if (friction[j].offset) own |= kernels::own_one;
-    joints[j] = {from.a, from.d, std::cos(from.alpha),          std::sin(from.alpha), from.offset,
-                 motion, 0,      static_cast<std::uint8_t>(own)};
+    auto const twist = cosine_sine(from.alpha);
+    joints[j] = {from.a, from.d, twist.cosine, twist.sine, from.offset, motion, 0, static_cast<std::uint8_t>(own)};
   }
   Index const n_links = numbers_per_link * chain.size();
   for (Index const column : base.columns()) {
