@@ -8,11 +8,11 @@
 namespace torquescope {
 namespace {
 
-std::vector<JointRows> const& chosen(ArmRows const& rows, ArmRowChoice choice) {
+std::vector<JointRows> const& chosen(RecordedRows const& rows, ArmRowChoice choice) {
   return choice == ArmRowChoice::moving ? rows.moving : rows.others;
 }
 
-Eigen::Index count_rows(std::span<ArmRows const> recordings, ArmRowChoice choice) {
+Eigen::Index count_rows(std::span<RecordedRows const> recordings, ArmRowChoice choice) {
   Eigen::Index n = 0;
   for (auto const& recording : recordings)
     for (auto const& joint : chosen(recording, choice)) n += joint.torque.size();
@@ -21,7 +21,7 @@ Eigen::Index count_rows(std::span<ArmRows const> recordings, ArmRowChoice choice
 
 }  // namespace
 
-RegressionData stack_rows(std::span<ArmRows const> recordings, ArmRowChoice choice, ArmModel const& model,
+RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice choice, ArmModel const& model,
                           Eigen::VectorXd const& scale, Section const& filter) {
   TORQUESCOPE_EXPECT(!recordings.empty() && static_cast<std::size_t>(scale.size()) == model.joints());
   RegressionData data;

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/problem/arm_rows.hpp"
+#include "engine/problem/recorded_rows.hpp"
 #include "engine/problem/regression_data.hpp"
 
 namespace torquescope {
@@ -21,7 +21,7 @@ namespace torquescope {
 enum class ArmRowChoice { moving, others };
 
 // scale: [N] of each joint
-RegressionData stack_rows(std::span<ArmRows const> recordings, ArmRowChoice choice, ArmModel const& model,
+RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice choice, ArmModel const& model,
                           Eigen::VectorXd const& scale, Section const& filter);
 
 // [n] of an arm's rows: with these weights every N m counts alike

@@ -13,7 +13,7 @@
 #include "engine/health/make_arm_recording.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
-#include "engine/problem/arm_rows.hpp"
+#include "engine/problem/recorded_rows.hpp"
 #include "engine/robot/robot_registry.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/recordings_of_job.hpp"
@@ -111,7 +111,7 @@ void choose_filter(Experiment::Parts& parts, Files const& train, Files const& un
 }
 
 // one recording of the arm: its rows, and into `set` what is to be said about it
-ArmRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, DataSet& set) {
+RecordedRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, DataSet& set) {
   Section const filter = section_or_empty(parts.job, "filter");
   auto const& model = parts.arm->model;
   auto const names = model.joint_names();
@@ -135,18 +135,18 @@ ArmRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, DataS
     set.excitation.push_back(facts);
     moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
   }
-  auto rows = make_arm_rows(whole.name, motion, moves, parts.filter, model, filter);
+  auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter);
   set.recordings.push_back(std::move(whole));
   return rows;
 }
 
-std::vector<ArmRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set) {
-  std::vector<ArmRows> rows;
+std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set) {
+  std::vector<RecordedRows> rows;
   for (auto& joints : files) rows.push_back(prepare_recording(std::move(joints), parts, set));
   return rows;
 }
 
-void stack(std::vector<ArmRows> const& rows, Experiment::Parts const& parts, DataSet& set) {
+void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts, DataSet& set) {
   Section const filter = section_or_empty(parts.job, "filter");
   auto const of = [&](ArmRowChoice choice) {
     return stack_rows(rows, choice, parts.arm->model, parts.arm->noise.deviation, filter);
@@ -192,7 +192,7 @@ void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options) {
   choose_filter(parts, train, unseen);
 
   auto const rows = prepare_files(std::move(train), parts, parts.train);
-  parts.arm->grams = joint_grams(rows, parts.arm->model);
+  parts.arm->grams = filtered_grams(rows, parts.arm->model);
   parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
   stack(rows, parts, parts.train);
   if (unseen.empty()) return;

@@ -19,8 +19,8 @@
 #include "engine/job/job_options.hpp"
 #include "engine/optim/objective.hpp"
 #include "engine/problem/arm_model.hpp"
+#include "engine/problem/filtered_grams.hpp"
 #include "engine/problem/fitness_choice.hpp"
-#include "engine/problem/joint_grams.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/single_precision.hpp"
@@ -46,10 +46,10 @@ struct DataSet {
 // what a job's arm is, beside its recordings
 struct ArmParts {
   ArmModel model;
-  std::string robot_file;          // as the job names it
-  std::string sha256;              // of the chain that was read from it
-  std::vector<JointGram> grams{};  // of the training rows
-  NoiseLevels noise{};             // of the joints
+  std::string robot_file;             // as the job names it
+  std::string sha256;                 // of the chain that was read from it
+  std::vector<FilteredGram> grams{};  // of the training rows
+  NoiseLevels noise{};                // of the joints
 };
 
 struct Experiment::Parts {

@@ -4,7 +4,7 @@
 //            rows
 // Why        a noisy recording would otherwise decide the fit; with one recording there is nothing to weigh and WLS is
 //            OLS
-// Arms       each joint counts by the inverse of its noise variance, found by turns (joint_grams.hpp): its rows were
+// Arms       each joint counts by the inverse of its noise variance, found by turns (filtered_grams.hpp): its rows were
 //            divided by its noise already, and all of them count alike
 // Source     Gautier 1997 (weights from the errors of a first OLS fit); Aitken 1935
 

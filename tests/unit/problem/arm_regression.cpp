@@ -11,7 +11,7 @@
 #include "engine/base/random_stream.hpp"
 #include "engine/problem/arm_accuracy.hpp"
 #include "engine/problem/estimator.hpp"
-#include "engine/problem/joint_grams.hpp"
+#include "engine/problem/filtered_grams.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "engine/robot/robot_registry.hpp"
 #include "support/decompositions.hpp"
@@ -91,12 +91,12 @@ std::vector<std::vector<bool>> all_move(std::vector<Motion> const& motion) {
   return {motion.size(), std::vector<bool>(static_cast<std::size_t>(motion.front().q.size()), true)};
 }
 
-ArmRows rows_of(ArmModel const& model, std::vector<Motion> const& motion) {
-  return make_arm_rows("x.csv", motion, all_move(motion), {.edge_s = 0.0}, model, Section{"filter", {}, {}});
+RecordedRows rows_of(ArmModel const& model, std::vector<Motion> const& motion) {
+  return make_recorded_rows("x.csv", motion, all_move(motion), {.edge_s = 0.0}, model, Section{"filter", {}, {}});
 }
 
-std::vector<ArmRows> noisy_recordings(ArmModel const& model) {
-  std::vector<ArmRows> recordings;
+std::vector<RecordedRows> noisy_recordings(ArmModel const& model) {
+  std::vector<RecordedRows> recordings;
   for (std::uint32_t draw : {1u, 2u}) {
     auto motion = motion_of(model.joints(), 900, draw);
     add_torque(model, motion);
@@ -106,7 +106,8 @@ std::vector<ArmRows> noisy_recordings(ArmModel const& model) {
   return recordings;
 }
 
-RegressionData stacked(std::vector<ArmRows> const& recordings, ArmModel const& model, Eigen::VectorXd const& scale) {
+RegressionData stacked(std::vector<RecordedRows> const& recordings, ArmModel const& model,
+                       Eigen::VectorXd const& scale) {
   return stack_rows(recordings, ArmRowChoice::moving, model, scale, Section{"filter", {}, {}});
 }
 
@@ -120,7 +121,7 @@ struct Dense {
   Eigen::MatrixXd columns;
   Eigen::VectorXd torque;
 };
-Dense dense(std::vector<ArmRows> const& recordings, ArmModel const& model, Eigen::VectorXd const& scale) {
+Dense dense(std::vector<RecordedRows> const& recordings, ArmModel const& model, Eigen::VectorXd const& scale) {
   Dense all;
   for (auto const& recording : recordings)
     for (std::size_t j = 0; j < model.joints(); ++j) {
@@ -152,7 +153,7 @@ TEST(ArmRegression, FindsTheParametersOfNoiseFreeTorques) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
   add_torque(model, motion);
-  std::vector<ArmRows> const recordings{rows_of(model, motion)};
+  std::vector<RecordedRows> const recordings{rows_of(model, motion)};
   Eigen::VectorXd const found = estimate("wls", stacked(recordings, model, Eigen::VectorXd::Ones(5)));
   Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
   for (Eigen::Index k = 0; k < base.size(); ++k)
@@ -180,10 +181,10 @@ TEST(ArmRegression, IsStackedLeastSquaresOfWeightedRows) {
   EXPECT_GT((expected - unweighted).norm(), 1e-4);
 }
 
-TEST(JointGrams, GiveResidualsAndNoiseLevels) {
+TEST(FilteredGrams, GiveResidualsAndNoiseLevels) {
   auto const model = crs();
   auto const recordings = noisy_recordings(model);
-  auto const grams = joint_grams(recordings, model);
+  auto const grams = filtered_grams(recordings, model);
   auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
   EXPECT_TRUE(levels.converged);
   for (std::size_t j = 0; j < 5; ++j)
@@ -201,26 +202,26 @@ TEST(JointGrams, GiveResidualsAndNoiseLevels) {
   }
 }
 
-TEST(JointGrams, WithoutNoiseNoJointOutweighsTheOthersBeyondBounds) {
+TEST(FilteredGrams, WithoutNoiseNoJointOutweighsTheOthersBeyondBounds) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
   add_torque(model, motion);
-  std::vector<ArmRows> const recordings{rows_of(model, motion)};
-  auto const grams = joint_grams(recordings, model);
+  std::vector<RecordedRows> const recordings{rows_of(model, motion)};
+  auto const grams = filtered_grams(recordings, model);
   auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
   for (std::size_t j = 0; j < 5; ++j)
     EXPECT_GE(levels.deviation[static_cast<Eigen::Index>(j)],
               0.99e-6 * std::sqrt(grams[j].torque_energy() / static_cast<double>(grams[j].rows)));
 }
 
-TEST(ArmRows, NearReversalsAreCountedAndNotFitted) {
+TEST(RecordedRows, NearReversalsAreCountedAndNotFitted) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
   add_torque(model, motion);
   auto moves = all_move(motion);
   for (std::size_t i = 100; i < 200; ++i) moves[2][i] = false;
   motion[0].left_out = {{0.0, 0.5}};
-  auto const rows = make_arm_rows("x.csv", motion, moves, {.edge_s = 0.0}, model, Section{"filter", {}, {}});
+  auto const rows = make_recorded_rows("x.csv", motion, moves, {.edge_s = 0.0}, model, Section{"filter", {}, {}});
   EXPECT_EQ(rows.others[2].torque.size(), 100);
   EXPECT_EQ(rows.others[2].instant.front(), 100);
   // what one joint leaves out nobody fits: its motion is in every row

@@ -22,7 +22,7 @@ struct JointRows {
   std::vector<Eigen::Index> instant;
 };
 
-struct ArmRows {
+struct RecordedRows {
   std::string recording;
   double rate_hz = 0.0, kept_rate_hz = 0.0;
   Eigen::Index instants = 0;              // kept samples
@@ -30,8 +30,8 @@ struct ArmRows {
 };
 
 // motion: one a joint; moves: [N][n], true where the joint surely moves one way
-ArmRows make_arm_rows(std::string recording, std::vector<Motion> const& motion,
-                      std::vector<std::vector<bool>> const& moves, FilterOptions const& options, ArmModel const& model,
-                      Section const& filter);
+RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const& motion,
+                                std::vector<std::vector<bool>> const& moves, FilterOptions const& options,
+                                ArmModel const& model, Section const& filter);
 
 }  // namespace torquescope

@@ -1,4 +1,4 @@
-#include "engine/problem/joint_grams.hpp"
+#include "engine/problem/filtered_grams.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -16,7 +16,7 @@ void add_rows(JointRows const& rows, Eigen::MatrixXd& gram) {
 }
 
 // argmin of the pooled squares, each joint's divided by its variance; nothing where they cannot tell
-std::optional<Eigen::VectorXd> pooled_solution(std::vector<JointGram> const& grams, Eigen::Index n_parameters,
+std::optional<Eigen::VectorXd> pooled_solution(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters,
                                                Eigen::VectorXd const& variance) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n_parameters, n_parameters);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n_parameters);
@@ -40,17 +40,17 @@ std::optional<Eigen::VectorXd> pooled_solution(std::vector<JointGram> const& gra
 
 }  // namespace
 
-double JointGram::residual_energy(Eigen::Ref<Eigen::VectorXd const> const& all_parameters) const {
+double FilteredGram::residual_energy(Eigen::Ref<Eigen::VectorXd const> const& all_parameters) const {
   Eigen::VectorXd x(gram.rows());
   for (std::size_t c = 0; c < parameters.size(); ++c) x[static_cast<Eigen::Index>(c)] = -all_parameters[parameters[c]];
   x[gram.rows() - 1] = 1.0;
   return x.dot(gram * x);
 }
 
-std::vector<JointGram> joint_grams(std::span<ArmRows const> recordings, ArmModel const& model) {
-  std::vector<JointGram> grams;
+std::vector<FilteredGram> filtered_grams(std::span<RecordedRows const> recordings, ArmModel const& model) {
+  std::vector<FilteredGram> grams;
   for (std::size_t j = 0; j < model.joints(); ++j) {
-    JointGram one;
+    FilteredGram one;
     one.parameters = model.parameters_of(j);
     auto const size = static_cast<Eigen::Index>(one.parameters.size()) + 1;
     one.gram.setZero(size, size);
@@ -64,7 +64,7 @@ std::vector<JointGram> joint_grams(std::span<ArmRows const> recordings, ArmModel
   return grams;
 }
 
-NoiseLevels noise_levels(std::vector<JointGram> const& grams, Eigen::Index n_parameters) {
+NoiseLevels noise_levels(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters) {
   constexpr double least_share = 1e-6, settled = 1e-6;
   constexpr int most_iterations = 100;
   auto const joints = static_cast<Eigen::Index>(grams.size());

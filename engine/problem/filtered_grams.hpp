@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/problem/arm_rows.hpp"
+#include "engine/problem/recorded_rows.hpp"
 
 namespace torquescope {
 
-struct JointGram {
+struct FilteredGram {
   std::vector<Eigen::Index> parameters;  // whose columns these are, ascending
   Eigen::MatrixXd gram;
   Eigen::Index rows = 0;
@@ -26,7 +26,7 @@ struct JointGram {
 };
 
 // over the moving rows of all recordings
-std::vector<JointGram> joint_grams(std::span<ArmRows const> recordings, ArmModel const& model);
+std::vector<FilteredGram> filtered_grams(std::span<RecordedRows const> recordings, ArmModel const& model);
 
 // Standard deviation of each joint's residual where weights are 1 / its square: fit and weights by turns (weights from
 // the errors of a fit: Gautier 1997, as estimators/wls.cpp). Each at least 1e-6 of the root mean square of the joint's
@@ -37,6 +37,6 @@ struct NoiseLevels {
   int iterations = 0;
   bool converged = false;
 };
-NoiseLevels noise_levels(std::vector<JointGram> const& grams, Eigen::Index n_parameters);
+NoiseLevels noise_levels(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters);
 
 }  // namespace torquescope

@@ -1,4 +1,4 @@
-#include "engine/problem/arm_rows.hpp"
+#include "engine/problem/recorded_rows.hpp"
 
 #include <utility>
 
@@ -37,13 +37,13 @@ JointRows picked_rows(JointRows const& all, std::vector<Eigen::Index> const& row
 
 }  // namespace
 
-ArmRows make_arm_rows(std::string recording, std::vector<Motion> const& motion,
-                      std::vector<std::vector<bool>> const& moves, FilterOptions const& options, ArmModel const& model,
-                      Section const& section) {
+RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const& motion,
+                                std::vector<std::vector<bool>> const& moves, FilterOptions const& options,
+                                ArmModel const& model, Section const& section) {
   TORQUESCOPE_EXPECT(moves.size() == motion.size() && motion.size() == model.joints());
   auto const& first = motion.front();
   ParallelFilter const filter(options, first.rate_hz, first.q.size(), section);
-  ArmRows rows;
+  RecordedRows rows;
   rows.recording = std::move(recording);
   rows.rate_hz = first.rate_hz;
   rows.kept_rate_hz = filter.kept_rate_hz();
