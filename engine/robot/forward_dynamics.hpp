@@ -7,7 +7,7 @@
 // Requires   M(q) positive definite, which is_positive_definite() tells. Single links need not be bodies: massless
 //            links with first moments, as base parameters have them, give the same accelerations
 // Threads    pure functions
-// Source     Walker and Orin 1982, doi:10.1115/1.3139699, method 1
+// Source     Walker and Orin 1982, doi:10.1115/1.3139699, method 3: arm_equation.hpp
 
 #include <Eigen/Core>
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/robot/link_motion.hpp"
 #include "engine/robot/vector3.hpp"
 
 namespace torquescope {
@@ -12,53 +13,13 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-Vector3d const joint_axis{0.0, 0.0, 1.0};
-
-// of one link, in its own frame; gravity is an acceleration of the base, upwards
-struct LinkMotion {
-  FramePose pose{};                          // seen from the link before
-  Vector3d omega = Vector3d::Zero();         // rad/s
-  Vector3d alpha = Vector3d::Zero();         // rad/s^2
-  Vector3d acceleration = Vector3d::Zero();  // m/s^2, of the origin
-};
-
 std::vector<LinkMotion> outward(SerialChain const& chain, JointVector const& q, JointVector const& dq,
                                 JointVector const& ddq) {
   TORQUESCOPE_EXPECT(q.size() == chain.size() && dq.size() == chain.size() && ddq.size() == chain.size());
   std::vector<LinkMotion> links(chain.joints.size());
-  LinkMotion before;
-  before.acceleration = -chain.gravity;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    auto const& joint = chain.joints[i];
-    auto& link = links[i];
-    double const speed = dq[static_cast<Index>(i)], push = ddq[static_cast<Index>(i)];
-    link.pose = joint_pose(joint, q[static_cast<Index>(i)]);
-    Eigen::Matrix3d const into = link.pose.rotation.transpose();
-    Vector3d const& p = link.pose.position;
-    link.omega = into * before.omega;
-    link.alpha = into * before.alpha;
-    link.acceleration =
-        into * (before.acceleration + cross(before.alpha, p) + cross(before.omega, cross(before.omega, p)));
-    if (joint.kind == JointKind::revolute) {
-      link.alpha += cross(link.omega, speed * joint_axis) + push * joint_axis;
-      link.omega += speed * joint_axis;
-    } else {
-      link.acceleration += 2.0 * cross(link.omega, speed * joint_axis) + push * joint_axis;
-    }
-    before = link;
-  }
+  for (std::size_t i = 0; i < links.size(); ++i) links[i].pose = joint_pose(chain.joints[i], q[static_cast<Index>(i)]);
+  move_outward(chain, dq, ddq, links);
   return links;
-}
-
-struct Wrench {
-  Vector3d force, moment;  // on the link, at its origin
-};
-
-Wrench needed_wrench(LinkMotion const& at, LinkInertia const& link) {
-  Vector3d const& h = link.first_moment;
-  Vector3d const& w = at.omega;
-  return {link.mass * at.acceleration + cross(at.alpha, h) + cross(w, cross(w, h)),
-          link.inertia * at.alpha + cross(w, link.inertia * w) + cross(h, at.acceleration)};
 }
 
 // inertia * w = inertia_columns(w) * (xx, xy, xz, yy, yz, zz)
@@ -103,13 +64,9 @@ Eigen::VectorXd inverse_dynamics(SerialChain const& chain, JointVector const& pa
   for (Index i = n - 1; i >= 0; --i) {
     auto const at = static_cast<std::size_t>(i);
     LinkVector const numbers = parameters.segment<numbers_per_link>(numbers_per_link * i);
-    Wrench wrench = needed_wrench(motion[at], LinkInertia::from_vector(numbers));
-    wrench.force += carried.force;
-    wrench.moment += carried.moment;
-    tau[i] = chain.joints[at].kind == JointKind::revolute ? wrench.moment.z() : wrench.force.z();
-    auto const& pose = motion[at].pose;
-    carried.force = pose.rotation * wrench.force;
-    carried.moment = pose.rotation * wrench.moment + cross(pose.position, carried.force);
+    Wrench const wrench = needed_wrench(motion[at], LinkInertia::from_vector(numbers)) + carried;
+    tau[i] = wrench.along(chain.joints[at].kind);
+    carried = wrench.seen_from(motion[at].pose);
   }
   if (parameters.size() > n_links) tau += parameters.tail(n).cwiseProduct(ddq);
   return tau;

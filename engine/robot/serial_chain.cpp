@@ -9,12 +9,17 @@ namespace torquescope {
 FramePose joint_pose(ChainJoint const& joint, double q) {
   bool const turns = joint.kind == JointKind::revolute;
   double const theta = joint.offset + (turns ? q : 0.0), d = joint.d + (turns ? 0.0 : q);
-  double const ct = std::cos(theta), st = std::sin(theta), ca = std::cos(joint.alpha), sa = std::sin(joint.alpha);
+  return dh_pose({std::cos(joint.alpha), std::sin(joint.alpha)}, {std::cos(theta), std::sin(theta)}, joint.a, d);
+}
+
+FramePose dh_pose(CosineSine alpha, CosineSine theta, double a, double d) {
+  auto const [ca, sa] = alpha;
+  auto const [ct, st] = theta;
   FramePose pose;
   pose.rotation << ct, -st, 0.0,  //
       ca * st, ca * ct, -sa,      //
       sa * st, sa * ct, ca;
-  pose.position << joint.a, -sa * d, ca * d;
+  pose.position << a, -sa * d, ca * d;
   return pose;
 }
 

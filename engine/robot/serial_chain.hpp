@@ -53,6 +53,12 @@ struct SerialChain {
 // frame i seen from frame i - 1 with joint i at q
 FramePose joint_pose(ChainJoint const& joint, double q);
 
+struct CosineSine {
+  double cosine, sine;
+};
+// the same from numbers at hand
+FramePose dh_pose(CosineSine alpha, CosineSine theta, double a, double d);
+
 // whether joint-side rotor inertias are parameters of their own: N more columns behind the 10 N of the links
 enum class DriveInertias { left_out, included };
 
