@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/simulate/joint_loop.hpp"
+
 namespace torquescope {
 
 namespace {
@@ -22,20 +24,19 @@ void validate_loop(SimulationPlan const& plan, JointState const& state, Referenc
   });
 }
 
-// what is written down at a sample
+}  // namespace
+
 void record_sample(SimulatedRecording& recording, Eigen::Index i, JointState const& state, ReferencePoint const& wanted,
-                   double measured_position, double logged_torque, double motor_torque, double acceleration) {
+                   double measured_position, double logged_torque, double acting_torque) {
   recording.time_s[i] = state.time_s;
   recording.reference[i] = wanted.q;
   recording.position[i] = measured_position;
   recording.torque[i] = logged_torque;
   recording.true_position[i] = state.q;
   recording.true_velocity[i] = state.dq;
-  recording.true_acceleration[i] = acceleration;
-  recording.true_torque[i] = motor_torque;
+  recording.true_acceleration[i] = state.ddq;
+  recording.true_torque[i] = acting_torque;
 }
-
-}  // namespace
 
 void record_closed_loop(SimulationPlan const& plan, Reference const& reference, RandomKey const& key,
                         SimulatedRecording& recording) {
@@ -51,42 +52,31 @@ void record_closed_loop(SimulationPlan const& plan, Reference const& reference, 
     channel->resize(samples);
 
   // the loop's parts
-  NoiseOptions const& noise = plan.noise;
   JointPlant const plant(plan.plant);
-  Encoder const encoder(plan.encoder);
   ReferencePoint const start = reference.at(0.0);
   JointState state{0.0, start.q, start.dq, 0.0};
-  Controller controller(plan.controller, rate_hz, plant.inertia(state), start);
-  ColouredNoise position_noise(key, NoiseStream::position, noise.position_std, 0.0, rate_hz);
-  ColouredNoise disturbance(key, NoiseStream::disturbance, noise.disturbance_std, noise.disturbance_s, rate_hz);
-  ColouredNoise white(key, NoiseStream::torque_white, noise.torque_std, 0.0, recording.rate_hz);
-  ColouredNoise coloured(key, NoiseStream::torque_coloured, noise.torque_coloured_std, noise.torque_coloured_s,
-                         recording.rate_hz);
-  recording.gains = controller.gains();
+  double const inertia = plant.inertia(state);
+  JointLoop loop({plan.controller, plan.encoder, plan.noise, rate_hz, recording.rate_hz}, key, inertia, start);
+  recording.gains = loop.gains();
   recording.controller_rate_hz = rate_hz;
 
-  bool const averaged = plan.controller.torque_log == "averaged";
-  double torque_before = 0.0;
   for (Eigen::Index tick = 0; tick < samples * ticks_per_sample; ++tick) {
     // measure and answer
     state.time_s = static_cast<double>(tick) / rate_hz;
     ReferencePoint const wanted = reference.at(state.time_s);
     validate_loop(plan, state, wanted);
-    double const measured = encoder.read(state.q + position_noise.next());
-    double const torque = controller.command(wanted, measured);
-    double const acting = torque + disturbance.next();
+    LoopTick const now = loop.tick(wanted, state.q, inertia * wanted.ddq);
 
     if (tick % ticks_per_sample == 0) {
-      double const logged = averaged && tick > 0 ? 0.5 * (torque_before + torque) : torque;
-      record_sample(recording, tick / ticks_per_sample, state, wanted, measured,
-                    logged + white.next() + coloured.next(), acting, plant.acceleration(state, acting));
-      double const limit = plan.controller.torque_limit;
-      recording.saturated_samples += limit > 0.0 && std::abs(torque) >= limit;
+      JointState moving = state;
+      moving.ddq = plant.acceleration(state, now.acting);
+      record_sample(recording, tick / ticks_per_sample, moving, wanted, now.measured, loop.logged(now), now.acting);
+      recording.saturated_samples += loop.is_saturated(now);
     }
-    torque_before = torque;
+    loop.pass(now);
 
     // move on to the next tick
-    for (double k = 0.0; k < substeps; ++k) state = plant.advance(state, acting, step_s);
+    for (double k = 0.0; k < substeps; ++k) state = plant.advance(state, now.acting, step_s);
   }
 }
 

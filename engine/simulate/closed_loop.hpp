@@ -12,6 +12,10 @@
 
 namespace torquescope {
 
+// what is written down at a sample; its vectors are long enough
+void record_sample(SimulatedRecording& recording, Eigen::Index i, JointState const& state, ReferencePoint const& wanted,
+                   double measured_position, double logged_torque, double acting_torque);
+
 void record_closed_loop(SimulationPlan const& plan, Reference const& reference, RandomKey const& key,
                         SimulatedRecording& recording);
 

@@ -148,9 +148,9 @@ double Controller::limited(double torque) const {
   return std::clamp(torque, -options_.torque_limit, options_.torque_limit);
 }
 
-double Controller::law(ReferencePoint const& reference, double position, double velocity) {
+double Controller::law(ReferencePoint const& reference, double position, double velocity, double model_torque) {
   double const error = reference.q - position;
-  double const ahead = options_.feedforward ? inertia_ * reference.ddq : 0.0;
+  double const ahead = options_.feedforward ? model_torque : 0.0;
   if (options_.kind == "p_velocity") {
     double const wanted_velocity = gains_.kp * error + (options_.feedforward ? reference.dq : 0.0);
     return limited(gains_.kv * (wanted_velocity - velocity) + ahead);
@@ -166,8 +166,12 @@ double Controller::law(ReferencePoint const& reference, double position, double 
 }
 
 double Controller::command(ReferencePoint const& reference, double measured_position) {
+  return command(reference, measured_position, inertia_ * reference.ddq);
+}
+
+double Controller::command(ReferencePoint const& reference, double measured_position, double model_torque) {
   double const velocity = measured_velocity(measured_position);
-  delayed_.push_back(law(reference, measured_position, velocity));
+  delayed_.push_back(law(reference, measured_position, velocity, model_torque));
   double const torque = delayed_.front();
   delayed_.pop_front();
   return torque;

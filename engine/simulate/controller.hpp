@@ -54,14 +54,16 @@ class Controller {
   // `start`: the motion at the first tick, where the joint is taken to be on its reference
   Controller(ControllerOptions const& options, double rate_hz, double inertia, ReferencePoint const& start);
 
-  // the torque the motor holds from this tick on: commanded delay_ticks ago
+  // the torque the motor holds from this tick on: commanded delay_ticks ago. model_torque: what the motion needs, in
+  // place of J ddq_ref
   double command(ReferencePoint const& reference, double measured_position);
+  double command(ReferencePoint const& reference, double measured_position, double model_torque);
   ControllerGains const& gains() const { return gains_; }
 
  private:
   double measured_velocity(double position);
   double limited(double torque) const;
-  double law(ReferencePoint const& reference, double position, double velocity);
+  double law(ReferencePoint const& reference, double position, double velocity, double model_torque);
 
   ControllerOptions options_;
   double period_s_;

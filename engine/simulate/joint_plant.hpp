@@ -8,18 +8,11 @@
 // Units      SI; u is the motor torque at the joint (N m or N)
 // Threads    const object, any number of threads; advance() does not allocate
 
-#include <span>
 #include <vector>
 
-#include "engine/effects/effect.hpp"
+#include "engine/simulate/joint_laws.hpp"
 
 namespace torquescope {
-
-// one effect with a value for each of its parameters
-struct PlantTerm {
-  Effect const* effect = nullptr;
-  std::vector<double> parameters;
-};
 
 // the motor torques that leave a resting joint at rest; empty (low > high) when the "friction" would drive the joint
 struct HoldRange {
@@ -28,7 +21,7 @@ struct HoldRange {
 
 class JointPlant {
  public:
-  explicit JointPlant(std::vector<PlantTerm> const& terms);
+  explicit JointPlant(std::vector<PlantTerm> const& terms) : laws_(terms) {}
 
   double inertia(JointState const& state) const;
   HoldRange hold_range(JointState const& state) const;           // as if at rest at this position and time
@@ -42,18 +35,11 @@ class JointPlant {
   JointState advance(JointState const& state, double u, double step_s) const;
 
  private:
-  // torque of everything but dry friction is inertia * ddq + coasting
-  struct SmoothPart {
-    double inertia = 0.0, coasting = 0.0;
-  };
-  SmoothPart smooth_part(JointState const& state) const;
-  double dry_torque(JointState const& state, double direction) const;   // of the branch that moves in `direction`
   double direction_of_motion(JointState const& state, double u) const;  // -1, 0 (held), 1
   double sliding_acceleration(JointState const& state, double u, double direction) const;
   JointState slide(JointState const& state, double u, double direction, double step_s) const;
 
-  std::vector<PlantTerm> smooth_terms_, dry_terms_;
-  JointScales scales_;  // Coulomb levels of the plant itself
+  JointLaws laws_;
 };
 
 }  // namespace torquescope

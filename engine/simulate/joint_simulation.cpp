@@ -10,9 +10,7 @@
 
 namespace torquescope {
 
-namespace {
-
-// of what a job can see: rate, number of samples (both say the time) and every channel, an array of two names once
+// an array of two names counts once
 std::string digest_of(SimulatedRecording const& recording) {
   Digest digest;
   auto const samples = static_cast<double>(recording.time_s.size());
@@ -29,8 +27,6 @@ std::string digest_of(SimulatedRecording const& recording) {
   }
   return digest.hex();
 }
-
-}  // namespace
 
 SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index,
                                   TrueTorque truth) {

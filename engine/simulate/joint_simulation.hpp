@@ -47,6 +47,9 @@ enum class TrueTorque { kept, left_out };
 SimulatedRecording simulate_joint(SimulationPlan const& plan, std::uint64_t experiment_seed, std::uint32_t index = 0,
                                   TrueTorque truth = TrueTorque::kept);
 
+// of what a job can see: rate, number of samples (both say the time) and every channel
+std::string digest_of(SimulatedRecording const& recording);
+
 struct SimulatedColumn {
   std::string name;     // "q_rad"
   std::string unit;     // "rad"
