@@ -1,0 +1,59 @@
+#include "engine/excite/motion_quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "engine/excite/motion_space.hpp"
+#include "unit/excite/arm_rows.hpp"
+
+namespace torquescope {
+namespace motion_quality_test {
+
+using Eigen::Index;
+
+MotionSamples some_motion(SerialChain const& chain) {
+  MotionSpace const space(chain, {}, 5, 10.0);
+  std::vector<double> point(space.bounds().dimension());
+  for (std::size_t i = 0; i < point.size(); ++i) point[i] = std::abs(std::sin(3.0 * static_cast<double>(i) + 1.0));
+  return samples_of(space.motion(point), FourierTable(80, 5));
+}
+
+TEST(MotionQuality, IsThatOfTheStackedRows) {
+  auto const chain = test::limited_crs(3);
+  auto model = test::row_model(chain);
+  model.noise = Eigen::Vector3d{2.0, 1.0, 0.5};
+  auto const samples = some_motion(chain);
+  auto const rows = model.rows(samples);
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(3 * 80, model.size);
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t c = 0; c < model.own[j].size(); ++c)
+      stacked.block(80 * static_cast<Index>(j), model.own[j][c], 80, 1) =
+          rows[j].col(static_cast<Index>(c)) / model.noise[static_cast<Index>(j)];
+  auto const quality = motion_quality(model, samples);
+  Eigen::MatrixXd const gram = stacked.transpose() * stacked;
+  EXPECT_NEAR(quality.log_determinant, std::log(gram.determinant()) / static_cast<double>(model.size), 1e-9);
+  stacked.colwise().normalize();
+  auto const values = Eigen::JacobiSVD<Eigen::MatrixXd>(stacked).singularValues();
+  EXPECT_NEAR(quality.condition, values[0] / values[model.size - 1], 1e-8 * quality.condition);
+}
+
+// 32 base parameters with drives (29 + 3), and viscous and Coulomb friction of five joints
+TEST(MotionQuality, FiveJointsOfTheCrsCanBeTold) {
+  auto const chain = test::limited_crs(5);
+  auto const model = test::row_model(chain);
+  EXPECT_EQ(model.size, 32 + 10);
+  EXPECT_LT(motion_quality(model, some_motion(chain)).condition, 1e4);
+}
+
+TEST(MotionQuality, OfAnArmThatStandsStillIsInfinite) {
+  auto const chain = test::limited_crs(2);
+  MotionSamples const still{Eigen::VectorXd::Zero(5), Eigen::MatrixXd::Zero(5, 2), Eigen::MatrixXd::Zero(5, 2),
+                            Eigen::MatrixXd::Zero(5, 2)};
+  EXPECT_TRUE(std::isinf(motion_quality(test::row_model(chain), still).condition));
+}
+
+}  // namespace motion_quality_test
+}  // namespace torquescope
