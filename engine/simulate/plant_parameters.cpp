@@ -37,14 +37,16 @@ void check_shape(Section const& section, Effect const& effect, EffectParameter c
   }
 }
 
-// JointPlant keeps no memory and knows no torque but its own
-bool can_be_in_a_plant(Effect const& effect) {
-  return !effect.has_memory() && !effect.needs_baseline() && effect.acts_on() == ActsOn::joint;
+// JointPlant keeps no memory and knows no torque but its own; ArmPlant does, but holds no mass behind a gap
+bool can_be_in_a_plant(Effect const& effect, PlantPlace place) {
+  if (effect.acts_on() != ActsOn::joint) return false;
+  return place == PlantPlace::arm ? !effect.has_inertia() : !effect.has_memory() && !effect.needs_baseline();
 }
 
 }  // namespace
 
-std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::vector<Problem>& problems) {
+std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::vector<Problem>& problems,
+                                  PlantPlace place) {
   // values by effect, in the order of the registry
   std::vector<std::string> known;
   std::vector<PlantTerm> terms;
@@ -62,11 +64,13 @@ std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::
                                       "remove it, or write joint = \"revolute\" in [model]"));
     }
     if (written.empty()) continue;
-    if (!can_be_in_a_plant(*effect)) {
-      problems.push_back(problem_at(section, written,
-                                    fmt::format("effect \"{}\" cannot be part of the plant", effect->name()),
-                                    "a plant is made of effects that follow from position, velocity, acceleration and "
-                                    "time alone; remove its parameters"));
+    if (!can_be_in_a_plant(*effect, place)) {
+      problems.push_back(problem_at(
+          section, written, fmt::format("effect \"{}\" cannot be part of the plant", effect->name()),
+          place == PlantPlace::arm ? "an arm is made of effects that act on a joint and have no mass of their own; "
+                                     "remove its parameters"
+                                   : "a plant is made of effects that follow from position, velocity, "
+                                     "acceleration and time alone; remove its parameters"));
       continue;
     }
     for (std::size_t i = 0; i < effect->parameters().size(); ++i)
@@ -86,6 +90,17 @@ std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::
   return terms;
 }
 
+void check_friction_brakes(JointPlant const& plant, JointState const& rest, Section const& section,
+                           std::vector<Problem>& problems) {
+  HoldRange const hold = plant.hold_range(rest);
+  if (hold.low > hold.high)
+    problems.push_back(problem_at(
+        section, section.settings.empty() ? "" : section.settings.front().key,
+        fmt::format("dry friction of {:.6g} backwards and {:.6g} forwards would drive the joint", hold.low, hold.high),
+        "the torque of forward motion must not be below the one of backward motion: "
+        "check the signs (coulomb_negative of a real joint is negative)"));
+}
+
 void check_plant_dynamics(std::vector<PlantTerm> const& terms, double position, double step_s, Section const& section,
                           std::vector<Problem>& problems) {
   JointPlant const plant(terms);
@@ -99,13 +114,7 @@ void check_plant_dynamics(std::vector<PlantTerm> const& terms, double position, 
     return;
   }
 
-  HoldRange const hold = plant.hold_range(rest);
-  if (hold.low > hold.high)
-    problems.push_back(problem_at(
-        section, section.settings.front().key,
-        fmt::format("dry friction of {:.6g} backwards and {:.6g} forwards would drive the joint", hold.low, hold.high),
-        "the torque of forward motion must not be below the one of backward motion: "
-        "check the signs (coulomb_negative of a real joint is negative)"));
+  check_friction_brakes(plant, rest, section, problems);
 
   // explicit integration: the fastest decay must span several steps
   JointState creeping = rest;

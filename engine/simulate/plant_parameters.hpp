@@ -16,12 +16,20 @@
 
 namespace torquescope {
 
-std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::vector<Problem>& problems);
+// a joint alone has effects that follow from its motion; joints of an arm also those that remember, or follow the load
+enum class PlantPlace { joint, arm };
+
+std::vector<PlantTerm> read_plant(Section const& section, JointKind joint, std::vector<Problem>& problems,
+                                  PlantPlace place = PlantPlace::joint);
 
 // what a plant must be to move by itself: inertia above 0, friction that brakes, and no faster than the integrator's
 // step
 void check_plant_dynamics(std::vector<PlantTerm> const& terms, double position, double step_s, Section const& section,
                           std::vector<Problem>& problems);
+
+// a problem unless dry friction at rest is a range: the backward branch not above the forward one
+void check_friction_brakes(JointPlant const& plant, JointState const& rest, Section const& section,
+                           std::vector<Problem>& problems);
 
 struct TruthValue {
   std::string name, unit;

@@ -48,6 +48,10 @@ struct SimulationSections {
   Section const* noise = nullptr;
 };
 
+// too few samples for so many parameters, or more than memory has
+void check_samples(SimulationOptions const& simulation, std::size_t unknowns, Section const& simulate,
+                   std::vector<Problem>& problems);
+
 SimulationPlan read_simulation(SimulationSections const& sections, JointKind joint, std::vector<Problem>& problems);
 
 }  // namespace torquescope
