@@ -46,6 +46,7 @@ constexpr Command commands[] = {
     {"status", add_status},
     {"submit", add_submit},
     {"simulate", add_simulate},
+    {"excite", add_excite},
     {"list", add_list},
     {"describe", add_describe},
 };
@@ -99,7 +100,7 @@ void parse_command_line(std::vector<std::string> const& words, ParsedCommandLine
         with_suggestion(fmt::format("unknown command \"{}\"", first), closest_name(first, command_names())),
         "torquescope --help shows every command");
 
-  // the other ten stay out: their options take 0.3 ms to make
+  // the others stay out: their options take 0.3 ms to make
   named->add(app, parsed.chosen);
   CLI::App& command = *app.get_subcommand(first);
   try {

@@ -8,6 +8,7 @@
 #include "engine/data/recording_reader.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/effects/model_options.hpp"
+#include "engine/excite/excite_options.hpp"
 #include "engine/job/job_options.hpp"
 #include "engine/optim/optimiser.hpp"
 #include "engine/problem/estimator.hpp"
@@ -122,12 +123,21 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
   entries.push_back({"simulate.plant",
                      "section",
                      "the simulated joint: a value for every parameter of its effects",
-                     {"inertia = 0.09          parameters as `torquescope list effects` names them"},
+                     {"inertia = 0.09          parameters as `torquescope list effects` names them",
+                      "viscous = [2.0, 3.0]    of an arm: a number for each joint, or one for all; so in all sections "
+                      "of [simulate]"},
                      {}});
   add_section<ReferenceOptions>(entries);
   add_section<ControllerOptions>(entries);
   add_section<EncoderOptions>(entries);
   add_section<NoiseOptions>(entries);
+  entries.push_back(
+      {"simulate.effects",
+       "section",
+       "one effect at one joint of a simulated arm; written [[simulate.effects]], as often as there are effects",
+       {"joint = 3, name = \"stribeck\", and its parameters: stribeck = 0.4, stribeck_speed = 0.1, ..."},
+       {}});
+  add_section<ExciteOptions>(entries);
   add_section<DiagnoseOptions>(entries);
   entries.back().text = {
       "CV gain, in the table of candidates: share of the mismatch (what the residual has beyond the clean twins) that "

@@ -19,6 +19,8 @@ std::vector<std::string> const& known_sections() {
                                               "simulate.controller",
                                               "simulate.encoder",
                                               "simulate.noise",
+                                              "simulate.effects",
+                                              "excite",
                                               "diagnose",
                                               "output"};
   return names;

@@ -7,8 +7,10 @@
 
 #include "engine/effects/model_options.hpp"
 #include "engine/job/job_options.hpp"
+#include "engine/robot/robot_registry.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/workflows.hpp"
 #include "engine/store/result_writer.hpp"
@@ -18,31 +20,62 @@ namespace torquescope {
 
 namespace {
 
-std::string csv_text(SimulatedRecording const& recording, std::string const& job_name) {
-  auto const table = columns(recording);
+// what a file shows, of a joint or of an arm
+struct SimulatedTable {
+  std::vector<SimulatedColumn> columns;
+  std::vector<TruthValue> truth;
+  double rate_hz = 0.0;
+
+  Eigen::Index rows() const { return columns.front().values->size(); }
+};
+
+std::string csv_text(SimulatedTable const& table, std::string const& job_name) {
   fmt::memory_buffer text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "# {}: simulated by torquescope, {:.6g} Hz\n", job_name, recording.rate_hz);
-  for (auto const& value : recording.truth) fmt::format_to(out, "# truth: {} = {}\n", value.name, value.value);
+  fmt::format_to(out, "# {}: simulated by torquescope, {:.6g} Hz\n", job_name, table.rate_hz);
+  for (auto const& value : table.truth) fmt::format_to(out, "# truth: {} = {}\n", value.name, value.value);
   std::vector<std::string> names;
-  for (auto const& column : table) names.push_back(column.name);
+  for (auto const& column : table.columns) names.push_back(column.name);
   fmt::format_to(out, "{}\n", fmt::join(names, ","));
-  for (Eigen::Index row = 0; row < recording.time_s.size(); ++row) {
-    for (std::size_t c = 0; c < table.size(); ++c) fmt::format_to(out, "{}{}", c ? "," : "", (*table[c].values)[row]);
+  for (Eigen::Index row = 0; row < table.rows(); ++row) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      fmt::format_to(out, "{}{}", c ? "," : "", (*table.columns[c].values)[row]);
     text.push_back('\n');
   }
   return fmt::to_string(text);
 }
 
-void write_hdf5(SimulatedRecording const& recording, std::string const& job_name, std::filesystem::path const& file) {
+void write_hdf5(SimulatedTable const& table, std::string const& job_name, std::filesystem::path const& file) {
   ResultWriter writer(file);
-  for (auto const& column : columns(recording)) {
+  for (auto const& column : table.columns) {
     auto const n = static_cast<std::size_t>(column.values->size());
     writer.numbers("/" + column.name, {n}, {column.values->data(), n}, {column.unit, column.name});
   }
   writer.attribute("/truth", "job", job_name);
-  for (auto const& value : recording.truth) writer.attribute("/truth", value.name, value.value);
+  for (auto const& value : table.truth) writer.attribute("/truth", value.name, value.value);
   writer.finish();
+}
+
+SimulateReport write_table(SimulatedTable const& table, std::string const& job_name,
+                           std::filesystem::path const& output) {
+  if (output.extension() == ".h5" || output.extension() == ".hdf5") {
+    write_hdf5(table, job_name, output);
+  } else {
+    std::string const text = csv_text(table, job_name);
+    TempFile file(output);
+    file.write_at(0, text.data(), text.size());
+    file.publish();
+  }
+  return {static_cast<std::size_t>(table.rows()), static_cast<double>(table.rows()) / table.rate_hz, table.rate_hz,
+          std::filesystem::file_size(output)};
+}
+
+SimulateReport simulate_one_arm(Job const& job, ModelOptions const& model, ExperimentOptions const& experiment,
+                                std::vector<Problem> problems, std::filesystem::path const& output) {
+  ArmSimulationPlan const plan = plan_arm_simulation(job, read_robot(job.resolve(model.robot)), problems);
+  if (!problems.empty()) throw Error(std::move(problems));
+  SimulatedArm const arm = simulate_arm(plan, static_cast<std::uint64_t>(experiment.seed));
+  return write_table({columns(arm), truth_values(plan), plan.simulation.rate_hz}, experiment.name, output);
 }
 
 }  // namespace
@@ -61,22 +94,13 @@ SimulateReport simulate_recording(std::filesystem::path const& job_file, std::fi
     problem.help = "write [simulate], [simulate.plant] with inertia = ..., and see `torquescope describe simulate`";
     problems.push_back(problem);
   }
+  if (!model.robot.empty()) return simulate_one_arm(job, model, experiment, std::move(problems), output);
+
   JointKind const joint = model.joint == "prismatic" ? JointKind::prismatic : JointKind::revolute;
   SimulationPlan const plan = plan_simulation(job, joint, problems);
   if (!problems.empty()) throw Error(std::move(problems));
-
   SimulatedRecording const recording = simulate_joint(plan, static_cast<std::uint64_t>(experiment.seed), 0);
-  if (output.extension() == ".h5" || output.extension() == ".hdf5") {
-    write_hdf5(recording, experiment.name, output);
-  } else {
-    std::string const text = csv_text(recording, experiment.name);
-    TempFile file(output);
-    file.write_at(0, text.data(), text.size());
-    file.publish();
-  }
-  return {static_cast<std::size_t>(recording.time_s.size()),
-          static_cast<double>(recording.time_s.size()) / recording.rate_hz, recording.rate_hz,
-          std::filesystem::file_size(output)};
+  return write_table({columns(recording), recording.truth, recording.rate_hz}, experiment.name, output);
 }
 
 }  // namespace torquescope

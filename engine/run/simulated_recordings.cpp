@@ -4,9 +4,6 @@
 
 namespace torquescope {
 
-namespace {
-
-// what a reader would have made of the file that `torquescope simulate` writes
 Recording as_recording(SimulatedRecording&& simulated) {
   Recording recording;
   recording.name = std::move(simulated.name);
@@ -27,13 +24,17 @@ Recording as_recording(SimulatedRecording&& simulated) {
   return recording;
 }
 
-}  // namespace
+SimulationSections simulation_sections(Job const& job) {
+  return {job.find("simulate"),           job.find("simulate.plant"),
+          job.find("simulate.reference"), job.find("simulate.controller"),
+          job.find("simulate.encoder"),   job.find("simulate.noise")};
+}
 
 SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Problem>& problems) {
-  SimulationSections const sections{job.find("simulate"),           job.find("simulate.plant"),
-                                    job.find("simulate.reference"), job.find("simulate.controller"),
-                                    job.find("simulate.encoder"),   job.find("simulate.noise")};
-  return read_simulation(sections, joint, problems);
+  if (Section const* effects = job.find("simulate.effects"))
+    problems.push_back(problem_at(*effects, "", "[[simulate.effects]] are of the joints of an arm",
+                                  "write the effect's parameters in [simulate.plant], or model.robot"));
+  return read_simulation(simulation_sections(job), joint, problems);
 }
 
 SimulatedRecordings simulate_recordings(SimulationPlan const& plan, std::uint64_t seed) {

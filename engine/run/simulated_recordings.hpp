@@ -20,6 +20,11 @@ struct SimulatedRecordings {
   std::vector<std::pair<std::string, double>> truth;  // parameter name, value
 };
 
+// the job's sections of those names
+SimulationSections simulation_sections(Job const& job);
+// what a reader would have made of the file that `torquescope simulate` writes
+Recording as_recording(SimulatedRecording&& simulated);
+
 // problems are appended; the plan is usable only when there are none
 SimulationPlan plan_simulation(Job const& job, JointKind joint, std::vector<Problem>& problems);
 // the reference of an exact motion is its position, and left out

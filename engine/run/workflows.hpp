@@ -171,4 +171,15 @@ struct SimulateReport {
 };
 SimulateReport simulate_recording(std::filesystem::path const& job_file, std::filesystem::path const& output);
 
+// searches the motion that the job's [excite] asks for, and writes it: CSV. The same file on any number of threads
+struct ExciteReport {
+  std::string robot;
+  std::size_t parameters = 0;
+  double usual_condition = 0.0, condition = 0.0;  // of random Fourier motions within the limits; of the one found
+  double usual_log_determinant = 0.0, log_determinant = 0.0;  // per parameter
+  std::size_t evaluations = 0, samples = 0;
+  double seconds = 0.0, rate_hz = 0.0;
+};
+ExciteReport excite_arm(std::filesystem::path const& job_file, std::filesystem::path const& output, int threads);
+
 }  // namespace torquescope

@@ -114,9 +114,14 @@ void check_arm(ArmSimulationPlan const& plan, SimulationSections const& sections
   Section const controller = written_or_empty(sections.controller, sections.simulate, "simulate.controller");
   Section const plant = written_or_empty(sections.plant, sections.simulate, "simulate.plant");
   std::vector<Problem> found;
+  auto const& moved = plan.joints.front().reference;
+  if (moved.file.empty() && !moved.validate_file.empty())
+    found.push_back(problem_at(reference, "validate_file", "validate_file stands without file",
+                               "write file = the motion to learn from as well"));
   check_samples(plan.simulation, 11 * plan.joints.size(), simulate, found);
   for (auto const& joint : plan.joints) {
-    check_reference(joint.reference, plan.simulation.duration_s, plan.simulation.rate_hz, reference, found);
+    if (moved.file.empty())
+      check_reference(joint.reference, plan.simulation.duration_s, plan.simulation.rate_hz, reference, found);
     if (plan.simulation.mode == "closed_loop")
       check_controller(joint.controller, plan.simulation.rate_hz, controller, found);
     check_friction_brakes(JointPlant(joint.terms.instant), {0.0, joint.reference.centre, 0.0, 0.0}, plant, found);

@@ -49,8 +49,7 @@ class Ramped : public Reference {
   static constexpr std::size_t times_together = 512;
 
   ReferencePoint ramped(double time_s, ReferencePoint const& p) const {
-    if (ramp_s_ == 0.0 || time_s >= ramp_s_)
-      return {centre_ + scale_ * p.q, scale_ * p.dq, scale_ * p.ddq};
+    if (ramp_s_ == 0.0 || time_s >= ramp_s_) return {centre_ + scale_ * p.q, scale_ * p.dq, scale_ * p.ddq};
     ReferencePoint w = smooth_step(time_s / ramp_s_);
     w.dq /= ramp_s_;
     w.ddq /= ramp_s_ * ramp_s_;

@@ -109,7 +109,10 @@ OptionTable<ReferenceOptions> const& ReferenceOptions::table() {
         "lowest and highest frequency of the multisine; start and end of the chirp"},
        {"speeds", &O::speeds, "rad/s or m/s", 1e-9, unlimited,
         "trapezoid: cruising speeds, one stroke forth and back each"},
-       {"dwell_s", &O::dwell_s, "s", 0.0, unlimited, "trapezoid: rest after each stroke"}});
+       {"dwell_s", &O::dwell_s, "s", 0.0, unlimited, "trapezoid: rest after each stroke"},
+       {"file", &O::file,
+        "of an arm: the motion in this file (torquescope excite writes one), again and again, in place of a kind"},
+       {"validate_file", &O::validate_file, "of an arm: that of the second recording; default: the same"}});
   return options;
 }
 

@@ -55,6 +55,7 @@ struct ReferenceOptions {
   std::vector<double> band_hz{0.1, 1.0};
   std::vector<double> speeds{0.1, 0.3, 1.0, 3.0};
   double dwell_s = 0.1;
+  std::string file{}, validate_file{};  // of an arm: a motion in place of all this
 
   static OptionTable<ReferenceOptions> const& table();
 };

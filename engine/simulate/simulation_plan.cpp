@@ -108,6 +108,10 @@ SimulationPlan read_simulation(SimulationSections const& sections, JointKind joi
   EncoderOptions::table().apply(encoder, plan.encoder, problems);
   NoiseOptions::table().apply(noise, plan.noise, problems);
   plan.plant = read_plant(plant, joint, problems);
+  for (char const* key : {"file", "validate_file"})
+    if (reference.find(key))
+      problems.push_back(
+          problem_at(reference, key, fmt::format("{} is of an arm", key), "write a kind of motion, or model.robot"));
   check_mode(plan, sections, problems);
   if (problems.size() > before) return plan;
 

@@ -22,6 +22,7 @@ void add_merge(CLI::App& app, ChosenCommand& chosen);
 void add_status(CLI::App& app, ChosenCommand& chosen);
 void add_submit(CLI::App& app, ChosenCommand& chosen);
 void add_simulate(CLI::App& app, ChosenCommand& chosen);
+void add_excite(CLI::App& app, ChosenCommand& chosen);
 void add_init(CLI::App& app, ChosenCommand& chosen);
 void add_check(CLI::App& app, ChosenCommand& chosen);
 void add_show(CLI::App& app, ChosenCommand& chosen);
