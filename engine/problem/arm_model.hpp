@@ -35,6 +35,7 @@ class ArmModel {
 
   SerialChain const& chain() const { return chain_; }
   BaseParameters const& base() const { return base_; }
+  DriveInertias drives() const { return drives_; }
   std::size_t joints() const { return chain_.joints.size(); }
   std::size_t size() const { return columns_.size(); }
   std::vector<RegressorColumn> const& columns() const { return columns_; }

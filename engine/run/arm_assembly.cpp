@@ -18,6 +18,7 @@
 #include "engine/run/job_sections.hpp"
 #include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
+#include "engine/run/simulated_arms.hpp"
 
 namespace torquescope {
 namespace {
@@ -155,6 +156,16 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
   set.other_rows = of(ArmRowChoice::others);
 }
 
+void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
+  auto const rows = prepare_files(std::move(train), parts, parts.train);
+  parts.arm->grams = filtered_grams(rows, parts.arm->model);
+  parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
+  stack(rows, parts, parts.train);
+  if (unseen.empty()) return;
+  parts.validate.emplace();
+  stack(prepare_files(std::move(unseen), parts, *parts.validate), parts, *parts.validate);
+}
+
 }  // namespace
 
 void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
@@ -165,9 +176,6 @@ void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<
                                       "the robot file says how its joints move; what each has beside the rigid arm is "
                                       "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
   }
-  if (Section const* simulate = job.find("simulate"))
-    problems.push_back(problem_at(*simulate, "", "[simulate] makes recordings of one joint, and the job has an arm",
-                                  "write recording.train"));
   if (purpose == Experiment::Purpose::diagnose)
     problems.push_back(problem_at(*job.find("model"), "robot", "an arm cannot be diagnosed yet",
                                   "`torquescope run` identifies it; for one joint write a job without robot, with "
@@ -190,14 +198,22 @@ void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options) {
   bring_files_to_one_rate(train, unseen);
   for (auto& joints : train) grade_standstill(joints);
   choose_filter(parts, train, unseen);
+  use_recordings(parts, std::move(train), std::move(unseen));
+}
 
-  auto const rows = prepare_files(std::move(train), parts, parts.train);
-  parts.arm->grams = filtered_grams(rows, parts.arm->model);
-  parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
-  stack(rows, parts, parts.train);
-  if (unseen.empty()) return;
-  parts.validate.emplace();
-  stack(prepare_files(std::move(unseen), parts, *parts.validate), parts, *parts.validate);
+void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan) {
+  auto simulated = simulate_arms(plan, static_cast<std::uint64_t>(parts.experiment.seed));
+  Files train;
+  train.push_back(std::move(simulated.train));
+  use_recordings(parts, std::move(train), std::move(simulated.validate));
+  parts.train.simulated = true;
+  if (parts.validate) parts.validate->simulated = true;
+  // without drives the base parameters gather something else
+  if (parts.arm->model.drives() == DriveInertias::left_out) return;
+  auto const names = parts.parameter_names();
+  for (std::size_t k = 0; k < names.size(); ++k)
+    for (auto const& [name, value] : simulated.truth)
+      if (name == names[k]) parts.truth[static_cast<Eigen::Index>(k)] = value;
 }
 
 }  // namespace torquescope

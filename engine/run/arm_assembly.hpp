@@ -8,6 +8,7 @@
 
 #include "engine/effects/model_options.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/simulate/arm_simulation_plan.hpp"
 
 namespace torquescope {
 
@@ -18,5 +19,7 @@ ArmParts read_arm(Job const& job, ModelOptions const& options);
 
 // fills train, validate, the filter where the job has none, and what the arm's training rows tell
 void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options);
+// the same, and truth, from a simulation
+void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan);
 
 }  // namespace torquescope

@@ -20,6 +20,7 @@
 #include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
+#include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 
 namespace torquescope {
@@ -278,6 +279,8 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   }
   bool const simulates = job.find("simulate") != nullptr;
   SimulationPlan plan;
+  ArmSimulationPlan arm_plan;
+  if (simulates && parts->arm) arm_plan = plan_arm_simulation(job, parts->arm->model.chain(), problems);
   if (simulates && parts->regressor) plan = plan_simulation(job, parts->regressor->joint(), problems);
   if (problems.empty()) check_sizes(*parts, problems);
   if (!problems.empty()) throw Error(std::move(problems));
@@ -286,7 +289,9 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   auto const n = static_cast<Eigen::Index>(parts->parameters());
   parts->truth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
-  if (is_arm) {
+  if (is_arm && simulates) {
+    use_arm_simulation(*parts, arm_plan);
+  } else if (is_arm) {
     use_arm_files(*parts, recording);
   } else {
     if (simulates)

@@ -11,9 +11,11 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
 install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope
         PATTERN "__pycache__" EXCLUDE)
 # jobs that need no recording of anybody else
-install(FILES jobs/clean_joint.toml jobs/concealed_stribeck.toml jobs/crs_a465_joint.toml jobs/smoke.toml
+install(FILES jobs/clean_joint.toml jobs/concealed_stribeck.toml jobs/crs_a465_five_joints.toml jobs/crs_a465_joint.toml
+        jobs/smoke.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs)
 install(DIRECTORY jobs/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY jobs/motions DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope/jobs FILES_MATCHING PATTERN "*.csv")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/torquescope-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)
