@@ -1,8 +1,8 @@
 #pragma once
 // A motion of an arm as a file of samples: what `excite` writes and [simulate.reference] file reads.
 //
-// Columns    t_s, then of each joint j from 1: qj_rad, dqj_rad_s, ddqj_rad_s2 (a slide: m in place of rad). Equal steps;
-//            the last sample is the first one again, so that the motion can be repeated
+// Columns    t_s, then of each joint j from 1: qj_rad, dqj_rad_s, ddqj_rad_s2 (a slide: m in place of rad). Equal
+//            steps; the last sample is the first one again, so that the motion can be repeated
 // Errors     Error 66 (no such file), 65 (no table, unequal steps), 78 (a column that is missing)
 
 #include <filesystem>

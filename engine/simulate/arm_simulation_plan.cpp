@@ -114,6 +114,7 @@ void check_arm(ArmSimulationPlan const& plan, SimulationSections const& sections
   Section const controller = written_or_empty(sections.controller, sections.simulate, "simulate.controller");
   Section const plant = written_or_empty(sections.plant, sections.simulate, "simulate.plant");
   std::vector<Problem> found;
+  if (plan.simulation.mode == "inverse_dynamics") refuse_loop_sections(sections, found);
   auto const& moved = plan.joints.front().reference;
   if (moved.file.empty() && !moved.validate_file.empty())
     found.push_back(problem_at(reference, "validate_file", "validate_file stands without file",

@@ -21,20 +21,7 @@ Section written_or_empty(Section const* section, Section const* simulate, std::s
 
 void check_mode(SimulationPlan const& plan, SimulationSections const& sections, std::vector<Problem>& problems) {
   if (plan.simulation.mode == "inverse_dynamics") {
-    // nothing is controlled or measured there: do not let anybody believe it were
-    for (Section const* section : {sections.controller, sections.encoder})
-      if (section) {
-        Problem problem =
-            problem_at(*section, "", fmt::format("[{}] has no effect in mode = \"inverse_dynamics\"", section->name),
-                       "remove it, or write simulate.mode = \"closed_loop\"");
-        problem.key = section->name;
-        problems.push_back(std::move(problem));
-      }
-    for (char const* key : {"position_std", "disturbance_std"})
-      if (sections.noise && sections.noise->find(key))
-        problems.push_back(problem_at(*sections.noise, key,
-                                      fmt::format("{} has no effect in mode = \"inverse_dynamics\"", key),
-                                      "remove it: the motion is exact there"));
+    refuse_loop_sections(sections, problems);
     if (plan.noise.orthogonal_mse > 0.0 && (plan.noise.torque_std > 0.0 || plan.noise.torque_coloured_std > 0.0))
       problems.push_back(problem_at(*sections.noise, "orthogonal_mse",
                                     "orthogonal_mse and another torque noise are both given",
@@ -88,6 +75,23 @@ void check_samples(SimulationOptions const& simulation, std::size_t unknowns, Se
   if (samples > most_samples)
     problems.push_back(problem_at(simulate, "duration_s", fmt::format("{:.3g} samples are too many", samples),
                                   fmt::format("stay below {:.0e} samples", most_samples)));
+}
+
+void refuse_loop_sections(SimulationSections const& sections, std::vector<Problem>& problems) {
+  // nothing is controlled or measured there: do not let anybody believe it were
+  for (Section const* section : {sections.controller, sections.encoder})
+    if (section) {
+      Problem problem =
+          problem_at(*section, "", fmt::format("[{}] has no effect in mode = \"inverse_dynamics\"", section->name),
+                     "remove it, or write simulate.mode = \"closed_loop\"");
+      problem.key = section->name;
+      problems.push_back(std::move(problem));
+    }
+  for (char const* key : {"position_std", "disturbance_std"})
+    if (sections.noise && sections.noise->find(key))
+      problems.push_back(problem_at(*sections.noise, key,
+                                    fmt::format("{} has no effect in mode = \"inverse_dynamics\"", key),
+                                    "remove it: the motion is exact there"));
 }
 
 SimulationPlan read_simulation(SimulationSections const& sections, JointKind joint, std::vector<Problem>& problems) {

@@ -48,6 +48,8 @@ struct SimulationSections {
   Section const* noise = nullptr;
 };
 
+// sections and keys that have no effect in mode "inverse_dynamics"
+void refuse_loop_sections(SimulationSections const& sections, std::vector<Problem>& problems);
 // too few samples for so many parameters, or more than memory has
 void check_samples(SimulationOptions const& simulation, std::size_t unknowns, Section const& simulate,
                    std::vector<Problem>& problems);

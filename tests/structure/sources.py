@@ -11,7 +11,7 @@ import sys
 
 PRAGMA_HOME = "engine/base/parallel.cpp"
 WIDEST_LINE = 120
-NO_TEXT = {".png", ".gz", ".h5"}
+NO_TEXT = {".png", ".gz", ".h5", ".csv"}
 DEEP_NESTING = "tests/jobs/bad/nesting_"  # jobs that are bad because one line nests without end
 FOLDERS = ("engine", "kernels", "tests", "bench", "scripts", "jobs")
 SOURCES = (".hpp", ".cpp", ".h", ".py", ".in", ".txt", ".cmake", ".toml", ".sh", ".html", ".js", ".css", ".yml", "")

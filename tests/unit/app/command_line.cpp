@@ -12,8 +12,8 @@ namespace command_line_test {
 
 using ::testing::HasSubstr;
 
-std::vector<std::string> const commands{"init",   "check",    "run",  "diagnose", "show",
-                                        "report", "simulate", "list", "describe"};
+std::vector<std::string> const commands{"init",   "check",    "run",    "diagnose", "show",
+                                        "report", "simulate", "excite", "list",     "describe"};
 
 Problem problem_of(std::vector<std::string> const& words) {
   ParsedCommandLine parsed;
@@ -51,6 +51,7 @@ TEST(CommandLine, RefusesWithCode64) {
                                                 {"run", "a", "--threads", "2x"},
                                                 {"run", "a", "--color", "blue"},
                                                 {"simulate", "a"},
+                                                {"excite", "a"},
                                                 {"run", "a", "--out"},
                                                 {"show", "a", "--progress", "bar"}}) {
     Problem const problem = problem_of(words);
