@@ -21,7 +21,7 @@ std::string program_help() {
   torquescope report   R.h5          one page with pictures
   torquescope export   R.h5 --urdf FILE           an arm as URDF, TOML, ...
   torquescope simulate JOB.toml --out REC.csv     recordings from a model
-  torquescope excite   JOB.toml --out MOTION.csv  a motion that tells most of an arm
+  torquescope excite   JOB.toml --out REF.csv     a motion that tells most
   torquescope submit   JOB.toml --shards N        the same on a Slurm cluster
   torquescope merge    JOB.toml      one result of all shards
   torquescope status   R.h5          how far a job is, living or dead

@@ -285,7 +285,7 @@ class CommandLine(Folder):
         page = self.run_here("--help")
         self.assertEqual(page.code, 0)
         self.assert_page(page.out)
-        for command in ["check", "run", "diagnose", "show", "report", "simulate", "list", "describe"]:
+        for command in ["check", "run", "diagnose", "show", "report", "simulate", "excite", "list", "describe"]:
             self.assertIn(f"torquescope {command}", page.out)
             self.assert_page(self.run_here(command, "--help").out)
 
