@@ -15,10 +15,6 @@ using Eigen::Index;
 
 std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
-struct CosineSine {
-  double cosine, sine;
-};
-
 // of a multiple of a right angle without the rounding that cos(pi / 2) has: kernels leave out products with 0
 CosineSine cosine_sine(double angle) {
   double const quarters = angle / (std::numbers::pi / 2.0), cosine = std::cos(angle), sine = std::sin(angle);

@@ -152,7 +152,7 @@ inline std::vector<FaultKind> const& fault_kinds() {
        {unsigned_register},
        [](R& r) {
          double const unit = range_of(r.column(2)) / 5000.0;
-         r.options.torque_per_unit = unit;
+         r.options.torque_per_unit = {unit};
          for (double& torque : r.column(2)) {
            double const counts = std::round(torque / unit);
            torque = counts >= 0.0 ? counts : counts + 65536.0;
