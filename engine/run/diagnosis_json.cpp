@@ -49,10 +49,8 @@ void add_p(Json& to, double p, bool is_bound, std::size_t replicates) {
 }
 
 Json effect_json(NamedEffect const& effect, std::size_t replicates) {
-  Json made = {{"name", effect.name},
-               {"family", effect.family},
-               {"acts_on", effect.acts_on},
-               {"equivalent", effect.equivalent}};
+  Json made = {
+      {"name", effect.name}, {"family", effect.family}, {"acts_on", effect.acts_on}, {"equivalent", effect.equivalent}};
   add_p(made, effect.p, effect.p_is_bound, replicates);
   made.update({{"q", number(effect.q)},
                {"z", number(effect.z)},

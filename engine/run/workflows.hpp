@@ -143,8 +143,8 @@ struct DiagnoseRequest {
   std::filesystem::path output{};
   std::function<bool()> stop_requested{};  // polled between twins and effects; true: Error 75, nothing published
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
-  bool allow_full_disk = false;  // begin although the result does not seem to fit
-  ShardChoice shard{};           // of the twins; every shard makes the whole result
+  bool allow_full_disk = false;   // begin although the result does not seem to fit
+  ShardChoice shard{};            // of the twins; every shard makes the whole result
   double expected_seconds = 0.0;  // of the estimate, for progress; 0: none
 };
 
