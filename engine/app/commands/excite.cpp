@@ -53,6 +53,7 @@ void add_excite(CLI::App& app, ChosenCommand& chosen) {
       "excite", "Searches the motion, within the arm's limits, from which its parameters can best be told.");
   command->footer(
       "  torquescope excite jobs/crs_a465_five_joints.toml --out motion.csv\n"
+      "  torquescope excite arm.toml --out motion.csv --threads 4\n"
       "  torquescope describe excite\n");
   command->add_option("JOB.toml", arguments->job, "job file with model.robot, TOML")->required();
   command->add_option("--out", arguments->out, "motion: t_s, q1_rad, dq1_rad_s, ddq1_rad_s2, q2_rad, ...")
