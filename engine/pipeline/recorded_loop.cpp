@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 
 namespace torquescope {
@@ -77,10 +78,12 @@ Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const&
 }
 
 // The largest torque that the joint needs along a motion. A model that explains little of a recording may need more
-// than was recorded, on rows that nothing is fitted to: a joint that is led along has not run away for that
-double most_needed(TrackedJoint const& joint, Eigen::VectorXd const& q, double rate_hz) {
+// than was recorded, on rows that nothing is fitted to: a joint that is led along has not run away for that. Without the
+// ends, where a filter makes accelerations of the encoder's noise
+double most_needed(TrackedJoint const& joint, Eigen::VectorXd const& q, double rate_hz, Eigen::Index edge) {
   double most = 0.0;
-  for (Eigen::Index k = 1; k + 1 < q.size(); ++k) {
+  edge = std::max<Eigen::Index>(edge, 1);
+  for (Eigen::Index k = edge; k + edge < q.size(); ++k) {
     double const velocity = 0.5 * rate_hz * (q[k + 1] - q[k - 1]);
     double const acceleration = rate_hz * rate_hz * (q[k + 1] - 2.0 * q[k] + q[k - 1]);
     double const dry = velocity > 0.0 ? joint.forward : joint.backward;
@@ -152,7 +155,8 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   result.track.reference = smoothed_motion(recording, filter);
   if (recording.reference.size() != recording.position.size())
     result.track.largest_torque =
-        std::max(result.track.largest_torque, runaway * most_needed(joint, result.track.reference, recording.rate_hz));
+        std::max(result.track.largest_torque, runaway * most_needed(joint, result.track.reference, recording.rate_hz,
+                                                                    edge_samples(filter, recording.rate_hz)));
   double const bandwidth_hz =
       std::min(bandwidth_share * recording.rate_hz, widest_of_encoder(recording, joint.inertia));
   double const slow = slowest_velocity(recording, result.track.reference, result.loop.encoder_step, filter);
