@@ -65,7 +65,9 @@ struct Finding {
   Grade grade = Grade::warning;
   Repair repair = Repair::none;
   std::string recording{};
-  std::string column{};  // the file's name of it
+  std::string joint{};                  // of an arm: "joint 2 (elbow)"; empty: the whole recording
+  std::vector<std::string> likewise{};  // further joints with the same finding
+  std::string column{};                 // the file's name of it
   std::int64_t count = 0;
   std::vector<std::int64_t> lines{};  // the first few
   double size = 0.0;

@@ -45,7 +45,8 @@ struct Examination {
   Finding& add(FindingKind kind, Grade grade, Repair repair, std::string const& channel,
                std::vector<std::size_t> const& bad_rows, double size = 0.0, std::string detail = {}) {
     constexpr std::size_t most_lines = 5;
-    Finding finding{kind, grade, repair, file_name(table), has(channel) ? channels.at(channel).column : channel};
+    Finding finding{.kind = kind, .grade = grade, .repair = repair, .recording = file_name(table)};
+    finding.column = has(channel) ? channels.at(channel).column : channel;
     finding.count = static_cast<std::int64_t>(bad_rows.size());
     for (std::size_t k = 0; k < bad_rows.size() && k < most_lines; ++k) finding.lines.push_back(line(bad_rows[k]));
     finding.size = size;

@@ -142,6 +142,13 @@ std::string what(Finding const& f) {
   return {};
 }
 
+// "joint 5 (likewise joint 1, joint 2): "
+std::string whose(Finding const& finding) {
+  if (finding.joint.empty()) return {};
+  if (finding.likewise.empty()) return finding.joint + ": ";
+  return fmt::format("{} (likewise {}): ", finding.joint, fmt::join(finding.likewise, ", "));
+}
+
 }  // namespace
 
 std::string grade_word(Grade grade) {
@@ -151,7 +158,7 @@ std::string grade_word(Grade grade) {
 std::string sentence_of(Finding const& finding) {
   bool const says_so = finding.kind == FindingKind::position_wraps || finding.kind == FindingKind::rows_out_of_order ||
                        finding.kind == FindingKind::stamps_of_arrival;
-  return what(finding) + (says_so ? "" : done_words(finding.repair));
+  return whose(finding) + what(finding) + (says_so ? "" : done_words(finding.repair));
 }
 
 std::string cure_of(Finding const& f) {

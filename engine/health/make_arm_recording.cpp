@@ -77,7 +77,7 @@ void name_findings(std::vector<Recording>& joints, std::vector<std::string> cons
              (j > 0 && is_shared(finding, all, &Recording::findings, says_the_same));
     });
     for (auto& finding : joint.findings)
-      if (!is_shared(finding, all, &Recording::findings, says_the_same)) finding.recording += ", " + title;
+      if (!is_shared(finding, all, &Recording::findings, says_the_same)) finding.joint = title;
     std::erase_if(joint.warnings, [&](DataWarning const& warning) {
       return j > 0 && is_shared(warning, all, &Recording::warnings, same_warning);
     });

@@ -1,7 +1,7 @@
 #pragma once
 // From the rows of a file to the recording of an arm: each joint examined as make_recording() does, all on one clock.
 //
-// Findings   say whose joint they are about, in Finding::recording; what is true of all joints alike (the clock, the
+// Findings   say whose joint they are about, in Finding::joint; what is true of all joints alike (the clock, the
 //            reader's remarks) is said once. That other joints move is no finding here
 // Errors     those of joint_options() and make_recording(), of all joints at once; 65: no one clock
 // Threads    free function

@@ -10,6 +10,7 @@
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/filter_suggestion.hpp"
+#include "engine/health/joined_findings.hpp"
 #include "engine/health/make_arm_recording.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
@@ -136,6 +137,7 @@ RecordedRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, 
     set.excitation.push_back(facts);
     moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
   }
+  whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter);
   set.recordings.push_back(std::move(whole));
   return rows;

@@ -7,6 +7,7 @@
 
 #include "engine/data/split_recording.hpp"
 #include "engine/health/finding_text.hpp"
+#include "engine/health/joined_findings.hpp"
 #include "engine/health/make_arm_recording.hpp"
 #include "engine/health/make_recording.hpp"
 #include "sample_recording.hpp"
@@ -15,7 +16,7 @@ namespace torquescope {
 namespace arm_recording_test {
 
 using health_test::sample_table;
-using testing::HasSubstr;
+using testing::StartsWith;
 
 Section const section{"recording", {}, {}};
 std::vector<std::string> const names{"shoulder", "elbow"};
@@ -86,7 +87,32 @@ TEST(ArmRecording, FindingsSayWhoseTheyAre) {
   EXPECT_TRUE(arm.joints[0].findings.empty());
   ASSERT_FALSE(arm.joints[1].findings.empty());
   EXPECT_EQ(arm.joints[1].findings.front().kind, FindingKind::position_jumps);
-  EXPECT_THAT(arm.joints[1].findings.front().recording, HasSubstr("joint 2 (elbow)"));
+  EXPECT_EQ(arm.joints[1].findings.front().joint, "joint 2 (elbow)");
+  EXPECT_EQ(arm.joints[1].findings.front().column, "q2_rad");
+  EXPECT_THAT(sentence_of(arm.joints[1].findings.front()), StartsWith("joint 2 (elbow): "));
+}
+
+TEST(JoinedFindings, SayOnceWhatJointsHaveAlikeAndKeepTheWorst) {
+  auto const of = [](std::string joint, std::int64_t count, FindingKind kind = FindingKind::rows_repeated) {
+    Finding finding{.kind = kind, .grade = Grade::warning, .repair = Repair::filled, .recording = "arm.csv"};
+    finding.joint = std::move(joint);
+    finding.count = count;
+    return finding;
+  };
+  auto wrapped = of("joint 2", 5, FindingKind::position_wraps);
+  wrapped.size = 3.0;
+  auto otherwise = wrapped;  // another cure: another line
+  otherwise.joint = "joint 3";
+  otherwise.size = 4.0;
+  auto const joined = joined_findings(
+      {of("joint 1", 7), of("joint 2", 9), wrapped, of("joint 3", 9), otherwise, of("", 20), of("", 20)});
+  ASSERT_EQ(joined.size(), 5u);
+  EXPECT_EQ(joined[0].count, 9);
+  EXPECT_EQ(joined[0].joint, "joint 2");
+  EXPECT_EQ(joined[0].likewise, (std::vector<std::string>{"joint 1", "joint 3"}));
+  EXPECT_THAT(sentence_of(joined[0]), StartsWith("joint 2 (likewise joint 1, joint 3): rows repeat"));
+  EXPECT_TRUE(joined[1].likewise.empty());
+  EXPECT_TRUE(joined[3].joint.empty());  // of the whole recording
 }
 
 TEST(ArmRecording, WhatAllJointsShareIsSaidOnce) {
