@@ -27,14 +27,20 @@ namespace {
 using Joints = std::vector<Recording>;  // of one arm recording
 using Files = std::vector<Joints>;
 
-// everything that decides the columns of a regressor
+// everything that decides the columns of a regressor, and what a result keeps of the robot beside it
 std::string digest_of(SerialChain const& chain) {
   Digest digest;
   digest.numbers({chain.gravity.data(), 3});
   for (auto const& joint : chain.joints) {
     double const kind = joint.kind == JointKind::revolute ? 0.0 : 1.0;
     double const numbers[] = {kind, joint.a, joint.alpha, joint.d, joint.offset};
-    digest.text(joint.name).numbers(numbers);
+    double const beside[] = {joint.lower,      joint.upper,      joint.max_speed,     joint.max_acceleration,
+                             joint.max_torque, joint.gear_ratio, joint.drive_inertia, joint.encoder_step};
+    digest.text(joint.name).numbers(numbers).numbers(beside);
+  }
+  for (auto const& link : chain.links) {
+    LinkVector const numbers = link.vector();
+    digest.numbers({numbers.data(), static_cast<std::size_t>(numbers.size())});
   }
   return digest.hex();
 }

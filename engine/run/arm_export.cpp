@@ -4,12 +4,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <filesystem>
 
 #include "engine/base/error.hpp"
 #include "engine/robot/consistency.hpp"
-#include "engine/robot/robot_registry.hpp"
 #include "engine/robot/robot_writers.hpp"
+#include "engine/run/robot_tables.hpp"
 
 namespace torquescope {
 namespace {
@@ -22,48 +21,6 @@ void expect(bool holds, ResultReader const& reader, std::string const& what) {
                    .what = fmt::format("{} {}", reader.name().string(), what),
                    .help = "export takes a result of torquescope run whose job has [model] robot = \"...\""};
   });
-}
-
-SerialChain chain_of(ResultReader const& reader) {
-  auto const names = reader.texts("/robot/joints"), kinds = reader.texts("/robot/kinds");
-  auto const frames = reader.numbers("/robot/frames");
-  auto const gravity = reader.attribute<std::vector<double>>("/robot", "gravity");
-  expect(
-      !names.empty() && kinds.size() == names.size() && frames.values.size() == 4 * names.size() && gravity.size() == 3,
-      reader, "has tables of an arm that differ in length");
-  SerialChain chain;
-  chain.name = reader.attribute<std::string>("/robot", "name");
-  chain.gravity = Eigen::Vector3d::Map(gravity.data());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    ChainJoint joint;
-    joint.name = names[i];
-    joint.kind = kinds[i] == "prismatic" ? JointKind::prismatic : JointKind::revolute;
-    joint.alpha = frames.values[4 * i];
-    joint.a = frames.values[4 * i + 1];
-    joint.offset = frames.values[4 * i + 2];
-    joint.d = frames.values[4 * i + 3];
-    chain.joints.push_back(std::move(joint));
-  }
-  return chain;
-}
-
-bool is_same_arm(SerialChain const& a, SerialChain const& b) {
-  auto const same = [](ChainJoint const& one, ChainJoint const& other) {
-    return one.name == other.name && one.kind == other.kind && one.a == other.a && one.alpha == other.alpha &&
-           one.d == other.d && one.offset == other.offset;
-  };
-  return a.gravity == b.gravity && std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(), b.joints.end(), same);
-}
-
-// limits and gears, which a result does not hold
-SerialChain with_limits(SerialChain chain, std::string const& file) {
-  if (std::error_code none; !std::filesystem::is_regular_file(file, none)) return chain;
-  try {
-    auto whole = read_robot(file);
-    return is_same_arm(whole, chain) ? whole : chain;
-  } catch (Error const&) {
-    return chain;  // changed since: the result knows the arm
-  }
 }
 
 // sum over joints of the products of their columns, over the noise
@@ -132,7 +89,8 @@ std::vector<std::string> words_of(BaseParameters const& base) {
 IdentifiedArm read_identified_arm(ResultReader const& reader) {
   expect(reader.exists("/robot") && reader.exists("/arm"), reader, "is no result of an arm");
   IdentifiedArm arm;
-  auto const chain = chain_of(reader);
+  auto const robot = read_robot_tables(reader);
+  auto const& chain = robot.chain;
   arm.information = information_of(reader, chain.joints.size());
   auto const names = reader.texts("/robot/base_parameters");
   bool found = false;
@@ -146,8 +104,8 @@ IdentifiedArm read_identified_arm(ResultReader const& reader) {
   }
   expect(found && arm.information.rows() >= static_cast<Index>(names.size()), reader,
          "has other base parameters than its arm");
-  auto const file = reader.find_attribute<std::string>("/robot", "file");
-  arm.chain = with_limits(chain, file.value_or(""));
+  arm.chain = chain;
+  arm.has_limits = robot.has_limits;
   return arm;
 }
 

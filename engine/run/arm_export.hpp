@@ -15,7 +15,8 @@
 namespace torquescope {
 
 struct IdentifiedArm {
-  SerialChain chain{};  // limits and gears from the robot file, where it is still the same arm
+  SerialChain chain{};     // as the robot file had it when the arm was identified
+  bool has_limits = true;  // no: an earlier version kept neither limits nor drives
   DriveInertias drives = DriveInertias::included;
   Eigen::MatrixXd information{};  // of all parameters: inverse of their covariance
 };

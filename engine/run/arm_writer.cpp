@@ -1,10 +1,12 @@
 #include "engine/run/arm_writer.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "engine/problem/arm_accuracy.hpp"
 #include "engine/robot/gather_text.hpp"
+#include "engine/run/robot_tables.hpp"
 
 namespace torquescope {
 namespace {
@@ -25,18 +27,24 @@ void write_vector(ResultWriter& writer, std::string const& path, Eigen::VectorXd
   writer.numbers(path, {n}, {vector.data(), n}, note);
 }
 
+// NaN where a drive inertia that the file does not give is in the sum
+Eigen::VectorXd values_of_file(SerialChain const& chain, BaseParameters const& base, DriveInertias drives) {
+  Eigen::VectorXd standard = standard_parameters(chain, drives);
+  if (drives == DriveInertias::included)
+    for (auto k = numbers_per_link * chain.size(); k < standard.size(); ++k)
+      if (standard[k] == 0.0) standard[k] = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd values(base.size());
+  for (Eigen::Index k = 0; k < base.size(); ++k) {
+    auto const& parameter = base.parameters()[static_cast<std::size_t>(k)];
+    values[k] = standard[parameter.column];
+    for (auto const& term : parameter.gathers) values[k] += term.factor * standard[term.column];
+  }
+  return values;
+}
+
 void write_robot(ResultWriter& writer, ArmParts const& arm) {
   auto const& chain = arm.model.chain();
   auto const& base = arm.model.base();
-  auto const joints = static_cast<Eigen::Index>(arm.model.joints());
-  RowMajor frames(joints, 4);
-  std::vector<std::string> names, kinds;
-  for (Eigen::Index j = 0; j < joints; ++j) {
-    auto const& joint = chain.joints[static_cast<std::size_t>(j)];
-    frames.row(j) << joint.alpha, joint.a, joint.offset, joint.d;
-    names.push_back(joint.name);
-    kinds.push_back(joint.kind == JointKind::revolute ? "revolute" : "prismatic");
-  }
   std::vector<std::string> parameters, units, gathers;
   for (Eigen::Index k = 0; k < base.size(); ++k) {
     auto const& parameter = base.parameters()[static_cast<std::size_t>(k)];
@@ -44,16 +52,15 @@ void write_robot(ResultWriter& writer, ArmParts const& arm) {
     units.push_back(parameter.unit);
     gathers.push_back(gather_text(base, k));
   }
-  writer.attribute("/robot", "name", chain.name);
+  write_robot_tables(writer, chain);
   writer.attribute("/robot", "file", arm.robot_file);
   writer.attribute("/robot", "sha256", arm.sha256);
-  writer.attribute("/robot", "gravity", std::vector<double>{chain.gravity.x(), chain.gravity.y(), chain.gravity.z()});
-  writer.texts("/robot/joints", names, {"1", "joint names, from the base to the tip"});
-  writer.texts("/robot/kinds", kinds, {"1", "how each joint moves"});
-  write_matrix(writer, "/robot/frames", frames, {"SI", "alpha, a, offset, d: modified Denavit-Hartenberg"});
   writer.texts("/robot/base_parameters", parameters, {"1", "base parameters"});
   writer.texts("/robot/base_units", units, {"1", "their units"});
   writer.texts("/robot/gathers", gathers, {"1", "standard parameters that each is the sum of"});
+  if (chain.has_inertias())
+    write_vector(writer, "/robot/file_values", values_of_file(chain, base, arm.model.drives()),
+                 {"SI", "base parameters of the robot file's inertias; NaN where it gives no drive inertia"});
 }
 
 void write_joint_errors(ResultWriter& writer, std::string const& group, std::string const& prefix,

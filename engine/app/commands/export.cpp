@@ -55,6 +55,10 @@ ExitCode export_result(ExportArguments const& arguments, Session const& session)
   auto const summary = read_summary(arguments.file);
   look_at_result(summary.file, [](ResultReader const& there) { read_identified_arm(there); });
   auto const arm = read_identified_arm(ResultReader(summary.file));
+  if (!arm.has_limits)
+    session.note(session.topic_line("warning",
+                                    "this result is of an earlier version, which kept neither limits nor "
+                                    "gears: run its job again to have them in the exported file"));
   auto const& estimator = chosen_estimator(summary, arguments.estimator);
   Eigen::VectorXd const values =
       Eigen::VectorXd::Map(estimator.parameters.data(), static_cast<Eigen::Index>(estimator.parameters.size()));
