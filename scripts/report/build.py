@@ -17,9 +17,11 @@ import quantities
 import style
 import svg
 import tables
+import tables_of_arm
 import tables_of_diagnosis
 import traces
 import words
+import words_of_arm
 import words_of_diagnosis
 from figures import all_cases
 from read_result import ResultError
@@ -30,7 +32,7 @@ HERE = Path(__file__).resolve().parent
 
 def page(study):
     """The text of the page."""
-    body = _of_diagnosis(study) if study.diagnosis else _of_study(study)
+    body = (_of_diagnosis if study.diagnosis else _of_arm if study.arm else _of_study)(study)
     return render(
         all_cases(study),
         study=study,
@@ -68,6 +70,12 @@ def script_json(text):
 def _of_study(study):
     return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study),
             "numbers": words.big_numbers(study), "verdict_json": ""}
+
+
+def _of_arm(study):
+    return {"parts": ["arm.html", "recording.html"], "verdict": words_of_arm.verdict(study),
+            "head": words_of_arm.head(study), "numbers": words_of_arm.big_numbers(study), "say": words_of_arm,
+            "lists": tables_of_arm, "verdict_json": ""}
 
 
 def _of_diagnosis(study):

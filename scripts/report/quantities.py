@@ -63,10 +63,10 @@ def percent(fraction, digits=2):
 
 
 def unit(text):
-    """'kg m2' as stored becomes 'kg m²'; '1' (no unit) becomes ''."""
+    """'kg m2' or 'kg m^2' as stored becomes 'kg m²'; '1' (no unit) becomes ''."""
     if text == "1":
         return ""
-    pretty = []
+    text, pretty = text.replace("^", ""), []
     for index, letter in enumerate(text):
         before = text[index - 1] if index else " "
         pretty.append(letter.translate(_SUPERSCRIPT) if letter in "-0123456789" and (before.isalpha() or before in ")-")

@@ -8,6 +8,7 @@ import numpy as np
 
 import seed
 import style
+from arm import Arm
 from read_result import Result, ResultError
 
 LEAST_SQUARES = ("ols", "wls", "irls")
@@ -36,7 +37,7 @@ class Recording(View):
 
     @property
     def rows(self):
-        return len(self.time)
+        return len(self.time) if self.has("time") else int(self.samples)  # an arm's are with its joints
 
     @property
     def warned(self):
@@ -110,9 +111,11 @@ class Study:
         self.provenance = View(self._result.provenance)
         self.diagnosis = self._result.diagnosis  # diagnosis_records.py; None for an identification
         self.train = Recording(self._result.train)
-        if not self.train.has("torque"):
+        is_arm = "arm" in self._result
+        if not self.train.has("joint_1" if is_arm else "torque"):
             raise ResultError(f"{path} keeps no samples to draw: its job says [output] samples = false")
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
+        self.arm = Arm(self._result) if is_arm else None
         self.health = View(self._result.data.regressor_health)
         self.estimators = [Estimator(name, group) for name, group in self._result.estimators.items()]
         for estimator, look in zip(self.estimators, style.estimator_looks([e.kind for e in self.estimators])):
@@ -128,7 +131,7 @@ class Study:
 
     @property
     def effort_unit(self):
-        return self.train.unit_of("torque")
+        return "1" if self.arm else self.train.unit_of("torque")
 
     @property
     def truth_known(self):

@@ -16,16 +16,8 @@ Z95 = 1.959964  # normal quantile of the stored ci95
 def verdict(study):
     """mark, word, tone ("ink" or "ochre"), sentence, evidence: what was found, in one look."""
     words = study.health.words or ""
-    late = [e for e in study.searches if not _arrived(e)]
-    if (negative := _less_than_none(study)):
-        mark, word, tone = "▽", "Not physical", "ochre"
-        words = f"Less than none is fitted of {q.listed(negative)}. {words}".strip()
-    elif words:
-        mark, word, tone = "▽", "Identified, but poorly separable", "ochre"
-    elif late:
-        mark, word, tone = "◌", "Not converged", "ochre"
-    else:
-        mark, word, tone = "●", "Identified", "ink"
+    late = [e for e in study.searches if not has_arrived(e)]
+    mark, word, tone, words = standing(_less_than_none(study), words, late)
     sentence = _search_sentence(study.searches, late) if study.searches else _fit_sentence(study)
     return {
         "mark": mark,
@@ -37,6 +29,18 @@ def verdict(study):
     }
 
 
+def standing(negative, words, late):
+    """mark, word, tone, words: of parameters that are surely negative, of a warning about the regressor, of searches
+    that have not arrived."""
+    if negative:
+        return "▽", "Not physical", "ochre", f"Less than none is fitted of {q.listed(negative)}. {words}".strip()
+    if words:
+        return "▽", "Identified, but poorly separable", "ochre", words
+    if late:
+        return "◌", "Not converged", "ochre", words
+    return "●", "Identified", "ink", words
+
+
 def _less_than_none(study):
     """Masses and frictions whose 95 % interval of least squares lies below zero."""
     fit = study.ols
@@ -46,7 +50,7 @@ def _less_than_none(study):
             if name in ("inertia", "viscous", "coulomb") and upper < 0]
 
 
-def _arrived(e):
+def has_arrived(e):
     return e.gap_median <= ARRIVED * e.mse_median
 
 

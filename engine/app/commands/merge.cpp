@@ -33,7 +33,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
     session.note(session.topic_line("done", "already complete: nothing is merged again"));
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
-    note_whereabouts(session, "kept", output, {}, summary.arm ? Look::tables : Look::page);
+    note_whereabouts(session, "kept", output);
     tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
@@ -61,7 +61,7 @@ ExitCode merge_job(MergeArguments const& arguments, Session const& session) {
   }
   ResultSummary const summary = summary_of(*report.result);
   print_results(session, summary);
-  note_whereabouts(session, "wrote", output, {}, summary.arm ? Look::tables : Look::page);
+  note_whereabouts(session, "wrote", output);
   return ExitCode::ok;
 }
 

@@ -24,13 +24,13 @@ void note_start(Session const& session, std::string const& job_line, Experiment 
 }
 
 void note_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& file,
-                      std::string const& json, Look look) {
+                      std::string const& json) {
   Ink const& ink = session.note_ink();
   std::string const name = ink.name(printable(file.string()));
   std::string line = fmt::format("{}{}  {}", pad_right(word, 7), name, bytes_text(std::filesystem::file_size(file)));
   if (!json.empty() && json != "-") line += ", " + ink.name(printable(json));
   session.note(line + "\n");
-  session.note(fmt::format("look   torquescope {} {}\n", look == Look::page ? "report" : "show", name));
+  session.note(fmt::format("look   torquescope report {}\n", name));
 }
 
 void tidy_up(Session const& session, std::filesystem::path const& result, std::string const& inputs_sha256) {

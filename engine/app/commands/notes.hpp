@@ -16,13 +16,10 @@ Experiment load_with_bar(Session const& session, std::filesystem::path const& jo
 void note_start(Session const& session, std::string const& job_line, Experiment const& experiment,
                 ThreadChoice const& threads);
 
-// what shows a result best: its page, or, where there is none yet, its tables
-enum class Look { page, tables };
-
 // "wrote  R.h5  3.1 MB" and the command that shows it; word: "wrote" or "kept". Where `json` is the name of a file and
 // not the sign of a stream, it stands beside
 void note_whereabouts(Session const& session, std::string const& word, std::filesystem::path const& file,
-                      std::string const& json = {}, Look look = Look::page);
+                      std::string const& json = {});
 
 // once a result stands: takes away what it was made of (remove_segments), and warns of what is left
 void tidy_up(Session const& session, std::filesystem::path const& result, std::string const& inputs_sha256);

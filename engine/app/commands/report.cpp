@@ -21,20 +21,11 @@ struct ReportArguments {
   std::string out{};
 };
 
-void refuse_arm(ResultReader const& reader) {
-  validate(!reader.exists("/arm"), [&] {
-    Problem problem{ExitCode::bad_data, "there is no page of an arm yet, and " + reader.name().string() + " is of one"};
-    problem.help = fmt::format("torquescope show {0}, with --json FILE for programs", reader.name().string());
-    return problem;
-  });
-}
-
 ExitCode report_result(ReportArguments const& arguments, Session const& session) {
   // a page stays when its file is gone: all of it is compared before Python is asked. (Files of an earlier format have
   // another digest, and Python looks first as well)
   look_at_result(arguments.result, [](ResultReader const& reader) {
     refuse_columns(reader);
-    refuse_arm(reader);
     if (reader.attribute<std::int64_t>("/", "format") == result_format)
       static_cast<void>(verify_everything(reader.name()));
   });

@@ -64,7 +64,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);
     print_results(session, summary);
-    note_whereabouts(session, "kept", output, {}, summary.arm ? Look::tables : Look::page);
+    note_whereabouts(session, "kept", output);
     tidy_up(session, output, experiment.inputs_sha256());
     return ExitCode::ok;
   }
@@ -102,7 +102,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   }
   ResultSummary const summary = summary_of(*report.result);
   print_results(session, summary);
-  note_whereabouts(session, "wrote", output, {}, summary.arm ? Look::tables : Look::page);
+  note_whereabouts(session, "wrote", output);
   return ExitCode::ok;
 }
 

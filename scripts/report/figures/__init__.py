@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 STUDY_MODULES = ("parameters", "relative_error", "torque_trace", "residual_autocorrelation", "residual_by_speed",
            "residual_distribution", "convergence", "control_parameters", "population_changes", "membership_functions",
            "decision_surface")
+ARM_MODULES = ("arm_parameters", "joint_errors", "joint_torque", "joint_residual_by_speed", "convergence",
+               "control_parameters", "population_changes", "membership_functions", "decision_surface")
 DIAGNOSIS_MODULES = ("mismatch_map", "residual_before_after", "missing_torque", "twin_energy", "error_before_after",
                      "diagnosed_trace", "residual_budget", "parameters_before_after")
 BOARD_MODULES = ("power_curve", "family_confusion", "share_histogram", "stated_confidence", "diagnosis_seconds")
@@ -38,6 +40,8 @@ class Case:
 
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
+    if study.arm:
+        return _cases(ARM_MODULES, study)
     modules = (
         (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
     )

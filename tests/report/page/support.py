@@ -21,6 +21,7 @@ except ImportError as error:
     print(f"skipped: {error} (Debian: python3-h5py python3-matplotlib python3-jinja2)")
     sys.exit(77)
 
+import make_arm_result  # noqa: E402
 import make_board  # noqa: E402
 import make_result  # noqa: E402
 import vary_diagnosis  # noqa: E402
@@ -37,6 +38,7 @@ def every_time(kinds, *chosen):
 
 
 KINDS = every_time(make_result.KINDS, "crs", "many")
+ARMS = tuple(make_arm_result.KINDS)
 BOARDS = every_time(make_board.KINDS, "board")
 # the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
 EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
@@ -51,7 +53,8 @@ needs_diagnoses = unittest.skipUnless(
 
 @lru_cache(maxsize=None)
 def result(kind):
-    """Path of the file of this kind (make_result.py, write_example_diagnosis.cpp, vary_diagnosis.py, make_board.py)."""
+    """Path of the file of this kind: made by make_result.py, make_arm_result.py, write_example_diagnosis.cpp,
+    vary_diagnosis.py or make_board.py."""
     path = FOLDER / f"{kind}.{'json' if kind in make_board.KINDS else 'h5'}"
     if kind in VERDICTS:
         subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
@@ -62,6 +65,8 @@ def result(kind):
             vary(file)
     elif kind in make_board.KINDS:
         make_board.write(kind, path)
+    elif kind in ARMS:
+        make_arm_result.KINDS[kind](path)
     else:
         make_result.KINDS[kind](path)
     return path

@@ -24,9 +24,9 @@ except ImportError:
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 FLAGS = ("--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
          "--disable-component-update --disable-sync --hide-scrollbars").split()
-ALL = support.KINDS + support.DIAGNOSES + support.BOARDS
-KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "named", "unexplained", "minute", "board"))
-FEWEST_FIGURES = {"insufficient": 5, "board_few": 1}
+ALL = support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS
+KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "arm", "named", "unexplained", "minute", "board"))
+FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1}
 WIDTHS, THEMES = (1280, 400), ("light", "dark")
 LEAST_TEXT_PX = 10.5
 MOST_BYTES = 3e6

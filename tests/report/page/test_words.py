@@ -36,6 +36,7 @@ class Numbers(unittest.TestCase):
     def test_units_are_si_with_a_space(self):
         self.assertEqual(q.with_unit("0.354", "N m"), "0.354 N m")
         self.assertEqual(q.unit("kg m2"), "kg m²")
+        self.assertEqual(q.unit("kg m^2"), "kg m²")
         self.assertEqual(q.unit("m/s2"), "m/s²")
         self.assertEqual(q.unit("N s2 m-1"), "N s² m⁻¹")
         self.assertEqual(q.square("N m"), "(N m)²")
