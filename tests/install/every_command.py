@@ -110,6 +110,21 @@ class EveryCommand(unittest.TestCase):
         self.assertGreater(self.size("shards.h5"), 0)
         self.assertIn("#SBATCH", self.run_command("submit", "study.toml", "--shards", "2", "--dry-run"))
 
+    def test_an_arm_from_its_motion_to_a_robot_file(self):
+        jobs = os.path.join(self.prefix, "share", "torquescope", "jobs")
+        with open(os.path.join(jobs, "crs_a465_five_joints.toml"), encoding="utf-8") as file:
+            text = file.read().replace("evaluations = 20000", "evaluations = 300")
+        for folder in ("robots/", "motions/"):
+            text = text.replace(f'= "{folder}', f'= "{jobs}/{folder}')
+        with open(os.path.join(self.folder, "arm_job.toml"), "w", encoding="utf-8") as file:
+            file.write(text)
+        self.run_command("excite", "arm_job.toml", "--out", "motion.csv")
+        self.run_command("run", "arm_job.toml", "--out", "arm.h5")
+        self.run_command("export", "arm.h5", "--urdf", "arm.urdf", "--toml", "arm.toml")
+        self.assertIn("base parameters", self.run_command("describe", "arm.urdf"))
+        self.run_command("report", "arm.h5")
+        self.assert_page("arm.html", "five joints")
+
     def test_catalogue_and_jobs(self):
         self.assertIn("stribeck", self.run_command("list", "effects"))
         self.assertIn("Stribeck friction", self.run_command("describe", "stribeck"))
