@@ -23,6 +23,9 @@ OptionTable<OutputOptions> const& OutputOptions::table() {
           {"samples", &OutputOptions::samples,
            "store every sample of the recordings with its row of the regressor; without them the file and the memory "
            "are small, and there is no page"},
+          {"populations", &OutputOptions::populations,
+           "store every member of every generation; without them a history is what the best one was and what the "
+           "method did, and a study of an arm takes megabytes instead of gigabytes"},
       });
   return options;
 }

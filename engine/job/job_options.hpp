@@ -21,6 +21,7 @@ struct OutputOptions {
   std::string file{};                // default: NAME.h5 in the working folder
   std::string compression = "none";  // "none" or "gzip"
   bool samples = true;               // false: no sample of a recording, which a page would draw
+  bool populations = true;           // false: of every generation its best alone
 
   static OptionTable<OutputOptions> const& table();
 };

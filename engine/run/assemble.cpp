@@ -191,15 +191,17 @@ bool wants_statistics(Experiment::Parts const& parts) {
 // the largest values that the options allow one by one overflow 64 bits together; doubles do not
 void check_sizes(Experiment::Parts const& parts, std::vector<Problem>& problems) {
   constexpr double tebibyte = 0x1p40, most_tebibytes = 1024.0;
+  constexpr double numbers_beside_members = 7.0;  // F, CR, PC, FC, best, gap, evaluations
   auto const sections = parts.job.all("estimator");
   for (std::size_t i = 0; i < parts.estimators.size(); ++i) {
     auto const& plan = parts.estimators[i];
     if (plan.is_closed_form()) continue;
-    auto const members = static_cast<double>(plan.make_optimiser(parts.box, {})->largest_batch());
+    double const members =
+        parts.output.populations ? static_cast<double>(plan.make_optimiser(parts.box, {})->largest_batch()) : 0.0;
     double const entries = static_cast<double>(plan.stop_rules.generations) + 1.0;
     double const numbers_per_member = static_cast<double>(parts.parameters()) + 1.0;
-    double const bytes =
-        static_cast<double>(parts.experiment.runs) * entries * members * numbers_per_member * sizeof(double);
+    double const numbers = members * numbers_per_member + numbers_beside_members;
+    double const bytes = static_cast<double>(parts.experiment.runs) * entries * numbers * sizeof(double);
     if (bytes <= most_tebibytes * tebibyte) continue;
     problems.push_back(
         problem_at(*sections[i], "generations",

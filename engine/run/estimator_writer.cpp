@@ -85,9 +85,12 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
                        std::string const& torque_unit) {
   std::string const group = group_of(label) + "/";
   std::size_t const generations = shape.generations + 1;
-  writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
-                      {"SI", "population after selection"});
-  writer.declare_runs(group + "fitness", shape.runs, {generations, shape.members}, {"1", "fitness of the population"});
+  if (shape.members > 0) {
+    writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
+                        {"SI", "population after selection"});
+    writer.declare_runs(group + "fitness", shape.runs, {generations, shape.members},
+                        {"1", "fitness of the population"});
+  }
   for (auto const& dataset : per_generation(torque_unit))
     writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note);
   writer.declare_runs(group + "evaluations", shape.runs, {generations}, {"1", "evaluations so far"},
@@ -97,8 +100,10 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
                    std::shared_ptr<RunHistory const> const& history) {
   std::string const group = group_of(label) + "/";
-  writer.write_run(group + "population", run, history->population, history);
-  writer.write_run(group + "fitness", run, history->fitness, history);
+  if (!history->fitness.empty()) {
+    writer.write_run(group + "population", run, history->population, history);
+    writer.write_run(group + "fitness", run, history->fitness, history);
+  }
   for (auto const& dataset : per_generation())
     writer.write_run(group + dataset.name, run, (*history).*dataset.values, history);
   writer.write_run(group + "evaluations", run, history->evaluations);

@@ -37,14 +37,23 @@ void evaluate(Objective const& objective, MatrixView<double const> candidates, s
   });
 }
 
-void record(Optimiser const& optimiser, SearchSetting const& setting, RunHistory& history) {
-  Progress const& progress = optimiser.progress();
+// rows of a population in a history
+std::size_t stored_members(Optimiser const& optimiser, SearchSetting const& setting) {
+  return setting.keeps_populations ? optimiser.largest_batch() : 0;
+}
+
+void record_population(Optimiser const& optimiser, RunHistory& history) {
   auto const population = optimiser.population();
   history.population.insert(history.population.end(), population.data(),
                             population.data() + population.rows() * population.columns());
   auto const fitness = optimiser.fitness();
   history.fitness.insert(history.fitness.end(), fitness.begin(), fitness.end());
   history.pad_population(optimiser.largest_batch() - population.rows(), population.columns());
+}
+
+void record(Optimiser const& optimiser, SearchSetting const& setting, RunHistory& history) {
+  Progress const& progress = optimiser.progress();
+  if (setting.keeps_populations) record_population(optimiser, history);
   history.F.push_back(progress.F);
   history.CR.push_back(progress.CR);
   history.PC.push_back(progress.PC);
@@ -70,7 +79,7 @@ struct Run {
 
 RunHistory finished(Run& run, SearchSetting const& setting) {
   run.history.told = run.history.best.size();
-  run.history.pad(stored_generations(setting.rules), run.search.largest_batch(), run.search.dimension());
+  run.history.pad(stored_generations(setting.rules), stored_members(run.search, setting), run.search.dimension());
   run.history.parameters = run.search.progress().best;
   run.history.stop_reason = to_string(*run.reason);
   run.history.nonfinite = run.search.progress().nonfinite;
@@ -104,7 +113,7 @@ std::vector<RunHistory> optimise(std::vector<RunStart> starts, SearchSetting con
     runs.push_back({search, std::move(begun.history)});
     Run& run = runs.back();
     run.spent_before_s = run.history.elapsed_s;
-    run.history.reserve(stored_generations(setting.rules), search.largest_batch(), search.dimension());
+    run.history.reserve(stored_generations(setting.rules), stored_members(search, setting), search.dimension());
     most_rows += search.largest_batch();
     // killed between its last generation and its end
     if (!run.history.best.empty())

@@ -37,6 +37,7 @@ struct SearchSetting {
   std::function<double(std::span<double const>)> gap_to_floor;        // MSE above the OLS floor, without cancellation
   std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a sweep, any thread
   std::function<bool()> stop_requested{};
+  bool keeps_populations = true;  // false: population and fitness of a history stay empty
   // asked after every generation; when true, and before a stop, keep() gets each run that has not ended (index: its
   // place among the starts)
   std::function<bool()> keep_now{};

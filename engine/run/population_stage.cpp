@@ -180,7 +180,7 @@ Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given, Lef
 
 HistoryShape history_shape(Experiment::Parts const& parts, EstimatorPlan const& plan) {
   return {static_cast<std::size_t>(parts.experiment.runs), static_cast<std::size_t>(plan.stop_rules.generations),
-          plan.make_optimiser(parts.box, {})->largest_batch(), parts.parameters()};
+          parts.output.populations ? plan.make_optimiser(parts.box, {})->largest_batch() : 0, parts.parameters()};
 }
 
 std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoice const& shard) {
@@ -193,6 +193,7 @@ std::vector<std::size_t> runs_of_shard(Experiment::Parts const& parts, ShardChoi
 void run_population(PopulationStage const& stage, std::vector<std::size_t> const& runs, CommitRun const& commit) {
   auto const& [parts, plan, choice, floor, sink, attempt] = stage;
   HistoryShape const shape = history_shape(parts, plan);
+  std::size_t const batch = plan.make_optimiser(parts.box, {})->largest_batch();
   auto const objective = make_objective(parts, plan, choice);
   std::map<std::size_t, std::size_t> safe;
   for (std::size_t const run : runs)
@@ -200,7 +201,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   attempt.keeper.begin_estimator(plan.label, search_sha256(parts, plan), shape, safe);
 
   StageProgress progress(sink, plan.label, static_cast<std::int64_t>(runs.size()),
-                         static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * shape.members));
+                         static_cast<std::int64_t>(runs.size() * (shape.generations + 1) * batch));
   SearchSetting const setting{
       *objective,
       plan.stop_rules,
@@ -209,9 +210,10 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
       [&](std::span<double const> candidate) { return stage.floor.gap(candidate); },
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       attempt.options.stop_requested,
+      parts.output.populations,
   };
   schedule_runs(
-      runs.size(), attempt.options.threads.count, runs_side_by_side(*objective, plan.stop_rules, shape.members),
+      runs.size(), attempt.options.threads.count, runs_side_by_side(*objective, plan.stop_rules, batch),
       [&](std::size_t first, std::size_t count, int team) {
         return Group(stage, shape, setting).run(std::span(runs).subspan(first, count), team);
       },

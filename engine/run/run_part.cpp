@@ -23,7 +23,7 @@ void append_range(std::vector<Value>& to, std::vector<Value> const& from, std::s
 template <class Value>
 bool same_bits(std::vector<Value> const& a, std::size_t a_first, std::vector<Value> const& b, std::size_t b_first,
                std::size_t count) {
-  return std::memcmp(a.data() + a_first, b.data() + b_first, count * sizeof(Value)) == 0;
+  return count == 0 || std::memcmp(a.data() + a_first, b.data() + b_first, count * sizeof(Value)) == 0;
 }
 
 }  // namespace

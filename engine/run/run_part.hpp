@@ -21,7 +21,7 @@ namespace torquescope {
 struct HistoryShape {
   std::size_t runs = 0;
   std::size_t generations = 0;  // without the initial one
-  std::size_t members = 0;
+  std::size_t members = 0;      // 0: populations are not kept
   std::size_t parameters = 0;
 
   bool operator==(HistoryShape const&) const = default;

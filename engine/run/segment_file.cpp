@@ -27,6 +27,7 @@ std::vector<Place> places_of(std::vector<RunPart> const& parts) {
 void write_list(ResultWriter& writer, std::string const& group, HistoryList const& list,
                 EstimatorParts const& estimator, std::vector<Place> const& places) {
   std::size_t const width = list.width(estimator.shape);
+  if (width == 0) return;  // populations that are not kept
   h5::Shape shape{places.size()};
   if (width > 1) shape.push_back(width);
   writer.numbers_in_blocks(group + list.name, shape,
@@ -227,7 +228,8 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
     return checked(reader_.number_rows(group + what, first, count), count * width, what);
   };
   for (auto const& list : history_lists)
-    part.history.*list.values = number_rows(list.name, wanted.row, wanted.count, list.width(index.shape));
+    if (std::size_t const width = list.width(index.shape); width > 0)
+      part.history.*list.values = number_rows(list.name, wanted.row, wanted.count, width);
   part.history.evaluations = whole_rows("evaluations", wanted.row, wanted.count);
   part.history.nonfinite = whole_rows("nonfinite", entry, 1).front();
   part.history.elapsed_s = number_rows("elapsed_s", entry, 1, 1).front();

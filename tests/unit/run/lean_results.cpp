@@ -1,5 +1,5 @@
-// What `run` keeps in memory and in its result: [output] samples = false changes no number, and no fit needs the
-// channels.
+// What `run` keeps in memory and in its result: [output] samples = false and populations = false change no number, and
+// no fit needs the channels.
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,19 @@ TEST(Samples, LeftOutAreCounted) {
     for (std::string const name : {"time", "recording", "position", "velocity", "acceleration", "torque", "regressor"})
       EXPECT_FALSE(lean.exists(group + "/" + name)) << group << name;
     EXPECT_EQ(lean.attribute<double>(group, "duration_s"), 5.0);
+  }
+}
+
+TEST(Populations, LeftOutChangeNoNumber) {
+  test::TemporaryFolder const folder;
+  identify_into(folder / "all.h5", job);
+  identify_into(folder / "lean.h5", job + "[output]\npopulations = false\n");
+  ResultReader const all(folder / "all.h5"), lean(folder / "lean.h5");
+  for (std::string const path : {"/runs/de/parameters", "/runs/de/gap_history", "/runs/de/best", "/runs/de/gap"})
+    EXPECT_EQ(lean.numbers(path).values, all.numbers(path).values) << path;
+  for (std::string const path : {"/runs/de/population", "/runs/de/fitness"}) {
+    EXPECT_TRUE(all.exists(path)) << path;
+    EXPECT_FALSE(lean.exists(path)) << path;
   }
 }
 
