@@ -8,6 +8,7 @@
 
 #include "engine/problem/arm_regression.hpp"
 #include "engine/problem/estimator.hpp"
+#include "engine/problem/plain_least_squares.hpp"
 
 namespace torquescope::estimators {
 namespace {
@@ -37,17 +38,7 @@ LeastSquaresFit fit_unscaled(RegressionData const& data, OlsOptions const& optio
 }
 
 LeastSquaresFit fit_ols(RegressionData const& data, OlsOptions const& options) {
-  if (data.arm) return fit_unscaled(data, options);
-  LeastSquaresFit fit;
-  fit.parameters = solve_weighted(data, {});
-  Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
-  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
-  double const variance = residual.squaredNorm() / freedom;
-  auto const bread = inverse_information(data, {});
-  fit.covariance_naive = variance * bread;
-  fit.scale = std::sqrt(variance);
-  finish_fit(fit, data, residual, bread, options.hac_lags);
-  return fit;
+  return data.arm ? fit_unscaled(data, options) : plain_least_squares(data, options.hac_lags);
 }
 
 }  // namespace
