@@ -266,7 +266,8 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->largest_batch());
     double const generations = static_cast<double>(plan.stop_rules.generations) + 1.0;
     evaluations += static_cast<double>(parts_->experiment.runs) * generations * members;
-    bytes += static_cast<double>(parts_->experiment.runs) * generations * (members * (parameters + 1.0) + 7.0) * 8.0;
+    double const stored = parts_->output.populations ? members * (parameters + 1.0) : 0.0;
+    bytes += static_cast<double>(parts_->experiment.runs) * generations * (stored + 7.0) * 8.0;
   }
   lines.push_back({Level::ok, "plan",
                    fmt::format("{}, {:.0f} evaluations at most, {:.3g} MB of history, {}",

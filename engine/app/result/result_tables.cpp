@@ -134,8 +134,11 @@ std::string standard_error_lines(ResultSummary const& summary) {
   for (auto const& estimator : summary.estimators) {
     if (estimator.standard_error.empty()) continue;
     std::string list;
-    for (std::size_t i = 0; i < summary.names.size(); ++i)
-      list += fmt::format("{}{} {:.2g}", i ? ", " : "", printable(summary.names[i]), estimator.standard_error.at(i));
+    for (std::size_t i = 0; i < summary.names.size(); ++i) {
+      double const error = estimator.standard_error.at(i);
+      if (std::isnan(error)) continue;  // of a parameter that was left out
+      list += fmt::format("{}{} {:.2g}", list.empty() ? "" : ", ", printable(summary.names[i]), error);
+    }
     text += hanging(fmt::format("  {} standard error: ", column_title(estimator)), list);
   }
   return text;
