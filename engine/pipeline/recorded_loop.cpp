@@ -78,8 +78,8 @@ Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const&
 }
 
 // The largest torque that the joint needs along a motion. A model that explains little of a recording may need more
-// than was recorded, on rows that nothing is fitted to: a joint that is led along has not run away for that. Without the
-// ends, where a filter makes accelerations of the encoder's noise
+// than was recorded, on rows that nothing is fitted to: a joint that is led along has not run away for that. The ends
+// do not count, where a filter makes accelerations of the encoder's noise
 double most_needed(TrackedJoint const& joint, Eigen::VectorXd const& q, double rate_hz, Eigen::Index edge) {
   double most = 0.0;
   edge = std::max<Eigen::Index>(edge, 1);
