@@ -6,6 +6,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/problem/hac.hpp"
+#include "engine/problem/hac_bias.hpp"
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/row_reduction.hpp"
 
@@ -88,6 +89,15 @@ Eigen::MatrixXd scores_of_instants(RegressionData const& data, Eigen::VectorXd c
   return scores;
 }
 
+// what the residuals have lost to the fit, in place of the n / (n - R) that newey_west_covariance() has assumed
+void restore_lost_noise(LeastSquaresFit& fit, RegressionData const& data, Eigen::MatrixXd const& bread,
+                        Eigen::Index n) {
+  double const rest = static_cast<double>(n - data.parameters()) / static_cast<double>(n);
+  Eigen::VectorXd const roots =
+      (rest * hac_bias_factors(data, fit.parameters, fit.weights, bread, fit.hac_lags)).cwiseSqrt();
+  fit.covariance_hac = roots.asDiagonal() * fit.covariance_hac * roots.asDiagonal();
+}
+
 }  // namespace
 
 void finish_fit(LeastSquaresFit& fit, RegressionData const& data, Eigen::VectorXd const& psi,
@@ -98,6 +108,7 @@ void finish_fit(LeastSquaresFit& fit, RegressionData const& data, Eigen::VectorX
     Eigen::MatrixXd const scores = scores_of_instants(data, psi);
     Eigen::VectorXd const ones = Eigen::VectorXd::Ones(scores.rows());
     n = add_covariance(fit, {scores, ones, data.arm->first_instant}, bread, hac_lags);
+    restore_lost_noise(fit, data, bread, n);
   } else {
     n = add_covariance(fit, {data.phi, psi, data.first_row}, bread, hac_lags);
   }
