@@ -27,7 +27,8 @@ double position_noise(Recording const& recording, Eigen::VectorXd const& positio
 
 struct Band {
   double cutoff_hz;
-  double speed_energy;  // of the position low-passed there, differentiated
+  double position_energy;  // of the position low-passed there, about its mean
+  double speed_energy;     // of the same, differentiated
   double acceleration_rms;
 };
 
@@ -42,7 +43,8 @@ std::vector<Band> bands_of(Eigen::VectorXd const& position, double rate_hz) {
     Eigen::VectorXd const smooth = zero_phase(sections, position);
     Eigen::ArrayXd const speed = (smooth.tail(n - 1) - smooth.head(n - 1)).array() * rate_hz;
     Eigen::ArrayXd const acceleration = (speed.tail(n - 2) - speed.head(n - 2)) * rate_hz;
-    bands.push_back({cutoff_hz, speed.square().sum(), std::sqrt(acceleration.square().mean())});
+    double const position_energy = (smooth.array() - smooth.mean()).square().sum();
+    bands.push_back({cutoff_hz, position_energy, speed.square().sum(), std::sqrt(acceleration.square().mean())});
   }
   std::reverse(bands.begin(), bands.end());
   return bands;
@@ -101,27 +103,47 @@ double suggested_kept_rate(double rate_hz, double parallel_cutoff_hz, double sec
   return best;
 }
 
-FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
-  using Limit = FilterSuggestion::Limit;
-  constexpr double share_of_motion = 0.98, share_of_noise = 0.2, above_motion = 10.0, wide_enough_hz = 20.0;
+namespace {
+
+// what a recording of one joint says of its filter
+struct MotionFacts {
+  std::vector<Band> bands{};
+  Band widest{};          // below it noise is no fifth of the acceleration
+  double noise_hz = 0.0;  // 0: no noise to see
+  double reversals_per_second = 0.0;
+};
+
+MotionFacts motion_facts(Recording const& recording) {
+  constexpr double share_of_noise = 0.2;
   double const rate_hz = recording.rate_hz;
   Eigen::VectorXd const position = recording.position.head(std::min(recording.position.size(), most_samples));
-  auto const bands = bands_of(position, rate_hz);
-  FilterSuggestion suggestion;
-  if (bands.empty()) return suggestion;
-
+  MotionFacts facts;
+  facts.bands = bands_of(position, rate_hz);
+  if (facts.bands.empty()) return facts;
   double const sigma = position_noise(recording, position);
-  Band const* widest = &bands.front();
-  for (auto const& band : bands)
-    if (noise_of_acceleration(sigma, band.cutoff_hz, rate_hz) <= share_of_noise * band.acceleration_rms) widest = &band;
-  bool const noise_matters = widest != &bands.back();
-  if (noise_matters) suggestion.noise_hz = widest->cutoff_hz;
-  for (auto const& band : bands) {
-    suggestion.motion_hz = band.cutoff_hz;
-    if (band.speed_energy >= share_of_motion * widest->speed_energy) break;
-  }
+  facts.widest = facts.bands.front();
+  for (auto const& band : facts.bands)
+    if (noise_of_acceleration(sigma, band.cutoff_hz, rate_hz) <= share_of_noise * band.acceleration_rms)
+      facts.widest = band;
+  if (facts.widest.cutoff_hz != facts.bands.back().cutoff_hz) facts.noise_hz = facts.widest.cutoff_hz;
+  facts.reversals_per_second = reversals_per_second(position, facts.widest.cutoff_hz, rate_hz);
+  return facts;
+}
 
-  double cutoff_hz = above_motion * suggestion.motion_hz;
+// what of a recording decides
+struct Wanted {
+  double rate_hz, shortest_s, motion_hz, noise_hz, reversals_per_second;
+  double least_hz;  // of a slow motion
+};
+
+FilterSuggestion suggestion_for(Wanted const& wanted) {
+  using Limit = FilterSuggestion::Limit;
+  constexpr double above_motion = 10.0;
+  FilterSuggestion suggestion;
+  suggestion.motion_hz = wanted.motion_hz;
+  suggestion.noise_hz = wanted.noise_hz;
+  bool const noise_matters = wanted.noise_hz > 0.0;
+  double cutoff_hz = above_motion * wanted.motion_hz;
   auto const at_most = [&](double hz, Limit limit) {
     if (cutoff_hz > hz) suggestion.limit = limit;
     cutoff_hz = std::min(cutoff_hz, hz);
@@ -130,23 +152,67 @@ FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
     if (cutoff_hz < hz) suggestion.limit = limit;
     cutoff_hz = std::max(cutoff_hz, hz);
   };
-  if (noise_matters) at_most(suggestion.noise_hz, Limit::noise);
-  // friction at reversals is faster than a slow motion
-  at_least(std::min(rate_hz / 12, wide_enough_hz), Limit::slow_motion);
+  if (noise_matters) at_most(wanted.noise_hz, Limit::noise);
+  at_least(wanted.least_hz, Limit::slow_motion);
   // 1.6 periods of the parallel cut-off at each side of a reversal tell nothing: at most half of the time, where
   // the noise is not twice what it should be at most
-  double const by_reversals = 2 * 6.4 * reversals_per_second(position, widest->cutoff_hz, rate_hz);
+  double const by_reversals = 2 * 6.4 * wanted.reversals_per_second;
   constexpr double bearable = 2.0;
-  at_least(noise_matters ? std::min(by_reversals, bearable * suggestion.noise_hz) : by_reversals, Limit::reversals);
+  at_least(noise_matters ? std::min(by_reversals, bearable * wanted.noise_hz) : by_reversals, Limit::reversals);
   // three periods of the parallel cut-off go at each end: all together a fifth of the shortest recording
-  at_least(2 * 30 / shortest_s, Limit::length);
-  at_most(highest_share_of_rate * rate_hz, Limit::rate);
+  at_least(2 * 30 / wanted.shortest_s, Limit::length);
+  at_most(highest_share_of_rate * wanted.rate_hz, Limit::rate);
 
   auto& options = suggestion.options;
   options.cutoff_hz = round_figure(cutoff_hz);
   options.parallel_cutoff_hz = options.cutoff_hz / 2;
-  options.decimate_to_hz = suggested_kept_rate(rate_hz, options.parallel_cutoff_hz, shortest_s);
+  options.decimate_to_hz = suggested_kept_rate(wanted.rate_hz, options.parallel_cutoff_hz, wanted.shortest_s);
   return suggestion;
+}
+
+// the lowest band that holds `share` of an energy; of no energy the lowest
+double band_of_share(std::vector<Band> const& bands, std::vector<double> const& energy, double whole, double share) {
+  for (std::size_t k = 0; k < bands.size(); ++k)
+    if (energy[k] >= share * whole) return bands[k].cutoff_hz;
+  return bands.back().cutoff_hz;
+}
+
+}  // namespace
+
+FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
+  constexpr double share_of_motion = 0.98, wide_enough_hz = 20.0;
+  MotionFacts const facts = motion_facts(recording);
+  if (facts.bands.empty()) return {};
+  std::vector<double> energy;
+  for (auto const& band : facts.bands) energy.push_back(band.speed_energy);
+  double const motion_hz = band_of_share(facts.bands, energy, facts.widest.speed_energy, share_of_motion);
+  // friction at reversals is faster than a slow motion
+  double const least_hz = std::min(recording.rate_hz / 12, wide_enough_hz);
+  return suggestion_for(
+      {recording.rate_hz, shortest_s, motion_hz, facts.noise_hz, facts.reversals_per_second, least_hz});
+}
+
+FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double shortest_s) {
+  constexpr double share_of_motion = 0.999;
+  std::vector<double> energy;
+  std::vector<Band> bands;
+  double whole = 0.0, clearest_hz = 0.0, reversals = 0.0;
+  bool sees_no_noise = false;
+  for (auto const& joint : joints) {
+    MotionFacts const facts = motion_facts(joint);
+    if (facts.bands.empty()) return {};
+    bands = facts.bands;  // joints of a recording have one rate and length: one grid
+    energy.resize(bands.size(), 0.0);
+    for (std::size_t k = 0; k < bands.size(); ++k) energy[k] += bands[k].position_energy;
+    whole += facts.widest.position_energy;
+    clearest_hz = std::max(clearest_hz, facts.noise_hz);
+    sees_no_noise = sees_no_noise || facts.noise_hz == 0.0;
+    reversals = std::max(reversals, facts.reversals_per_second);
+  }
+  if (bands.empty()) return {};
+  double const motion_hz = band_of_share(bands, energy, whole, share_of_motion);
+  return suggestion_for(
+      {joints.front().rate_hz, shortest_s, motion_hz, sees_no_noise ? 0.0 : clearest_hz, reversals, 0.0});
 }
 
 }  // namespace torquescope

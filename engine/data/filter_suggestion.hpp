@@ -7,8 +7,12 @@
 // Equation   cutoff_hz = min(10 f_m, f_n), at least f_s / 12 or 20 Hz, and 12.8 r as far as 2 f_n (then at most half of
 //            the time is masked, pipeline/reversal_mask.hpp), at most f_s / 5; parallel_cutoff_hz half of it;
 //            decimate_to_hz = f_s / k: 2.5 to 4 times that, or 1000 rows; edges drop at most a fifth of the time
+// Arms       f_m: 99.9 % of the energy of all positions together, which ripple and lost samples hardly change; rows near
+//            a reversal are left out, where friction is faster than the motion: nothing asks for f_s / 12 or 20 Hz
 // Threads    free function
 // Source     `torquescope describe filter`
+
+#include <span>
 
 #include "engine/data/motion.hpp"
 
@@ -23,6 +27,10 @@ struct FilterSuggestion {
 
 // shortest_s: of all recordings that the filter is for
 FilterSuggestion suggest_filter(Recording const& recording, double shortest_s);
+
+// joints: of one recording, all in rad or all in m; noise_hz is that of the clearest, reversals those of the busiest.
+// The wrist's motion is seen from about 3 % of the largest amplitude on
+FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double shortest_s);
 
 // decimate_to_hz for a parallel cut-off: rate_hz / k between 2.5 and 4 times it, with the fewest digits; 0 when k = 1.
 // seconds: of a recording that shall keep the 1000 rows that a search wants; 0: as many as there are

@@ -88,28 +88,26 @@ void grade_standstill(Joints& joints) {
       if (stands(finding)) finding.grade = Grade::fault;
 }
 
-// Of the joint whose motion is the fastest: what it keeps, all keep. A cut-off is told to cut into the motion only
-// where it does so in every joint: what one seems to do faster than the others of its arm is mostly its noise
-FilterSuggestion suggest_arm_filter(Files const& train, Files const& unseen) {
+// Of the joints of a kind together; of slides and revolute joints the faster ones: what they keep, all keep
+FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train, Files const& unseen) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (auto const* files : {&train, &unseen})
     for (auto const& joints : *files)
       shortest_s = std::min(shortest_s, static_cast<double>(joints.front().position.size()) / joints.front().rate_hz);
   FilterSuggestion best;
-  double slowest_hz = std::numeric_limits<double>::infinity(), clearest_hz = 0.0;
-  for (auto const& joint : train.front()) {
-    FilterSuggestion const one = suggest_filter(joint, shortest_s);
-    if (one.motion_hz > 0.0) slowest_hz = std::min(slowest_hz, one.motion_hz);
-    clearest_hz = std::max(clearest_hz, one.noise_hz);
+  for (auto const kind : {JointKind::revolute, JointKind::prismatic}) {
+    Joints alike;
+    for (std::size_t j = 0; j < chain.joints.size(); ++j)
+      if (chain.joints[j].kind == kind) alike.push_back(train.front()[j]);
+    if (alike.empty()) continue;
+    FilterSuggestion const one = suggest_arm_filter(alike, shortest_s);
     if (one.options.cutoff_hz > best.options.cutoff_hz) best = one;
   }
-  best.motion_hz = std::isfinite(slowest_hz) ? slowest_hz : 0.0;
-  best.noise_hz = clearest_hz;
   return best;
 }
 
 void choose_filter(Experiment::Parts& parts, Files const& train, Files const& unseen) {
-  FilterSuggestion const suggestion = suggest_arm_filter(train, unseen);
+  FilterSuggestion const suggestion = suggest_filter_of(parts.arm->model.chain(), train, unseen);
   if (parts.job.find("filter") == nullptr) {
     parts.filter = suggestion.options;
     parts.filter_is_chosen = true;

@@ -48,6 +48,22 @@ TEST(Panda, LeavesLittleUnseen) {
   EXPECT_LE(all, 0.02);
 }
 
+// the job without its [filter], up to the next section
+std::string without_filter(std::string job) {
+  auto const from = job.find("[filter]"), to = job.find("\n[", from);
+  return job.erase(from, to + 1 - from);
+}
+
+TEST(Panda, LeavesAsLittleWithTheFilterThatTheRecordingAsksFor) {
+  SKIP_WITHOUT(test::recordings_folder() / "panda/panda_exciting_traj1.csv.gz");
+  EXPECT_LE(unseen_errors(without_filter(job_for("panda.toml"))).first, 0.015);
+}
+
+TEST(Ur10e, LeavesAsLittleWithTheFilterThatTheRecordingAsksFor) {
+  SKIP_WITHOUT(test::recordings_folder() / "ur10e/ident_20_02_05_20sec_8harm.csv.gz");
+  EXPECT_LE(unseen_errors(without_filter(job_for("ur10e.toml"))).first, 0.047);
+}
+
 TEST(Ur10e, LeavesLittleUnseenWhicheverRecordingIsLeftOut) {
   SKIP_WITHOUT(test::recordings_folder() / "ur10e/ident_20_02_05_20sec_8harm.csv.gz");
   std::string const a = "ident_20_02_05_20sec_8harm", b = "ident_20_02_10_30sec_12harm",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "engine/data/filter_checks.hpp"
 
@@ -71,6 +73,27 @@ TEST(FilterSuggestion, KeepsWhatEveryCheckOfAJobWants) {
           EXPECT_GE(options.decimate_to_hz * seconds, 1000 * (1 - 1e-9)) << "rows for a search";
         }
       }
+}
+
+TEST(ArmFilterSuggestion, IsTenTimesTheMotionOfAllJointsWithoutAFloor) {
+  // a joint alone keeps 20 Hz for friction at its reversals; those rows of an arm are left out
+  std::vector<Recording> const joints{sine(0.1, 1000, 60), sine(0.2, 1000, 60)};
+  auto const found = suggest_arm_filter(joints, 60);
+  EXPECT_GT(found.motion_hz, 0.2);
+  EXPECT_LT(found.motion_hz, 0.6);
+  EXPECT_GE(found.options.cutoff_hz, 2.0);
+  EXPECT_LE(found.options.cutoff_hz, 6.0);
+  EXPECT_GE(suggest_filter(joints[1], 60).options.cutoff_hz, 15);
+}
+
+TEST(ArmFilterSuggestion, IsNotLedByRippleOfAJointThatHardlyMoves) {
+  std::vector<Recording> joints{sine(0.2, 1000, 60), sine(0.2, 1000, 60)};
+  auto const smooth = suggest_arm_filter(joints, 60);
+  joints[1].position = 0.01 * sine(10.0, 1000, 60).position;
+  EXPECT_EQ(suggest_arm_filter(std::span(joints).first(1), 60).motion_hz, smooth.motion_hz);
+  EXPECT_EQ(suggest_arm_filter(joints, 60).motion_hz, smooth.motion_hz);
+  joints[1].position = 0.1 * sine(10.0, 1000, 60).position;  // a wrist that is fast on purpose
+  EXPECT_GT(suggest_arm_filter(joints, 60).motion_hz, 10.0);
 }
 
 }  // namespace filter_suggestion_test
