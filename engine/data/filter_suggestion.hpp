@@ -28,8 +28,7 @@ struct FilterSuggestion {
 // shortest_s: of all recordings that the filter is for
 FilterSuggestion suggest_filter(Recording const& recording, double shortest_s);
 
-// joints: of one recording, all in rad or all in m; noise_hz is that of the clearest, reversals those of the busiest.
-// The wrist's motion is seen from about 3 % of the largest amplitude on
+// joints: of one recording, all in rad or all in m; noise_hz is that of the clearest, reversals those of the busiest
 FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double shortest_s);
 
 // decimate_to_hz for a parallel cut-off: rate_hz / k between 2.5 and 4 times it, with the fewest digits; 0 when k = 1.

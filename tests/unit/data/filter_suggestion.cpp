@@ -92,8 +92,6 @@ TEST(ArmFilterSuggestion, IsNotLedByRippleOfAJointThatHardlyMoves) {
   joints[1].position = 0.01 * sine(10.0, 1000, 60).position;
   EXPECT_EQ(suggest_arm_filter(std::span(joints).first(1), 60).motion_hz, smooth.motion_hz);
   EXPECT_EQ(suggest_arm_filter(joints, 60).motion_hz, smooth.motion_hz);
-  joints[1].position = 0.1 * sine(10.0, 1000, 60).position;  // a wrist that is fast on purpose
-  EXPECT_GT(suggest_arm_filter(joints, 60).motion_hz, 10.0);
 }
 
 }  // namespace filter_suggestion_test
