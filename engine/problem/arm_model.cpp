@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/effects/passive_signs.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 
 namespace torquescope {
@@ -42,6 +43,22 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
       columns_.push_back(std::move(column));
     }
   }
+}
+
+Eigen::VectorXd ArmModel::passive_signs() const {
+  Eigen::VectorXd signs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size()));
+  auto const links = static_cast<Eigen::Index>(10 * joints());
+  for (Eigen::Index k = 0; k < base_.size(); ++k) {
+    auto const& parameter = base_.parameters()[static_cast<std::size_t>(k)];
+    if (parameter.column >= links && parameter.gathers.empty()) signs[k] = 1.0;
+  }
+  Eigen::Index first = base_.size();
+  for (auto const& friction : friction_) {
+    auto const own = torquescope::passive_signs(friction);
+    signs.segment(first, own.size()) = own;
+    first += own.size();
+  }
+  return signs;
 }
 
 std::vector<std::string> ArmModel::names() const {

@@ -44,6 +44,9 @@ class ArmModel {
   std::vector<std::string> joint_names() const;      // of the robot file; "" where it has none
   std::string torque_unit(std::size_t joint) const;  // "N m", or "N" of a slide
   std::string equation() const;                      // "tau = Phi(q, dq, ddq) chi + Fv dq + ..."
+  // +1 or -1 where what exists has that sign: frictions (which take work out of a joint) and drive inertias that stand
+  // alone; 0 elsewhere
+  Eigen::VectorXd passive_signs() const;
   // parameters that row `joint` depends on, ascending
   std::vector<Eigen::Index> const& parameters_of(std::size_t joint) const { return own_[joint]; }
 

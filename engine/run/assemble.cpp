@@ -13,6 +13,7 @@
 #include "engine/health/make_recording.hpp"
 #include "engine/problem/position_factor.hpp"
 #include "engine/run/arm_assembly.hpp"
+#include "engine/run/arm_findings.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
 #include "engine/run/foreign_file.hpp"
@@ -308,7 +309,7 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   if (!too_few_rows(rows)) parts->reductions = reductions_of(rows);
   parts->health = regressor_health(rows, parts->reductions);
   if (!simulates) {
-    auto found = is_arm ? std::vector<Finding>() : fit_findings(*parts, recording);
+    auto found = is_arm ? arm_findings(*parts, recording) : fit_findings(*parts, recording);
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();

@@ -9,6 +9,7 @@
 #include "engine/data/arm_recording.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/health/finding_text.hpp"
+#include "engine/run/arm_findings.hpp"
 #include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/search_box.hpp"
@@ -246,6 +247,11 @@ std::vector<CheckLine> Experiment::check(int threads) const {
                                  parts_->health.remark.empty() ? "" : "; ", parts_->health.remark)});
   else
     lines.push_back({Level::warn, "separable", parts_->health.words});
+
+  if (parts_->arm) {
+    auto const told = arm_identifiability(*parts_);
+    lines.push_back({told.all_seen ? Level::ok : Level::warn, "identifiable", told.words});
+  }
 
   if (parts_->job.find("diagnose") != nullptr)
     lines.push_back({Level::ok, "diagnosis",

@@ -3,49 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "engine/data/levels.hpp"
+#include "engine/effects/passive_signs.hpp"
 #include "engine/problem/least_squares.hpp"
 #include "engine/problem/position_factor.hpp"
 #include "engine/run/search_box.hpp"
 
 namespace torquescope {
 namespace {
-
-// What a passive joint has: 1 of a mass and of a friction whose column goes with the speed, -1 of one that goes against
-// it (friction of the negative direction), 0 of anything else
-Eigen::VectorXd required_signs(Regressor const& regressor) {
-  constexpr std::array unit = {1.0};
-  Eigen::VectorXd signs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressor.size()));
-  Eigen::Index column = 0;
-  for (auto const* term : regressor.terms()) {
-    auto const of = [&](JointState const& state) { return term->torque(state, unit, {}); };
-    auto const size = static_cast<Eigen::Index>(term->n_linear());
-    if (size == 1 && of({}) == 0.0) {
-      double const power = of({.dq = 1.0}) - of({.dq = -1.0}), mass = of({.ddq = 1.0});
-      if (power != 0.0)
-        signs[column] = power > 0.0 ? 1.0 : -1.0;
-      else if (mass != 0.0)
-        signs[column] = mass > 0.0 ? 1.0 : -1.0;
-    }
-    column += size;
-  }
-  return signs;
-}
-
-LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters) {
-  LeastSquaresFit fit;
-  fit.parameters = std::move(parameters);
-  Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
-  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
-  auto const bread = inverse_information(data, {});
-  fit.covariance_naive = residual.squaredNorm() / freedom * bread;
-  constexpr std::int64_t automatic_lags = -1;
-  finish_fit(fit, data, residual, bread, automatic_lags);
-  return fit;
-}
 
 // What goes into the joint over the recording (up to the time step); less than none of a passive one
 double work(RegressionData const& rows) {
@@ -63,7 +30,7 @@ std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOpt
   auto const& rows = parts.train.regression;
   if (!parts.health.identifiable) return {};
   Eigen::VectorXd const parameters = solve_reduced(rows, parts.reductions);
-  Eigen::VectorXd const signs = required_signs(*parts.regressor);
+  Eigen::VectorXd const signs = passive_signs(*parts.regressor);
   if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
 
   bool const takes_work_out = work(rows) < 0.0;
@@ -103,6 +70,18 @@ std::optional<Finding> factor_finding(Experiment::Parts const& parts, RecordingO
 }
 
 }  // namespace
+
+LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters) {
+  LeastSquaresFit fit;
+  fit.parameters = std::move(parameters);
+  Eigen::VectorXd const residual = data.tau - data.phi * fit.parameters;
+  auto const freedom = static_cast<double>(std::max<Eigen::Index>(data.rows() - data.parameters(), 1));
+  auto const bread = inverse_information(data, {});
+  fit.covariance_naive = residual.squaredNorm() / freedom * bread;
+  constexpr std::int64_t automatic_lags = -1;
+  finish_fit(fit, data, residual, bread, automatic_lags);
+  return fit;
+}
 
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
   std::vector<Finding> findings;

@@ -8,9 +8,13 @@
 
 #include <vector>
 
+#include "engine/problem/least_squares.hpp"
 #include "engine/run/experiment_parts.hpp"
 
 namespace torquescope {
+
+// of all rows alike, with HAC errors
+LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters);
 
 // of recordings from files; needs parts.reductions
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options);

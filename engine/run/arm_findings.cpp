@@ -1,0 +1,163 @@
+#include "engine/run/arm_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/data/arm_recording.hpp"
+#include "engine/data/levels.hpp"
+#include "engine/robot/forward_dynamics.hpp"
+#include "engine/run/fit_findings.hpp"
+#include "engine/statistics/gram_identifiability.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::string list_of(std::vector<std::string> const& names, std::vector<Index> const& which) {
+  std::vector<std::string> chosen;
+  for (auto const k : which) chosen.push_back(names[static_cast<std::size_t>(k)]);
+  return fmt::format("{}", fmt::join(chosen, ", "));
+}
+
+// the joints that stand still, or never turn round
+std::string wanted_motion(Experiment::Parts const& parts) {
+  std::vector<std::string> still, one_way;
+  auto const names = parts.arm->model.joint_names();
+  for (std::size_t j = 0; j < parts.joints(); ++j) {
+    double moving = 0.0;
+    Index reversals = 0;
+    for (std::size_t k = j; k < parts.train.excitation.size(); k += parts.joints()) {
+      moving = std::max(moving, parts.train.excitation[k].moving_share);
+      reversals += parts.train.excitation[k].reversals;
+    }
+    bool const has_rows = parts.arm->grams[j].rows > 0;
+    if (moving == 0.0 || !has_rows)
+      still.push_back(joint_title(j, names));
+    else if (reversals == 0)
+      one_way.push_back(joint_title(j, names));
+  }
+  std::string text;
+  if (!still.empty()) text += fmt::format("; move {}", fmt::join(still, ", "));
+  if (!one_way.empty()) text += fmt::format("; reverse {}", fmt::join(one_way, ", "));
+  return text;
+}
+
+// positions of all joints at every instant of which all joints have a row
+std::vector<VectorXd> positions_of(DataSet const& set, std::size_t joints) {
+  std::map<Index, std::pair<VectorXd, std::size_t>> at;
+  for (auto const* rows : {&set.regression, &set.other_rows}) {
+    if (rows->q.size() != rows->rows()) continue;
+    for (std::size_t k = 0; k < rows->recordings(); ++k)
+      for (Index t = rows->first_row[k]; t < rows->first_row[k + 1]; ++t) {
+        auto& [q, count] = at[rows->arm->instant[static_cast<std::size_t>(t)]];
+        if (count == 0) q.setZero(static_cast<Index>(joints));
+        q[static_cast<Index>(rows->arm->joint[k])] = rows->q[t];
+        ++count;
+      }
+  }
+  std::vector<VectorXd> positions;
+  for (auto& [instant, value] : at)
+    if (value.second == joints) positions.push_back(std::move(value.first));
+  return positions;
+}
+
+// [N][R]: M_jj(q) of each parameter alone
+MatrixXd own_inertias(ArmModel const& model, VectorXd const& q) {
+  auto const& base = model.base();
+  MatrixXd columns(q.size(), base.size());
+  for (Index k = 0; k < base.size(); ++k)
+    columns.col(k) = mass_matrix(model.chain(), base.to_standard(VectorXd::Unit(base.size(), k)), q).diagonal();
+  return columns;
+}
+
+struct NegativeInertia {
+  std::string words;
+  bool surely = false;
+};
+
+// the most negative M_jj of each joint along the motion
+NegativeInertia negative_inertias(Experiment::Parts const& parts, LeastSquaresFit const& fit) {
+  auto const& model = parts.arm->model;
+  auto const count = model.base().size();
+  VectorXd const standard = model.base().to_standard(fit.parameters.head(count));
+  auto const joints = static_cast<Index>(model.joints());
+  VectorXd least = VectorXd::Zero(joints);
+  std::vector<VectorXd> where(model.joints());
+  for (auto const& q : positions_of(parts.train, model.joints())) {
+    VectorXd const own = mass_matrix(model.chain(), standard, q).diagonal();
+    for (Index j = 0; j < joints; ++j)
+      if (own[j] < least[j]) {
+        least[j] = own[j];
+        where[static_cast<std::size_t>(j)] = q;
+      }
+  }
+  NegativeInertia found;
+  for (Index j = 0; j < joints; ++j) {
+    if (least[j] >= 0.0) continue;
+    VectorXd const gradient = own_inertias(model, where[static_cast<std::size_t>(j)]).row(j).transpose();
+    double const error = std::sqrt(gradient.dot(fit.covariance_hac.topLeftCorner(count, count) * gradient));
+    if (!(least[j] < -levels::surely_negative * error)) continue;
+    found.surely = true;
+    bool const turns = model.chain().joints[static_cast<std::size_t>(j)].kind == JointKind::revolute;
+    found.words += fmt::format("{}inertia of joint {} = {:.3g} {}", found.words.empty() ? "" : ", ", j + 1, least[j],
+                               turns ? "kg m^2" : "kg");
+  }
+  return found;
+}
+
+}  // namespace
+
+ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
+  auto const& phi = parts.train.regression.phi;
+  auto const found = gram_identifiability(phi.transpose() * phi);
+  auto const names = parts.parameter_names();
+  std::size_t alone = 0, grouped = 0;
+  std::vector<Index> unseen;
+  for (std::size_t k = 0; k < found.seen.size(); ++k) {
+    alone += found.seen[k] == Seen::alone;
+    grouped += found.seen[k] == Seen::in_a_group;
+    if (found.seen[k] == Seen::not_at_all) unseen.push_back(static_cast<Index>(k));
+  }
+  ArmIdentifiability said;
+  said.all_seen = alone == names.size();
+  said.words = fmt::format("{} parameters: {} alone, {} only in a group, {} not at all", names.size(), alone, grouped,
+                           unseen.size());
+  for (auto const& group : found.groups) said.words += fmt::format("; together: {}", list_of(names, group));
+  if (!unseen.empty()) said.words += fmt::format("; not seen: {}", list_of(names, unseen));
+  if (!said.all_seen) said.words += wanted_motion(parts);
+  return said;
+}
+
+std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+  auto const& rows = parts.train.regression;
+  if (too_few_rows(rows) || !parts.health.identifiable) return {};
+  auto const fit = fit_with_errors(rows, solve_reduced(rows, parts.reductions));
+  VectorXd const signs = parts.arm->model.passive_signs();
+  Finding finding{FindingKind::less_than_none, Grade::warning};
+  finding.recording = parts.train.recordings.front().name;
+  for (Index i = 0; i < signs.size(); ++i) {
+    if (!(signs[i] * fit.parameters[i] < -levels::surely_negative * fit.standard_error[i])) continue;
+    ++finding.count;
+    auto const& column = rows.columns[static_cast<std::size_t>(i)];
+    finding.detail += fmt::format("{}{} = {:.3g} {}", finding.detail.empty() ? "" : ", ", column.name,
+                                  fit.parameters[i], column.unit);
+  }
+  auto const inertia = negative_inertias(parts, fit);
+  if (inertia.surely) {
+    ++finding.count;
+    finding.grade = Grade::fault;
+    finding.detail += (finding.detail.empty() ? "" : ", ") + inertia.words;
+  }
+  if (finding.count == 0) return {};
+  auto const torque = options.columns.find("torque");
+  finding.column = torque != options.columns.end() ? torque->second : std::string();
+  return {finding};
+}
+
+}  // namespace torquescope
