@@ -10,8 +10,7 @@
 //            a bandwidth that is not small against n makes the error itself uncertain
 // Coverage   of 95 % intervals, 400 draws of 2000 samples, the worst of the seed's four parameters, for noise with
 //            rho = 0, 0.5, 0.9, 0.98: 0.95, 0.94, 0.93, 0.89; naive intervals: 0.95, 0.77, 0.45, 0.27
-// Arms       scores of an instant add up; 0 without rows (amplitude modulated: Datta, Du 2012, 10.17016/ifdp.2012.1060);
-//            hac_bias.hpp in place of n / (n - R)
+// Arms       scores of an instant add up; 0 without rows (Datta, Du 2012, 10.17016/ifdp.2012.1060); hac_bias.hpp
 // Requires   rows in time order within each recording
 // Threads    free functions
 // Source     Newey, West 1987; Andrews 1991 eq. 6.4; Kiefer, Vogelsang 2005 table 1 (checked by simulation)

@@ -4,7 +4,7 @@
 //
 // Told       alone, within a group, not at all (statistics/gram_identifiability.hpp), and which joint should move more
 // Negative   frictions and drive inertias by passive_signs(): a warning. M_jj(q) of a joint along the motion: a fault.
-//            Surely: data/levels.hpp, in HAC standard errors; M(q) is linear in the parameters, and so is its error exact
+//            Surely: data/levels.hpp, in HAC standard errors; M(q) is linear in the parameters
 // Threads    free functions
 // Source     M(q) positive definite of anything that moves: Khalil and Dombre 2002, section 9.3
 
