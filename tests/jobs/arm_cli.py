@@ -230,6 +230,32 @@ class Arm(unittest.TestCase):
         self.assertIsNone(told["estimators"][0]["validation_relerr"])
         self.assertIsNotNone(told["estimators"][0]["arm"]["validation_relerr_all_rows"])
 
+    def test_a_torque_of_the_wrong_sign_is_refused(self):
+        self.write("bad.toml", JOB.replace("[10.0, 8.0]", "[-10.0, -8.0]"))
+        for command in ("check", "run"):
+            done = self.here(command, "bad.toml")
+            self.assertEqual(done.code, 65, done.err)
+            told = " ".join((done.out + done.err).split())
+            for words in ("inertia of joint 1 = -", "viscous_2 = -", "check columns.torque, its sign"):
+                self.assertIn(words, told)
+
+    def test_check_says_what_a_joint_at_rest_does_not_tell(self):
+        told = " ".join(self.here("check", "arm.toml").out.split())
+        self.assertIn("13 parameters: 13 alone, 0 only in a group, 0 not at all", told)
+        noise, lines = random.Random(3), self.text.splitlines()
+        for k in range(1, len(lines)):
+            t = (k - 1) / 500.0
+            first = two_sines(t, 0.9, 1.7, 0.3, 4.1, 0.4)
+            tau = torques(first, (0.5, 0.0, 0.0))
+            q2 = 0.5 + noise.gauss(0.0, 1e-6)
+            lines[k] = f"{t:.4f},{first[0]:.9f},{q2:.9f}," + ",".join(
+                f"{value / gain + noise.gauss(0.0, 0.02):.7f}" for value, gain in zip(tau, GAIN))
+        self.write("arm.csv", "\n".join(lines) + "\n")
+        told = " ".join(self.here("check", "arm.toml").out.split())
+        for words in ("together: mxr1, my1, zzr1, mx2, my2, zz2", "not seen: drive_2, viscous_2, coulomb_2, offset_2",
+                      "move joint 2 (elbow)"):
+            self.assertIn(words, told)
+
     def test_one_joint_takes_one_gain(self):
         arm = 'robot = "arm_robot.toml"\nfriction = ["viscous", "coulomb", "offset"]'
         job = JOB.replace(arm, 'terms = ["inertia"]')
