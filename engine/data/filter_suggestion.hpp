@@ -7,8 +7,8 @@
 // Equation   cutoff_hz = min(10 f_m, f_n), at least f_s / 12 or 20 Hz, and 12.8 r as far as 2 f_n (then at most half of
 //            the time is masked, pipeline/reversal_mask.hpp), at most f_s / 5; parallel_cutoff_hz half of it;
 //            decimate_to_hz = f_s / k: 2.5 to 4 times that, or 1000 rows; edges drop at most a fifth of the time
-// Arms       f_m: 99.9 % of the energy of all positions together, which ripple and lost samples hardly change; rows near
-//            a reversal are left out, where friction is faster than the motion: nothing asks for f_s / 12 or 20 Hz
+// Arms       f_m: 99.9 % of the energy of all positions together, which ripple and lost samples hardly change; rows
+//            near a reversal are left out, where friction is faster than the motion: no f_s / 12, no 20 Hz
 // Threads    free function
 // Source     `torquescope describe filter`
 
