@@ -131,7 +131,7 @@ class Twins(study.FaultTest):
         parts = self.parts(folder)
         for name in parts[:2]:
             with open(name, "r+b") as file:
-                file.seek(self.chance.randrange(48, os.path.getsize(name)))  # beyond the key
+                file.seek(self.chance.randrange(72, os.path.getsize(name)))  # beyond magic, job and key
                 byte = file.read(1)[0]
                 file.seek(-1, os.SEEK_CUR)
                 file.write(bytes([byte ^ 1 << self.chance.randrange(8)]))
