@@ -51,7 +51,7 @@ SourcePlace place_of_message(RobotText const& text, std::string const& message) 
     pieces.push_back(message.substr(open + 1, message.find_first_of("])", open) - open - 1));
   for (auto const& piece : pieces)
     for (auto const* element : {"joint", "link", "material"})
-      if (auto const place = urdf_place(text, element, piece); place.line > 0) return place;
+      if (auto place = urdf_place(text, element, piece); place.line > 0) return place;
   for (auto const& piece : pieces)
     for (char const* before : {"\"", "'", " "})
       if (auto const at = text.text.find(before + piece); !piece.empty() && at != std::string::npos)
@@ -61,7 +61,7 @@ SourcePlace place_of_message(RobotText const& text, std::string const& message) 
 
 urdf::ModelInterfaceSharedPtr parse(RobotText const& text) {
   Listener listener;
-  auto const model = urdf::parseURDF(text.text);
+  auto model = urdf::parseURDF(text.text);
   validate(model != nullptr, [&] {
     Problem problem;
     problem.code = ExitCode::bad_data;

@@ -26,7 +26,7 @@ std::string inertial_text(LinkInertia const& link) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const axes(link.about_centre());
   Eigen::Matrix3d turn = axes.eigenvectors();
   if (cross(turn.col(0), turn.col(1)).dot(turn.col(2)) < 0.0) turn.col(0) = -turn.col(0);
-  Eigen::Vector3d const moments = axes.eigenvalues();
+  Eigen::Vector3d const& moments = axes.eigenvalues();
   return fmt::format("<inertial {} mass=\"{}\" diaginertia=\"{}\"/>", pose_text({turn, link.first_moment / link.mass}),
                      number_text(link.mass), numbers_text(moments, " "));
 }
