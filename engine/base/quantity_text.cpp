@@ -81,6 +81,13 @@ std::string percent_text(double share) {
   return fmt::format("{:.1f} %", percent);
 }
 
+std::string share_text(double share, double low, double high) {
+  if (!std::isfinite(share)) return "";
+  std::string const text = two_digits(100.0 * share) + " %";
+  if (!std::isfinite(low) || !std::isfinite(high)) return text;
+  return fmt::format("{} ({} to {} %)", text, two_digits(100.0 * low), two_digits(100.0 * high));
+}
+
 std::string p_cell(double p, bool is_bound, double least) {
   if (!std::isfinite(p)) return "?";
   bool const below_twins = p < least * (1.0 + 1e-9);

@@ -1,8 +1,8 @@
 #pragma once
 // The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
 //
-// Verdict    none, named, class, unexplained, insufficient or data_fault: METHOD.md, Verdict. Accepted effects are
-//            withdrawn by abstention.hpp, and by held_out_search.hpp where held-out rows do not confirm them
+// Verdict    METHOD.md, Verdict. Accepted effects are withdrawn by abstention.hpp, and by held_out_search.hpp where
+//            held-out rows do not confirm them
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md

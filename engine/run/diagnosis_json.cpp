@@ -102,6 +102,11 @@ Json held_out_json(HeldOutTest const& test) {
           {"blocks", test.blocks}};
 }
 
+Json explained_json(JointDiagnosis const& joint) {
+  return {{"share", number(joint.explained_share)},
+          {"ci95", Json::array({number(joint.explained_low), number(joint.explained_high)})}};
+}
+
 Json joint_json(JointDiagnosis const& joint) {
   Json mismatch = Json::array();
   for (auto const& axis : joint.map)
@@ -128,6 +133,7 @@ Json joint_json(JointDiagnosis const& joint) {
           {"left_out",
            {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
           {"held_out", held_out_json(joint.held_out)},
+          {"explained", explained_json(joint)},
           {"budget",
            {{"parameter_error", number(joint.budget.parameter_error)},
             {"missing_physics", number(joint.budget.missing_physics)},

@@ -1,11 +1,9 @@
 #include "engine/run/diagnosis_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
-#include "engine/base/error.hpp"
+#include "engine/run/stored_objects.hpp"
 
 namespace torquescope {
 
@@ -13,75 +11,12 @@ namespace {
 
 constexpr char root[] = "/diagnosis";
 
-Error contradicts(ResultReader const& reader, std::string const& object, std::string const& reason) {
-  Problem problem;
-  problem.code = ExitCode::bad_data;
-  problem.what = fmt::format("{} contradicts itself in {}: {}", reader.name().string(), object, reason);
-  problem.help = "delete it and run the job again";
-  return Error(problem);
-}
-
-// objects of one file, and what is absent in it
-class Objects {
- public:
-  explicit Objects(ResultReader const& reader) : reader_(reader) {}
-
-  double number(std::string const& object, std::string const& name) const {
-    return reader_.find_attribute<double>(object, name).value_or(unknown);
-  }
-  std::int64_t whole(std::string const& object, std::string const& name) const {
-    return reader_.find_attribute<std::int64_t>(object, name).value_or(0);
-  }
-  std::string text(std::string const& object, std::string const& name) const {
-    return reader_.find_attribute<std::string>(object, name).value_or("");
-  }
-  std::vector<std::string> texts(std::string const& object, std::string const& name) const {
-    return reader_.find_attribute<std::vector<std::string>>(object, name).value_or(std::vector<std::string>{});
-  }
-  bool exists(std::string const& path) const { return reader_.exists(path); }
-
-  // columns: absent ones are empty
-  std::vector<double> numbers(std::string const& path) const {
-    return exists(path) ? reader_.numbers(path).values : std::vector<double>{};
-  }
-  std::vector<std::int64_t> whole_numbers(std::string const& path) const {
-    return exists(path) ? reader_.whole_numbers(path).values : std::vector<std::int64_t>{};
-  }
-  std::vector<std::string> text_column(std::string const& path) const {
-    return exists(path) ? reader_.texts(path) : std::vector<std::string>{};
-  }
-
-  // group/prefix_1, group/prefix_2, ... as far as they go
-  std::vector<std::string> numbered(std::string const& group, std::string const& prefix) const {
-    std::vector<std::string> paths;
-    for (int i = 1; exists(fmt::format("{}/{}_{}", group, prefix, i)); ++i)
-      paths.push_back(fmt::format("{}/{}_{}", group, prefix, i));
-    return paths;
-  }
-
-  // the word's value among those an enumeration has
-  template <class Choice, std::size_t Count>
-  Choice choice(std::string const& given, std::array<Choice, Count> const& choices, std::string const& object) const {
-    for (Choice one : choices)
-      if (word(one) == given) return one;
-    throw contradicts(reader_, object, fmt::format("\"{}\" is no word of format 1", given));
-  }
-
-  template <class... Columns>
-  void check_same_length(std::string const& object, std::size_t length, Columns const&... columns) const {
-    if (((columns.size() != length) || ...)) throw contradicts(reader_, object, "columns of different lengths");
-  }
-
- private:
-  ResultReader const& reader_;
-};
-
-AxisInterval read_interval(Objects const& in, std::string const& group, std::string const& name) {
+AxisInterval read_interval(StoredObjects const& in, std::string const& group, std::string const& name) {
   return {in.text(group, name + "_axis"), in.number(group, name + "_from"), in.number(group, name + "_to"),
           in.text(group, name + "_unit")};
 }
 
-std::vector<ParameterEstimate> read_parameters(Objects const& in, std::string const& group) {
+std::vector<ParameterEstimate> read_parameters(StoredObjects const& in, std::string const& group) {
   auto const names = in.text_column(group + "/names"), units = in.text_column(group + "/units");
   auto const values = in.numbers(group + "/values"), intervals = in.numbers(group + "/ci95");
   in.check_same_length(group, names.size(), units, values);
@@ -92,7 +27,7 @@ std::vector<ParameterEstimate> read_parameters(Objects const& in, std::string co
   return parameters;
 }
 
-std::vector<MismatchRegion> read_regions(Objects const& in, std::string const& group, MapAxis const& axis) {
+std::vector<MismatchRegion> read_regions(StoredObjects const& in, std::string const& group, MapAxis const& axis) {
   auto const from = in.numbers(group + "/from"), to = in.numbers(group + "/to");
   auto const time = in.numbers(group + "/time_share"), energy = in.numbers(group + "/energy_share");
   auto const repeatable = in.numbers(group + "/repeatable_share");
@@ -103,7 +38,7 @@ std::vector<MismatchRegion> read_regions(Objects const& in, std::string const& g
   return regions;
 }
 
-MapAxis read_map_axis(Objects const& in, std::string const& map, std::string const& name) {
+MapAxis read_map_axis(StoredObjects const& in, std::string const& map, std::string const& name) {
   std::string const group = map + "/" + name;
   MapAxis axis;
   axis.axis = name;
@@ -124,7 +59,7 @@ MapAxis read_map_axis(Objects const& in, std::string const& map, std::string con
   return axis;
 }
 
-std::vector<Candidate> read_candidates(Objects const& in, std::string const& group) {
+std::vector<Candidate> read_candidates(StoredObjects const& in, std::string const& group) {
   constexpr std::array decisions{Decision::named, Decision::equivalent, Decision::measurement, Decision::rejected,
                                  Decision::not_tested};
   auto const column = [&](char const* dataset) { return in.numbers(group + "/" + dataset); };
@@ -141,7 +76,7 @@ std::vector<Candidate> read_candidates(Objects const& in, std::string const& gro
   return candidates;
 }
 
-EffectCurve read_curve(Objects const& in, std::string const& group) {
+EffectCurve read_curve(StoredObjects const& in, std::string const& group) {
   EffectCurve curve;
   if (!in.exists(group)) return curve;
   curve.axis = read_interval(in, group, "range");
@@ -153,7 +88,7 @@ EffectCurve read_curve(Objects const& in, std::string const& group) {
   return curve;
 }
 
-NamedEffect read_effect(Objects const& in, std::string const& group) {
+NamedEffect read_effect(StoredObjects const& in, std::string const& group) {
   NamedEffect effect;
   effect.name = in.text(group, "name");
   effect.family = in.text(group, "family");
@@ -181,7 +116,7 @@ NamedEffect read_effect(Objects const& in, std::string const& group) {
   return effect;
 }
 
-TorqueTrace read_trace(Objects const& in, std::string const& group) {
+TorqueTrace read_trace(StoredObjects const& in, std::string const& group) {
   TorqueTrace trace;
   trace.recording = in.text(group, "recording");
   trace.rate_hz = in.number(group, "rate_hz");
@@ -198,7 +133,7 @@ TorqueTrace read_trace(Objects const& in, std::string const& group) {
   return trace;
 }
 
-void read_lists(Objects const& in, std::string const& group, JointDiagnosis& joint) {
+void read_lists(StoredObjects const& in, std::string const& group, JointDiagnosis& joint) {
   std::string const left = group + "/unexplained";
   auto const axes = in.text_column(left + "/axes"), units = in.text_column(left + "/units");
   auto const from = in.numbers(left + "/from"), to = in.numbers(left + "/to");
@@ -221,7 +156,7 @@ void read_lists(Objects const& in, std::string const& group, JointDiagnosis& joi
   for (auto const& trace : in.numbered(group + "/traces", "trace")) joint.traces.push_back(read_trace(in, trace));
 }
 
-void read_joint_attributes(Objects const& in, std::string const& group, JointDiagnosis& joint) {
+void read_joint_attributes(StoredObjects const& in, std::string const& group, JointDiagnosis& joint) {
   joint.joint = static_cast<int>(in.whole(group, "joint"));
   joint.name = in.text(group, "name");
   joint.unit_position = in.text(group, "unit_position");
@@ -243,6 +178,9 @@ void read_joint_attributes(Objects const& in, std::string const& group, JointDia
   joint.held_out = {in.text(group, "held_out_rows"), in.text(group, "held_out_change"), in.number(group, "held_out_t"),
                     in.number(group, "held_out_t_asked_for"),
                     static_cast<std::size_t>(std::max<std::int64_t>(0, in.whole(group, "held_out_blocks")))};
+  joint.explained_share = in.number(group, "explained_share");
+  joint.explained_low = in.number(group, "explained_low");
+  joint.explained_high = in.number(group, "explained_high");
   joint.budget = {in.number(group, "budget_parameter_error"), in.number(group, "budget_missing_physics"),
                   in.number(group, "budget_unexplained"), in.number(group, "budget_noise")};
   joint.nuisances = in.texts(group, "nuisances");
@@ -261,7 +199,7 @@ void read_joint_attributes(Objects const& in, std::string const& group, JointDia
   joint.power_sentence = in.text(group, "power_sentence");
 }
 
-JointDiagnosis read_joint(Objects const& in, std::string const& group) {
+JointDiagnosis read_joint(StoredObjects const& in, std::string const& group) {
   JointDiagnosis joint;
   read_joint_attributes(in, group, joint);
   joint.baseline = read_parameters(in, group + "/baseline");
@@ -280,9 +218,9 @@ JointDiagnosis read_joint(Objects const& in, std::string const& group) {
 bool has_diagnosis(ResultReader const& reader) { return reader.exists(root); }
 
 Diagnosis read_diagnosis(ResultReader const& reader) {
-  constexpr std::array verdicts{Verdict::none,        Verdict::named,        Verdict::one_of_class,
+  constexpr std::array verdicts{Verdict::none,        Verdict::named,        Verdict::one_of_class, Verdict::partly,
                                 Verdict::unexplained, Verdict::insufficient, Verdict::data_fault};
-  Objects const in(reader);
+  StoredObjects const in(reader);
   Diagnosis diagnosis;
   diagnosis.verdict = in.choice(reader.attribute<std::string>(root, "verdict"), verdicts, root);
   diagnosis.reason = in.text(root, "reason");
@@ -296,7 +234,7 @@ Diagnosis read_diagnosis(ResultReader const& reader) {
 
 std::string read_verdict_json(ResultReader const& reader) {
   auto const texts = reader.texts(std::string(root) + "/verdict_json");
-  if (texts.size() != 1) throw contradicts(reader, std::string(root) + "/verdict_json", "not one text");
+  if (texts.size() != 1) throw contradiction(reader, std::string(root) + "/verdict_json", "not one text");
   return texts.front();
 }
 

@@ -227,6 +227,9 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "held_out_t", joint.held_out.t);
   writer.attribute(group, "held_out_t_asked_for", joint.held_out.asked_for);
   writer.attribute(group, "held_out_blocks", static_cast<std::int64_t>(joint.held_out.blocks));
+  writer.attribute(group, "explained_share", joint.explained_share);
+  writer.attribute(group, "explained_low", joint.explained_low);
+  writer.attribute(group, "explained_high", joint.explained_high);
   writer.attribute(group, "budget_parameter_error", joint.budget.parameter_error);
   writer.attribute(group, "budget_missing_physics", joint.budget.missing_physics);
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);

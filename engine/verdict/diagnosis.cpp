@@ -15,6 +15,8 @@ std::string word(Verdict verdict) {
       return "named";
     case Verdict::one_of_class:
       return "class";
+    case Verdict::partly:
+      return "partly";
     case Verdict::unexplained:
       return "unexplained";
     case Verdict::insufficient:
@@ -23,6 +25,10 @@ std::string word(Verdict verdict) {
       return "data_fault";
   }
   return {};
+}
+
+bool names_physics(Verdict verdict) {
+  return verdict == Verdict::named || verdict == Verdict::one_of_class || verdict == Verdict::partly;
 }
 
 std::string word(Decision decision) {

@@ -22,8 +22,10 @@ namespace torquescope {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-enum class Verdict { none, named, one_of_class, unexplained, insufficient, data_fault };
+enum class Verdict { none, named, one_of_class, partly, unexplained, insufficient, data_fault };
 std::string word(Verdict verdict);  // "class" for one_of_class
+// whether accepted effects stand as missing physics, all of it or a part
+bool names_physics(Verdict verdict);
 
 struct ParameterEstimate {
   std::string name;
@@ -190,6 +192,8 @@ struct JointDiagnosis {
   double train_floor_relerr = unknown;
   LeftOut train_left_out{}, validation_left_out{};
   HeldOutTest held_out{};
+  // of the mismatch's energy on held-out rows, what the accepted effects explain, with a 95 % interval
+  double explained_share = unknown, explained_low = unknown, explained_high = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::string refutation{};  // why validation refuted the effects: a clause of the reason, not stored

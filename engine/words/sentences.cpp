@@ -9,6 +9,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/name_list.hpp"
+#include "engine/words/part_explained.hpp"
 
 namespace torquescope {
 
@@ -169,7 +170,8 @@ void append(std::string& text, std::string const& more) {
   if (!more.empty()) text += (text.empty() ? "" : " ") + more;
 }
 
-std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
+// what is missing, and what naming it brings
+std::string names_and_gain(JointDiagnosis const& joint, bool one_of_class) {
   std::string text;
   std::vector<std::string> others;
   for (std::size_t i = 0; i < joint.effects.size(); ++i) {
@@ -180,6 +182,11 @@ std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
   }
   if (!others.empty()) append(text, fmt::format("Also named: {}.", name_list(others, "and")));
   append(text, gain_sentence(joint));
+  return text;
+}
+
+std::string named_reason(JointDiagnosis const& joint, bool one_of_class) {
+  std::string text = names_and_gain(joint, one_of_class);
   if (joint.budget.unexplained > unexplained_worth_a_word)
     append(text, fmt::format("{} of the mismatch's energy stays unexplained.", percent_text(joint.budget.unexplained)));
   return text;
@@ -255,6 +262,8 @@ std::string joint_reason(Verdict verdict, JointDiagnosis const& joint) {
       return named_reason(joint, false);
     case Verdict::one_of_class:
       return named_reason(joint, true);
+    case Verdict::partly:
+      return sentence(part_explained_clause(joint)) + " " + names_and_gain(joint, false);
     case Verdict::none:
       return none_reason(joint);
     case Verdict::unexplained:

@@ -13,9 +13,10 @@ namespace torquescope::example {
 // named, the strongest effect with an equivalent that cannot be excluded
 Diagnosis invented_diagnosis();
 
-// the same joint with one of two effects, which the motion cannot tell apart with nothing missing, with one repeating
-// structure that has no name, hardly moving, and with a late torque channel
+// the same joint with one of two effects, which the motion cannot tell apart, with two effects that explain a part,
+// with nothing missing, with one repeating structure that has no name, hardly moving, and with a late torque channel
 Diagnosis invented_class();
+Diagnosis invented_partly();
 Diagnosis invented_none();
 Diagnosis invented_unexplained();
 Diagnosis invented_insufficient();

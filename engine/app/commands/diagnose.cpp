@@ -193,7 +193,8 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
   command
       ->add_flag("--exit-code", arguments->exit_code,
-                 "end with 65 when the verdict blames the recording (data fault, insufficient); 0 otherwise")
+                 "end with 65 when the verdict blames the recording (data fault, insufficient); 0 otherwise, also "
+                 "where effects explain only a part, or nothing fits")
       ->group("results");
   command
       ->add_option("--columns", arguments->columns,

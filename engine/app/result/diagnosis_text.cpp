@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/app/result/candidate_text.hpp"
+#include "engine/app/result/map_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
@@ -15,9 +16,6 @@
 namespace torquescope {
 
 namespace {
-
-constexpr std::size_t spark_places = 16;
-constexpr double quiet_z = 4.0;  // a row without a stronger cell stays low
 
 struct VerdictWords {
   char const* mark;
@@ -32,6 +30,8 @@ VerdictWords words_of(Verdict verdict) {
       return {"●", "NAMED"};
     case Verdict::one_of_class:
       return {"◍", "ONE OF A CLASS"};
+    case Verdict::partly:
+      return {"◐", "PARTLY EXPLAINED"};
     case Verdict::unexplained:
       return {"◌", "UNEXPLAINED"};
     case Verdict::insufficient:
@@ -44,7 +44,7 @@ VerdictWords words_of(Verdict verdict) {
 
 // a fault of a channel beside physics
 bool has_fault(Diagnosis const& diagnosis) {
-  if (diagnosis.verdict != Verdict::named && diagnosis.verdict != Verdict::one_of_class) return false;
+  if (!names_physics(diagnosis.verdict)) return false;
   return std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), [](JointDiagnosis const& joint) {
     return std::any_of(joint.effects.begin(), joint.effects.end(), is_fault);
   });
@@ -68,77 +68,6 @@ std::string joined(std::vector<std::string> const& names) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + printable(names[i]);
   return text;
-}
-
-// the strongest z of each place; NaN where no cell holds a sample
-std::array<double, spark_places> strengths(MapAxis const& axis) {
-  std::array<double, spark_places> strongest;
-  strongest.fill(std::nan(""));
-  for (std::size_t i = 0; i < axis.cells.size(); ++i) {
-    MapCell const& cell = axis.cells[i];
-    if (cell.samples == 0 || !std::isfinite(cell.z)) continue;
-    double const size = axis.is_spectrum ? std::max(0.0, cell.z) : std::abs(cell.z);
-    double& place = strongest[i * spark_places / axis.cells.size()];
-    place = std::isnan(place) ? size : std::max(place, size);
-  }
-  return strongest;
-}
-
-std::string sparkline(MapAxis const& axis, bool utf8) {
-  constexpr std::array<char const*, 8> blocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
-  constexpr std::array<char const*, 8> letters{"_", ".", "-", "=", "+", "*", "%", "#"};
-  auto const places = strengths(axis);
-  double highest = quiet_z;
-  for (double place : places)
-    if (place > highest) highest = place;
-  std::string text;
-  for (double place : places) {
-    if (std::isnan(place)) {
-      text += " ";
-      continue;
-    }
-    auto const level = std::min<std::size_t>(7, static_cast<std::size_t>(8.0 * place / highest));
-    text += utf8 ? blocks[level] : letters[level];
-  }
-  return text;
-}
-
-std::string axis_title(std::string const& axis) {
-  std::string title = printable(axis);
-  std::replace(title.begin(), title.end(), '_', ' ');
-  // which reversal is the short form's only question
-  return title == "since velocity reversal" ? "since reversal" : title;
-}
-
-std::string where_text(JointDiagnosis const& joint, bool utf8) {
-  if (joint.map.empty()) return "";
-  std::vector<MapAxis const*> found;
-  for (auto const& axis : joint.map)
-    if (!axis.regions.empty() && !axis.cells.empty()) found.push_back(&axis);
-  std::stable_sort(found.begin(), found.end(),
-                   [](MapAxis const* a, MapAxis const* b) { return a->energy_share > b->energy_share; });
-
-  using Align = TextTable::Align;
-  TextTable table({Align::left, Align::right, Align::left, Align::left, Align::right}, std::string(lead_columns, ' '));
-  for (auto const* axis : found)
-    table.row({axis_title(axis->axis), two_digits(axis->cells.front().from), sparkline(*axis, utf8),
-               two_digits(axis->cells.back().to) + " " + printable(axis->unit),
-               std::isfinite(axis->energy_share) ? fmt::format("{:.0f} %", 100.0 * axis->energy_share) : ""});
-  std::string text = table.text(page_width);
-  // what the shares are shares of, where the first line has room for it
-  std::string const of = " of the residual";
-  std::size_t const end = std::min(text.find('\n'), text.size());
-  if (!found.empty() && columns_of(text.substr(0, end)) + columns_of(of) <= page_width) text.insert(end, of);
-
-  if (!found.empty())
-    text +=
-        hanging(std::string(lead_columns, ' '),
-                "%: energy that goes with this axis, beyond clean twins; axes overlap, so the shares need not add up");
-  std::size_t const quiet = joint.map.size() - found.size();
-  if (quiet > 0)
-    text += fmt::format("{}{}{} {}: nothing beyond the clean twins\n", std::string(lead_columns, ' '), quiet,
-                        found.empty() ? "" : " more", quiet == 1 ? "axis" : "axes");
-  return lead("where") + text.substr(lead_columns);
 }
 
 std::string share_cell(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : ""; }
@@ -202,8 +131,9 @@ std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) 
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
   std::string text;
   for (auto const& joint : diagnosis.joints) {
-    std::string const part =
-        where_text(joint, options.utf8) + candidates_text(joint, options.all_candidates) + next_text(joint);
+    std::string const part = where_text(joint, options.utf8) +
+                             (diagnosis.verdict == Verdict::partly ? what_is_left_text(joint, options.utf8) : "") +
+                             candidates_text(joint, options.all_candidates) + next_text(joint);
     if (part.empty()) continue;
     text += "\n";
     if (diagnosis.joints.size() > 1) text += ink.bold(which_joint(joint)) + "\n";
@@ -233,6 +163,8 @@ std::string diagnosed_model_text(Diagnosis const& diagnosis, Ink const& ink) {
         {"error, unseen", "", share_cell(joint.validation_relerr), share_cell(joint.augmented_validation_relerr)});
     add_left_out(table, "train", joint.train_left_out);
     add_left_out(table, "unseen", joint.validation_left_out);
+    std::string const explained = share_text(joint.explained_share, joint.explained_low, joint.explained_high);
+    if (!explained.empty()) table.row({"explained, held-out rows", "", "", explained});
     text += ink.bold(fmt::format("model of {} (+- 95 %)", which_joint(joint))) + "\n" + table.text(page_width);
   }
   return text;

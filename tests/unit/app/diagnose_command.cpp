@@ -74,6 +74,18 @@ class DiagnoseCommand : public ::testing::Test {
     return outcome;
   }
 
+  // torquescope show R.h5
+  std::string shown() const {
+    CLI::App app("", "torquescope");
+    ChosenCommand chosen;
+    add_show(app, chosen);
+    std::vector<std::string> reversed{result().string(), "show"};
+    app.parse(reversed);
+    CaptureStdout();
+    chosen.work(Session(chosen.session));
+    return GetCapturedStdout();
+  }
+
   std::filesystem::path result() const { return folder / "R.h5"; }
 
   test::TemporaryFolder folder{};
@@ -134,6 +146,7 @@ TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
 TEST_F(DiagnoseCommand, EndsWithACodeForABlamedRecordingWhereSomebodyAsks) {
   for (auto const& [diagnosis, is_blamed] :
        std::vector<std::pair<Diagnosis, bool>>{{example::invented_diagnosis(), false},
+                                               {example::invented_partly(), false},
                                                {example::invented_none(), false},
                                                {example::invented_unexplained(), false},
                                                {example::invented_insufficient(), true},
@@ -155,7 +168,7 @@ TEST_F(DiagnoseCommand, SaysWhatIsLeftOutBesideTheErrors) {
 }
 
 TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
-  for (auto const& diagnosis : {example::invented_none(), example::invented_unexplained(),
+  for (auto const& diagnosis : {example::invented_partly(), example::invented_none(), example::invented_unexplained(),
                                 example::invented_insufficient(), example::invented_data_fault()}) {
     found = diagnosis;
     std::filesystem::remove(result());
@@ -243,17 +256,22 @@ TEST_F(DiagnoseCommand, NothingIsLeftBehindWhenTheWorkFails) {
 
 TEST_F(DiagnoseCommand, ShowPrintsTheSamePageFromTheFile) {
   Outcome const made = run();
-  CLI::App app("", "torquescope");
-  ChosenCommand chosen;
-  add_show(app, chosen);
-  std::vector<std::string> reversed{result().string(), "show"};
-  app.parse(reversed);
-  CaptureStdout();
-  chosen.work(Session(chosen.session));
-  std::string const shown = GetCapturedStdout();
-  EXPECT_THAT(shown, StartsWith(made.out));
-  EXPECT_THAT(shown, HasSubstr("model of joint 1"));
-  EXPECT_THAT(shown, HasSubstr("\nmade\n"));
+  std::string const page = shown();
+  EXPECT_THAT(page, StartsWith(made.out));
+  EXPECT_THAT(page, HasSubstr("model of joint 1"));
+  EXPECT_THAT(page, HasSubstr("\nmade\n"));
+}
+
+TEST_F(DiagnoseCommand, ShowsWhatExplainsAPartWithItsParametersAndErrors) {
+  found = example::invented_partly();
+  Outcome const made = run({"--progress", "none"});
+  EXPECT_THAT(made.out, HasSubstr("PARTLY EXPLAINED  Stribeck and cogging explain 71 % (60 to 79 %)"));
+  EXPECT_THAT(made.out, HasSubstr("\nleft   position"));
+  std::string const page = shown();
+  EXPECT_THAT(page, StartsWith(made.out));
+  for (char const* words :
+       {"stribeck_speed", "error, unseen", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
+    EXPECT_THAT(page, HasSubstr(words));
 }
 
 }  // namespace diagnose_command_test

@@ -26,8 +26,9 @@ std::vector<std::string> lines_of(std::string const& text) {
 }
 
 std::vector<Diagnosis> all_verdicts() {
-  return {example::invented_diagnosis(),   example::invented_class(),        example::invented_none(),
-          example::invented_unexplained(), example::invented_insufficient(), example::invented_data_fault()};
+  return {example::invented_diagnosis(), example::invented_class(),       example::invented_partly(),
+          example::invented_none(),      example::invented_unexplained(), example::invented_insufficient(),
+          example::invented_data_fault()};
 }
 
 TEST(DiagnosisText, IsThePictureOfTheSpecification) {
@@ -56,8 +57,9 @@ next   triangular strokes of 0.2, 1 and 5 mrad: would tell stribeck and
 }
 
 TEST(DiagnosisText, EveryVerdictHasItsMarkAndWord) {
-  std::vector<std::string> const beginnings{"● NAMED  ",       "◍ ONE OF A CLASS  ", "○ NOTHING MISSING  ",
-                                            "◌ UNEXPLAINED  ", "▽ INSUFFICIENT  ",   "✕ DATA FAULT  "};
+  std::vector<std::string> const beginnings{"● NAMED  ",           "◍ ONE OF A CLASS  ", "◐ PARTLY EXPLAINED  ",
+                                            "○ NOTHING MISSING  ", "◌ UNEXPLAINED  ",    "▽ INSUFFICIENT  ",
+                                            "✕ DATA FAULT  "};
   auto const diagnoses = all_verdicts();
   for (std::size_t i = 0; i < diagnoses.size(); ++i) {
     EXPECT_THAT(diagnosis_text(diagnoses[i], {}, Ink()), StartsWith(beginnings[i]));
@@ -69,7 +71,7 @@ TEST(DiagnosisText, EveryVerdictHasItsMarkAndWord) {
 }
 
 TEST(DiagnosisText, AFaultBesidePhysicsStandsInTheHeadline) {
-  for (auto diagnosis : {example::invented_diagnosis(), example::invented_class()}) {
+  for (auto diagnosis : {example::invented_diagnosis(), example::invented_class(), example::invented_partly()}) {
     std::string const before = verdict_text(diagnosis, true, Ink());
     EXPECT_THAT(before, Not(HasSubstr("FAULT")));
     NamedEffect delay = diagnosis.joints[0].effects[0];
@@ -88,6 +90,20 @@ TEST(DiagnosisText, ACrossValidatedGainStandsWhereThereIsOne) {
   EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), HasSubstr("blank:"));
   for (auto& one : diagnosis.joints[0].candidates) one.cv_gain = unknown;
   EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), Not(HasSubstr("CV gain")));
+}
+
+TEST(DiagnosisText, OfAPartShowsTheMapOfWhatIsLeft) {
+  Diagnosis diagnosis = example::invented_partly();
+  std::string const text = diagnosis_text(diagnosis, {}, Ink());
+  // what is left lies in the last third of the travel; the baseline's own map stands above it
+  EXPECT_THAT(text, HasSubstr("\nleft   position"));
+  EXPECT_THAT(text,
+              ::testing::ContainsRegex("\nleft   position +-0.80  [▁▂▃]+[▅▆▇█]+  0.90 rad +21 % of the residual\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n       load +-1.5  [^\n]* 9 %\n"));
+  EXPECT_LT(text.find("\nwhere  "), text.find("\nleft   "));
+  diagnosis.joints[0].unexplained.clear();
+  EXPECT_THAT(diagnosis_text(diagnosis, {}, Ink()), Not(HasSubstr("\nleft   ")));
+  EXPECT_THAT(diagnosis_text(example::invented_diagnosis(), {}, Ink()), Not(HasSubstr("\nleft   ")));
 }
 
 TEST(DiagnosisText, NoLineIsWiderThanThePage) {
@@ -200,6 +216,14 @@ TEST(DiagnosedModelText, ShowsEveryParameterBeforeAndAfter) {
   EXPECT_THAT(text, HasSubstr("0.52 +- 0.0090"));
   EXPECT_THAT(text, HasSubstr("stribeck_speed"));
   EXPECT_THAT(text, HasSubstr("12.1 %"));
+}
+
+TEST(DiagnosedModelText, ShowsTheShareThatIsExplainedWhereItIsKnown) {
+  Diagnosis diagnosis = example::invented_partly();
+  EXPECT_THAT(diagnosed_model_text(diagnosis, Ink()),
+              ::testing::ContainsRegex("explained, held-out rows +71 % \\(60 to 79 %\\)"));
+  diagnosis.joints[0].explained_share = unknown;
+  EXPECT_THAT(diagnosed_model_text(diagnosis, Ink()), Not(HasSubstr("explained")));
 }
 
 }  // namespace diagnosis_text_test

@@ -47,6 +47,13 @@ TEST(QuantityText, SharesAreSaidInPercent) {
   EXPECT_EQ(percent_text(std::nan("")), "?");
 }
 
+TEST(QuantityText, AShareHasItsIntervalWhereOneIsKnown) {
+  EXPECT_EQ(share_text(0.7131, 0.602, 0.788), "71 % (60 to 79 %)");
+  EXPECT_EQ(share_text(0.04, -0.021, 0.112), "4.0 % (-2.1 to 11 %)");
+  EXPECT_EQ(share_text(0.71, std::nan(""), 0.79), "71 %");
+  EXPECT_EQ(share_text(std::nan(""), 0.6, 0.79), "");
+}
+
 TEST(QuantityText, ProbabilitiesAreNeverZeroNorMoreExactThanTheTwins) {
   double const least = 1.0 / 201.0;
   EXPECT_EQ(p_text(least, true, least), "p < 0.005");

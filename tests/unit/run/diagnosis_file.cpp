@@ -55,7 +55,7 @@ void expect_same_map(JointDiagnosis const& read, JointDiagnosis const& written) 
 
 TEST(DiagnosisFile, GivesBackWhatTheJsonTells) {
   for (auto const& diagnosis :
-       {example::invented_diagnosis(), example::invented_class(), example::invented_none(),
+       {example::invented_diagnosis(), example::invented_class(), example::invented_partly(), example::invented_none(),
         example::invented_unexplained(), example::invented_insufficient(), example::invented_data_fault()})
     EXPECT_EQ(diagnosis_json(written_and_read(diagnosis)), diagnosis_json(diagnosis));
 }
@@ -139,6 +139,33 @@ TEST(DiagnosisFile, KeepsWhatIsLeftOutAndTheTestOnHeldOutRows) {
   EXPECT_EQ(kept.held_out.change, "not lower");
   EXPECT_EQ(kept.held_out.asked_for, 1.67);
   EXPECT_EQ(kept.held_out.blocks, 60U);
+}
+
+TEST(DiagnosisFile, KeepsTheShareThatIsExplained) {
+  Diagnosis const kept = written_and_read(example::invented_partly());
+  EXPECT_EQ(kept.verdict, Verdict::partly);
+  EXPECT_EQ(kept.joints[0].explained_share, 0.71);
+  EXPECT_EQ(kept.joints[0].explained_low, 0.602);
+  EXPECT_EQ(kept.joints[0].explained_high, 0.788);
+  EXPECT_EQ(kept.joints[0].unexplained.size(), 2u);
+  EXPECT_TRUE(std::isnan(written_and_read(example::invented_diagnosis()).joints[0].explained_share));
+}
+
+TEST(DiagnosisFile, OfAnEarlierVersionIsReadWithoutTheShare) {
+  test::TemporaryFolder const folder;
+  {
+    ResultWriter writer(folder / "R.h5");
+    writer.attribute("/diagnosis", "verdict", std::string("named"));
+    writer.attribute("/diagnosis/joint_1", "joint", std::int64_t{1});
+    writer.attribute("/diagnosis/joint_1", "train_relerr", 0.12);
+    writer.finish();
+  }
+  Diagnosis const read = read_diagnosis(ResultReader(folder / "R.h5"));
+  ASSERT_EQ(read.joints.size(), 1u);
+  EXPECT_EQ(read.joints[0].train_relerr, 0.12);
+  EXPECT_TRUE(std::isnan(read.joints[0].explained_share));
+  EXPECT_TRUE(std::isnan(read.joints[0].explained_low));
+  EXPECT_TRUE(std::isnan(read.joints[0].explained_high));
 }
 
 TEST(DiagnosisFile, EqualDiagnosesHaveEqualContent) {

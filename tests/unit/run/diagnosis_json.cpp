@@ -38,6 +38,7 @@ Json const pattern = Json::parse(R"({
                  "validation": {"time_share": 0, "energy_share": 0, "relerr_all_rows": 0,
                                 "augmented_relerr_all_rows": 0}},
     "held_out": {"rows": "", "change": "", "t": 0, "asked_for": 0, "blocks": 0},
+    "explained": {"share": 0, "ci95": [0]},
     "budget": {"parameter_error": 0, "missing_physics": 0, "unexplained": 0, "noise": 0},
     "unexplained": [{"axis": "", "from": 0, "to": 0, "energy_share": 0}],
     "excitation": [{"lacks": "", "would_separate": [""]}]}]})");
@@ -69,7 +70,7 @@ void expect_like(Json const& document, Json const& wanted, std::string const& pl
 
 TEST(DiagnosisJson, HasExactlyTheKeysOfTheSpecificationInEveryVerdict) {
   for (auto const& diagnosis :
-       {example::invented_diagnosis(), example::invented_class(), example::invented_none(),
+       {example::invented_diagnosis(), example::invented_class(), example::invented_partly(), example::invented_none(),
         example::invented_unexplained(), example::invented_insufficient(), example::invented_data_fault()}) {
     Json const document = Json::parse(diagnosis_json(diagnosis));
     expect_like(document, pattern, word(diagnosis.verdict));
@@ -90,6 +91,17 @@ TEST(DiagnosisJson, TellsTheNumbersUnrounded) {
   // regions of all axes in one list
   ASSERT_EQ(joint["mismatch"].size(), 3u);
   EXPECT_EQ(joint["mismatch"][2]["axis"], "order");
+}
+
+TEST(DiagnosisJson, TellsTheShareThatIsExplainedWithItsInterval) {
+  Diagnosis diagnosis = example::invented_partly();
+  Json document = Json::parse(diagnosis_json(diagnosis));
+  EXPECT_EQ(document["verdict"], "partly");
+  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": 0.71, "ci95": [0.602, 0.788]})"));
+  EXPECT_EQ(document["joints"][0]["effects"].size(), 2u);
+  diagnosis.joints[0].explained_high = unknown;
+  document = Json::parse(diagnosis_json(diagnosis));
+  EXPECT_EQ(document["joints"][0]["explained"], Json::parse(R"({"share": 0.71, "ci95": [0.602, null]})"));
 }
 
 // the screen says < 0.005 of it
