@@ -174,6 +174,9 @@ class Joint:
     validation_left_out_energy: float
     validation_relerr_all_rows: float
     augmented_validation_relerr_all_rows: float
+    explained_share: float  # of the mismatch's energy on held-out rows, by what is named; with its 95 % interval
+    explained_low: float
+    explained_high: float
     budget_parameter_error: float
     budget_missing_physics: float
     budget_unexplained: float
@@ -206,7 +209,7 @@ class Joint:
 
 @dataclass
 class Diagnosis:
-    verdict: str  # "none", "named", "class", "unexplained", "insufficient", "data_fault"
+    verdict: str  # "none", "named", "class", "partly", "unexplained", "insufficient", "data_fault"
     reason: str
     finding: str
     way_out: str

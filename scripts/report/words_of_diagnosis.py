@@ -11,6 +11,7 @@ from words import head_of_recordings
 VERDICTS = {
     "named": ("●", "Missing physics named", "blue"),
     "class": ("◍", "Missing physics: one of {count}", "blue"),
+    "partly": ("◐", "Missing physics partly explained", "blue"),
     "none": ("○", "Nothing missing", "ink"),
     "unexplained": ("◌", "Something else", "ochre"),
     "insufficient": ("▽", "Recording too poor", "ochre"),
@@ -32,7 +33,7 @@ def verdict(study):
     if found.verdict == "none" and any(diagnosed.looks_at_less_than_half(joint) for joint in found.joints):
         word += " on the rows looked at"
     word = word.format(count=q.count_word(several[0]) if several else "several")
-    if found.verdict in ("named", "class") and any(
+    if found.verdict in ("named", "class", "partly") and any(
         diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects
     ):
         word += ", and a fault of the recording"
@@ -101,12 +102,21 @@ def big_numbers(joint):
             )
         )
     closed = diagnosed.share_closed(joint)
-    if math.isfinite(closed):
+    if math.isfinite(joint.explained_share):
+        found.append((q.percent(joint.explained_share), "",
+                      f"of what is missing on held-out rows is explained{_interval_words(joint)}"))
+    elif math.isfinite(closed):
         found.append((q.percent(closed), "", "of the closable gap is closed"))
     as_far = diagnosed.twins_as_far(joint)
     if as_far is not None:
         found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "clean twins look like this"))
     return found
+
+
+def _interval_words(joint):
+    """Of the share that is explained; empty where no interval is known."""
+    ends = joint.explained_low, joint.explained_high
+    return f"; 95 %: {q.percent(ends[0])} to {q.percent(ends[1])}" if all(map(math.isfinite, ends)) else ""
 
 
 def map_answer(joint):

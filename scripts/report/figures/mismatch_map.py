@@ -193,22 +193,48 @@ def cases(study):
                 "grey: no more than chance; blank: nothing measured; framed: located."
             )
             found[name] = Case(draw, {"rows": rows}, "The mismatch map", sentence, wide=True)
+        if study.diagnosis.verdict == "partly" and (left := _left(joint)):
+            name = diagnosed.figure_name(study, joint, "mismatch_left")
+            sentence = (
+                "The same with everything named in the model: what the names do not explain; framed: where it stands "
+                "out."
+            )
+            found[name] = Case(draw, {"rows": left}, "What is left", sentence, wide=True)
     return found
+
+
+def _left(joint):
+    """Rows of the map with the effects in the model; none where that was not measured."""
+    rows = [row for row in diagnosed.rows_drawn(joint) if np.isfinite(row.after_z).any()]
+    return [_row(row, row.after_z, _share_left(joint, row), _frames_left(joint, row)) for row in rows]
+
+
+def _share_left(joint, row):
+    return max((share for where, share in joint.unexplained if where.axis == row.axis), default=np.nan)
+
+
+def _frames_left(joint, row):
+    return [
+        (where.start, where.stop, "unexplained", "unexplained")
+        for where, _ in joint.unexplained
+        if where.axis == row.axis
+    ]
 
 
 def _arguments(joint, row):
     frames = [(place.start, place.stop, diagnosed.plain(e.name), "effect") for e in joint.effects for place in e.places
               if place.axis == row.axis]
-    frames += [
-        (where.start, where.stop, "unexplained", "unexplained")
-        for where, _ in joint.unexplained
-        if where.axis == row.axis
-    ]
+    frames += _frames_left(joint, row)
     known = {(start, stop) for start, stop, *_ in frames}
     frames += [
         (r.where.start, r.where.stop, "", "region") for r in row.regions if (r.where.start, r.where.stop) not in known
     ]
-    z = np.where(np.asarray(row.samples) > 0, row.z, np.nan)
+    return _row(row, row.z, row.energy_share, frames)
+
+
+def _row(row, z, share, frames):
+    """As draw() takes it."""
+    z = np.where(np.asarray(row.samples) > 0, z, np.nan)
     edges = np.append(row.start, row.stop[-1])
     return (
         diagnosed.axis_title(row.axis),
@@ -216,6 +242,6 @@ def _arguments(joint, row):
         row.is_spectrum,
         edges,
         z,
-        row.energy_share,
+        share,
         frames,
     )

@@ -43,7 +43,9 @@ BOARDS = every_time(make_board.KINDS, "board")
 # the C++ store writes these (tests/report/write_example_diagnosis.cpp); ctest says where the program is
 EXAMPLE_WRITER = os.environ.get("TORQUESCOPE_EXAMPLE_DIAGNOSIS")
 PAGES = os.environ.get("TORQUESCOPE_PAGES")
-VERDICTS = ("named", "class", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
+VERDICTS = (
+    ("named", "class", "partly", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
+)
 VARIED = every_time(vary_diagnosis.KINDS, "minute", "two_joints") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 needs_diagnoses = unittest.skipUnless(

@@ -143,6 +143,23 @@ class Reader(unittest.TestCase):
         for one, effect in zip(told["joints"][0]["effects"], found.joints[0].effects):
             self.assertEqual((one["name"], one["z"], one["gain"]["cv"]), (effect.name, effect.z, effect.gain_cv))
 
+    def test_the_share_that_is_explained_has_its_interval(self):
+        part = joint("partly")
+        self.assertEqual((part.explained_share, part.explained_low, part.explained_high), (0.71, 0.602, 0.788))
+        told = json.loads(diagnosis("partly").verdict_json)["joints"][0]["explained"]
+        self.assertEqual(told, {"share": 0.71, "ci95": [0.602, 0.788]})
+        self.assertTrue(math.isnan(joint("named").explained_share))
+
+    def test_a_result_of_an_earlier_version_has_no_such_share(self):
+        path = support.FOLDER / "earlier.h5"
+        shutil.copy(support.result("named"), path)
+        with h5py.File(path, "r+") as file:
+            for end in ("share", "low", "high"):
+                del file["diagnosis/joint_1"].attrs[f"explained_{end}"]
+        found = Study(path).diagnosis.joints[0]
+        self.assertTrue(all(map(math.isnan, (found.explained_share, found.explained_low, found.explained_high))))
+        self.assertEqual(words_of_diagnosis.big_numbers(found), words_of_diagnosis.big_numbers(joint("named")))
+
     def test_the_summary_has_the_verdict_and_both_models(self):
         with Result(support.result("named")) as result:
             text = "\n".join(summary(result))
@@ -154,7 +171,7 @@ class Reader(unittest.TestCase):
 class Verdict(unittest.TestCase):
     def test_each_verdict_has_its_mark(self):
         marks = [words_of_diagnosis.verdict(support.study(kind))["mark"] for kind in support.VERDICTS]
-        self.assertEqual(marks, ["●", "◍", "○", "◌", "▽", "✕"])
+        self.assertEqual(marks, ["●", "◍", "◐", "○", "◌", "▽", "✕"])
 
     def test_what_comes_first_and_how_sure_below(self):
         verdict = words_of_diagnosis.verdict(support.study("named"))
@@ -188,6 +205,16 @@ class Verdict(unittest.TestCase):
         self.assertEqual(shown, [("12 → 6.2 %", ""), ("6.0 %", ""), ("96 %", ""), ("0", "of 200")])
         self.assertAlmostEqual(diagnosed.share_closed(joint("named")), (0.1213 - 0.0623) / (0.1213 - 0.0601))
 
+    def test_a_part_says_how_much_and_shows_what_is_left(self):
+        verdict = words_of_diagnosis.verdict(support.study("partly"))
+        self.assertEqual((verdict["word"], verdict["tone"]), ("Missing physics partly explained", "blue"))
+        self.assertTrue(verdict["sentence"].startswith("Stribeck and cogging explain 71 % (60 to 79 %) of what is "))
+        self.assertIn(("71 %", "", "of what is missing on held-out rows is explained; 95 %: 60 % to 79 %"),
+                      words_of_diagnosis.big_numbers(joint("partly")))
+        for words in ("stribeck speed", "What is left", "and is not explained"):
+            self.assertTrue(words in read_by_a_person("partly"), words)
+        self.assertFalse("What is left" in read_by_a_person("named"))
+
     def test_below_the_floor_there_is_no_gap(self):
         at_floor = dataclasses.replace(joint("named"), augmented_validation_relerr=0.0485, floor_relerr=0.049)
         self.assertIn(("about 4.9 %", "", "floor: it is reached"), words_of_diagnosis.big_numbers(at_floor))
@@ -219,7 +246,7 @@ class Verdict(unittest.TestCase):
         self.assertNotIn("fault", words_of_diagnosis.effect_line(both.joints[0], both.joints[0].effects[0]))
 
     def test_every_candidate_that_is_not_named_has_a_reason(self):
-        for kind in ("named", "class", "none", "unexplained"):
+        for kind in ("named", "class", "partly", "none", "unexplained"):
             for row in tables_of_diagnosis.candidates(joint(kind)):
                 self.assertTrue(row["decision"] == "named" or row["reason"] != row["decision"], row)
 
@@ -288,10 +315,8 @@ class Verdict(unittest.TestCase):
 
 @support.needs_diagnoses
 class Map(unittest.TestCase):
-    def rows(self, kind="named"):
-        return {
-            name: row for row in all_cases(support.study(kind))["mismatch_map"].arguments["rows"] for name in [row[0]]
-        }
+    def rows(self, kind="named", figure="mismatch_map"):
+        return {name: row for row in all_cases(support.study(kind))[figure].arguments["rows"] for name in [row[0]]}
 
     def test_quiet_rows_stay(self):
         for kind in ("named", "none", "unexplained"):
@@ -333,6 +358,15 @@ class Map(unittest.TestCase):
         self.assertIn((-0.12, 0.12, "stribeck", "effect"), frames)
         self.assertIn((0.95, 1.29, "unexplained", "unexplained"), self.rows()["load"][6])
         self.assertEqual(self.rows("none")["velocity"][6], [])
+
+    def test_what_is_left_is_drawn_with_the_effects_in_the_model(self):
+        left = self.rows("partly", "mismatch_left")
+        row = joint("partly").map["position"]
+        np.testing.assert_array_equal(left["position"][4], np.where(row.samples > 0, row.after_z, np.nan))
+        self.assertEqual(left["position"][5:], (0.21, [(0.4, 0.9, "unexplained", "unexplained")]))
+        self.assertEqual(left["velocity"][6], [], "an effect that is named is not left")
+        self.assertTrue(math.isnan(left["velocity"][5]))
+        self.assertNotIn("mismatch_left", all_cases(support.study("named")))
 
 
 @support.needs_diagnoses
