@@ -10,6 +10,7 @@ OURS = "torquescope"
 # verdicts without a name, and other words of the file that are no name of an effect
 WORDS = {
     "none": "nothing missing",
+    "partly": "partly explained",
     "unexplained": "something else",
     "insufficient": "too poor",
     "data_fault": "recording at fault",

@@ -78,7 +78,7 @@ def confusion(judgements, row_of, column_of):
     # what is right stands on the diagonal, other names after it, verdicts without a name last
     verdicts = [
         word
-        for word in ("class", "unexplained", "none", "insufficient", "data_fault", "missing", "invalid")
+        for word in ("class", "partly", "unexplained", "none", "insufficient", "data_fault", "missing", "invalid")
         if word in words
     ]
     columns = rows + sorted(words - set(rows) - set(verdicts)) + verdicts

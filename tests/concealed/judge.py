@@ -9,6 +9,7 @@ A law whose form is not the catalogue's is found when its family is found.
 Guesses are what is named and then the ranking, without repeats: a true effect's rank is the place of the first guess of
 its family.
 The main parameter is the first the truth lists; of a pair called ..._sin and ..._cos the vector counts, not its turn.
+Names of "partly" are names: where every true effect is among them, that something is said to be left is no fault.
 Expected "insufficient" (weak motion) also accepts a class; expected "measurement" (a fault of the instruments, no
 physics) accepts every verdict that claims nothing beyond the names the truth allows.
 """
@@ -194,7 +195,7 @@ def _is_right(judgement, truth):
             return False
     needed = any(f.snr >= MUST_FIND_SNR for f in judgement.found)
     # some effects are faults of the instruments: a verdict that names them so has found them
-    return judgement.verdict in ("named", "class", "data_fault") or not needed
+    return judgement.verdict in ("named", "class", "partly", "data_fault") or not needed
 
 
 def _gap_closed(unseen, oracle):

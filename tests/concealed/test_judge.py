@@ -156,12 +156,26 @@ class OtherTiers(unittest.TestCase):
         with self.assertRaises(ValueError):
             judge.judge({key: value for key, value in self.decoy().items() if key != "may_name"}, verdict("none"))
 
+    def test_names_of_a_part_are_names(self):
+        pair = truth(effects=[true_effect(), true_effect("spring", ("static_position",))])
+        both = [effect("spring", "static_position"), effect()]
+        self.assertTrue(judge.judge(truth(), verdict("partly", [effect()])).right)
+        self.assertTrue(judge.judge(pair, verdict("partly", both)).right)
+        self.assertFalse(judge.judge(pair, verdict("partly", [effect()])).right, "half of it")
+        self.assertEqual(judge.judge(truth(), verdict("partly", [effect("cogging", "order_locked")])).false_names,
+                         ("cogging",))
+        outside = truth("unexplained", [true_effect("", ())])
+        self.assertFalse(judge.judge(outside, verdict("partly", [effect()])).right)
+        self.assertFalse(judge.judge(clean(), verdict("partly", [effect()])).right)
+        self.assertTrue(judge.judge(self.decoy(), verdict("partly", [effect("delay", "acceleration")])).right)
+
     def test_weak_motion_wants_a_class_or_no_answer(self):
         weak = lambda snr=3.0: truth("insufficient", snr=snr)
         self.assertTrue(judge.judge(weak(), verdict("insufficient")).right)
         self.assertTrue(judge.judge(weak(), verdict("class", [effect("presliding", equivalent=["stribeck"])])).right)
         self.assertFalse(judge.judge(weak(), verdict("class", [effect("cogging", "order_locked")])).right)
         self.assertFalse(judge.judge(weak(), verdict("named", [effect()])).right)
+        self.assertFalse(judge.judge(weak(), verdict("partly", [effect()])).right)
         self.assertFalse(judge.judge(weak(), verdict("none")).right)
         self.assertTrue(judge.judge(weak(0.1), verdict("none")).right)
 

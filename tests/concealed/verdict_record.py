@@ -3,7 +3,7 @@
 Ours        OUT/verdicts/NAME.json, the document of `torquescope diagnose --json`; its ranking and the closed-loop
             simulation are read from OUT/results/NAME.h5 (engine/store/RESULT_FORMAT.md, /diagnosis)
 A rival     OUT/rivals/METHOD/NAME.json, one file per case, NAME being the folder of the case:
-              {"case": NAME, "verdict": "none" | "named" | "class" | "unexplained" | "insufficient" | "data_fault",
+              {"case": NAME, "verdict": one of VERDICTS,
                "effects": [{"name", "family"}, ...]}            strongest first, words of `torquescope list effects`
             An effect may also have  "equivalent": [names], "q" or "confidence" (0 to 1: chance that the name is right),
             "region": {"axis", "from", "to"} or {"axis", "places": [[from, to], ...]}, "parameters": [{"name", "value",
@@ -15,7 +15,7 @@ is missing is a case without an answer.
 
 import json
 
-VERDICTS = ("none", "named", "class", "unexplained", "insufficient", "data_fault")
+VERDICTS = ("none", "named", "class", "partly", "unexplained", "insufficient", "data_fault")
 
 
 class Invalid(ValueError):

@@ -8,7 +8,7 @@ import dataclasses
 import json
 import re
 
-VERDICTS = ("none", "named", "class", "unexplained", "insufficient", "data_fault")
+VERDICTS = ("none", "named", "class", "partly", "unexplained", "insufficient", "data_fault")
 GRADES = ("right", "acceptable", "useless")
 
 
