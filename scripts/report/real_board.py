@@ -22,11 +22,23 @@ def percent(share):
     return "–" if share is None else f"{q.fixed(100 * share, 1)} %"
 
 
+def looked_at(left_out):
+    return percent(None if left_out is None else 1 - left_out)
+
+
+def explained(case):
+    """Share of what is missing that the names explain, with its interval; a table of an earlier version has none."""
+    share, low, high = (case.get(key) for key in ("explained", "explained_low", "explained_high"))
+    interval = "" if None in (low, high) else f" ({q.fixed(100 * low, 0)} to {q.fixed(100 * high, 0)} %)"
+    return "–" if share is None else f"{q.fixed(100 * share, 0)} %{interval}"
+
+
 def said(case):
     """Names with those that the recording cannot exclude; the verdict's word where there is none."""
     names = [plain(one["name"]) + (f" or {q.listed(map(plain, one['equivalent']))}" if one["equivalent"] else "")
              for one in case["names"]]
-    return "; ".join(names) or plain(case["verdict"])
+    part = " (in part)" if names and case["verdict"] == "partly" else ""
+    return "; ".join(names) + part or plain(case["verdict"])
 
 
 def rows(real):
@@ -35,7 +47,8 @@ def rows(real):
              "tone": TONES.get(case["grade"], ""), "why": case["why"], "truth": case["truth"],
              "before": percent(case["before"]), "after": percent(case["after"]), "floor": percent(case["floor"]),
              "of": ROWS.get(case["rows"], case["rows"]),
-             "time": percent(case["time_left_out"]), "energy": percent(case["energy_left_out"]),
+             "time": looked_at(case["time_left_out"]), "energy": looked_at(case["energy_left_out"]),
+             "explained": explained(case),
              "seconds": q.seconds(case["seconds"])} for case in real.cases]
 
 

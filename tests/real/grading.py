@@ -34,6 +34,9 @@ class Said:
     floor: float | None = None
     time_left_out: float | None = None  # shares, of the rows that errors are of
     energy_left_out: float | None = None
+    explained: float | None = None  # share of what is missing on held-out rows, by its names; ends of its 95 % interval
+    explained_low: float | None = None
+    explained_high: float | None = None
 
 
 def said_of(document, screen=""):
@@ -46,6 +49,7 @@ def said_of(document, screen=""):
     unseen = baseline.get("validation_relerr") is not None
     error = "validation_relerr" if unseen else "cv_relerr"
     rows = left_out.get("validation" if unseen else "train") or {}
+    explained = joint.get("explained") or {"share": None, "ci95": (None, None)}  # absent in earlier documents
     return Said(
         verdict=document["verdict"],
         effects=tuple(joint.get("effects") or ()),
@@ -56,6 +60,9 @@ def said_of(document, screen=""):
         floor=augmented.get("floor_relerr"),
         time_left_out=rows.get("time_share"),
         energy_left_out=rows.get("energy_share"),
+        explained=explained["share"],
+        explained_low=explained["ci95"][0],
+        explained_high=explained["ci95"][1],
     )
 
 

@@ -59,6 +59,14 @@ class Grading(unittest.TestCase):
         # an error that nobody measured speaks against nothing
         self.assertEqual(self.graded(said("named", effect("cogging"), after=None)), "right")
 
+    def test_names_of_a_part_are_graded_as_names(self):
+        self.assertEqual(self.graded(said("partly", effect("cogging"))), "right")
+        self.assertEqual(self.graded(said("partly", effect("torque_ripple"))), "acceptable")
+        self.assertEqual(self.graded(said("partly", effect("contact"))), "wrong")
+        self.assertEqual(self.graded(said("partly", effect("cogging"), after=0.39)), "wrong")
+        fields = {"say": "71 %", "say_verdicts": ["partly"]}
+        self.assertEqual(self.graded(said("partly", effect("torque_ripple"), text="explain 71 %"), **fields), "right")
+
     def test_verdicts_without_names_are_what_the_answer_calls_them(self):
         self.assertEqual(self.graded(said("unexplained")), "acceptable")
         self.assertEqual(self.graded(said("insufficient")), "useless")
@@ -103,6 +111,14 @@ class Said(unittest.TestCase):
         one = grading.said_of({"verdict": "none", "joints": [joint]})
         self.assertEqual((one.rows, one.before, one.after, one.time_left_out), ("cross-validated", 0.2, 0.1, 0.7))
 
+    def test_the_share_that_is_explained_may_be_unknown_or_absent(self):
+        joint = {"effects": [], "baseline": {}, "explained": {"share": 0.71, "ci95": [0.6, None]}}
+        one = grading.said_of({"verdict": "partly", "joints": [joint]})
+        self.assertEqual((one.explained, one.explained_low, one.explained_high), (0.71, 0.6, None))
+        del joint["explained"]  # a document of an earlier version
+        one = grading.said_of({"verdict": "named", "joints": [joint]})
+        self.assertEqual((one.explained, one.explained_low, one.explained_high), (None, None, None))
+
     def test_no_verdict_is_no_answer(self):
         for document in (None, {}, {"error": {"problem": "no file"}}, {"verdict": "none", "joints": []}):
             self.assertEqual(grading.said_of(document, "killed").verdict, "no answer")
@@ -117,6 +133,7 @@ class Answers(unittest.TestCase):
     def test_what_cannot_be_graded_by_is_refused_with_its_place(self):
         self.assertIn("cases.one.neds: no such key", self.refused(neds=[]))
         self.assertIn("cases.one.right: no verdict is called nothing", self.refused(right=["nothing"]))
+        self.assertEqual(answer(acceptable=["partly"]).verdicts, {"partly": "acceptable"})
         self.assertIn("cases.one.values.delay", self.refused(values={"delay": [0.1, 0.2]}))
         self.assertIn("cases.one.needs: a list", self.refused(needs=["cogging"]))
         self.assertIn("no regular expression", self.refused(say="("))

@@ -35,6 +35,7 @@ twins = 200
 SAYS = {  # case: verdict, names, error after (0.4 before)
     "acceptable": ("unexplained", [], 0.4),
     "gains_nothing": ("named", ["stribeck"], 0.399),
+    "part": ("partly", ["stribeck"], 0.2),
     "right": ("named", ["stribeck"], 0.1),
     "useless": ("insufficient", [], 0.4),
     "wrong": ("named", ["cogging"], 0.1),
@@ -51,6 +52,9 @@ with open("{calls}", "a") as calls:
 verdict, names, after = json.loads('{says}')[job.stem]
 effects = [dict(name=name, equivalent=[], parameters=[]) for name in names]
 joint = dict(effects=effects, baseline=dict(validation_relerr=0.4), augmented=dict(validation_relerr=after))
+joint["left_out"] = dict(validation=dict(time_share=0.7, energy_share=0.98))
+if verdict == "partly":
+    joint["explained"] = dict(share=0.714, ci95=[0.602, 0.788])
 out = sys.argv[sys.argv.index("--json") + 1]
 json.dump(dict(schema=1, verdict=verdict, reason="", joints=[joint]), open(out, "w"))
 """
@@ -97,10 +101,14 @@ class RunReal(unittest.TestCase):
         self.assertEqual(code, 0, error)
         board = json.loads((self.out / "real.json").read_text())
         grades = {row["case"]: row["grade"] for row in board["cases"]}
-        self.assertEqual(grades, {name: {"gains_nothing": "wrong"}.get(name, name) for name in SAYS})
-        self.assertEqual(board["grades"], {"right": 1, "acceptable": 1, "useless": 1, "wrong": 2})
-        self.assertEqual((board["gains_nothing"], board["with_names"]), (1, 3))
-        self.assertIn("right 1, acceptable 1, useless 1, wrong 2", text)
+        self.assertEqual(grades, {name: {"gains_nothing": "wrong", "part": "right"}.get(name, name) for name in SAYS})
+        self.assertEqual(board["grades"], {"right": 2, "acceptable": 1, "useless": 1, "wrong": 2})
+        self.assertEqual((board["gains_nothing"], board["with_names"]), (1, 4))
+        self.assertIn("right 2, acceptable 1, useless 1, wrong 2", text)
+        part = next(row for row in board["cases"] if row["case"] == "part")
+        self.assertEqual((part["explained"], part["explained_low"], part["explained_high"]), (0.714, 0.602, 0.788))
+        self.assertRegex(text, r"part +right +partly +unseen +40\.0 +20\.0 +- +30\.0/2\.0 +71 \(60 to 79\) ")
+        self.assertRegex(text, r"right +right +named +unseen +40\.0 +10\.0 +- +30\.0/2\.0 +- ")
         self.assertEqual({(twins, one[-2:] == ["--threads", "1"]) for _, twins, one in self.called()},
                          {("twins = 60", True)})
         self.assertEqual(sorted(path.name for path in self.folder.rglob("*")), before)

@@ -93,13 +93,15 @@ class RealRecordings(unittest.TestCase):
     def test_they_have_a_page_of_their_own_where_no_case_was_concealed(self):
         page = self.made()
         rows = page.split("<tbody>")[1].split("</tbody>")[0]
-        self.assertEqual(rows.count("<tr>"), 3)
+        self.assertEqual(rows.count("<tr>"), 5)
         text = text_of(rows)
         self.assertIn("cogging or torque ripple", text)
-        self.assertIn("88.0 % 13.2 % 6.6 % unseen 95.7 % 99.6 %", text)
+        self.assertIn("88.0 % 13.2 % 6.6 % unseen 4.3 % 0.4 % –", text)
+        self.assertIn("delay (in part)", text)
+        self.assertIn("6.0 % 3.0 % 6.6 % unseen 4.3 % 0.4 % 71 % (60 to 79 %)", text)
         self.assertIn('<span class="failed">wrong</span>', rows)
         self.assertIn("too poor", text)
-        self.assertIn("One of 2 verdicts with names", text_of(page))
+        self.assertIn("One of 4 verdicts with names", text_of(page))
 
     def test_they_stand_below_the_concealed_cases(self):
         page = self.made("board_few")
