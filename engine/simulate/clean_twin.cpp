@@ -9,12 +9,10 @@
 #include "engine/base/random_stream.hpp"
 #include "engine/simulate/lane_noise.hpp"
 #include "engine/simulate/lane_step.hpp"
+#include "engine/simulate/sticking_lanes.hpp"
 
 namespace torquescope {
 namespace {
-
-// streams have a second half, for what goes beside the first: no batch has so many groups
-constexpr std::uint32_t slow_groups = std::uint32_t{1} << 24;
 
 // Anywhere within the encoder's first step. Without it twins of an undisturbed joint would all move alike: torque noise
 // is only logged, and one pattern of rounding would pass for all there is.
@@ -112,6 +110,7 @@ TwinLoop noiseless(TwinLoop loop) {
   loop.position_noise_std = 0.0;
   loop.friction_wander = 0.0;
   loop.friction_wander_variance_error = 0.0;
+  loop.sticking = {};
   return loop;
 }
 
@@ -137,8 +136,8 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
 
 void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {
   LaneNoise torque_noise(address, TwinStream::torque, group, loop_.torque_noise);
-  LaneNoise slow_torque_noise(address, TwinStream::torque, group + slow_groups, loop_.slow_torque_noise);
-  LaneLevels const torque_level(address, TwinStream::level, group + slow_groups, 1.0,
+  LaneNoise slow_torque_noise(address, TwinStream::torque, group + second_half, loop_.slow_torque_noise);
+  LaneLevels const torque_level(address, TwinStream::level, group + second_half, 1.0,
                                 loop_.torque_noise_variance_error);
   LaneNoise disturbance(address, TwinStream::disturbance, group, white(1.0));
   LaneNoise position_noise(address, TwinStream::position, group, white(loop_.position_noise_std));
@@ -160,6 +159,12 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   draw_starts(address, group, loop_, track_, state.q);
   std::fill_n(state.dq, twin_lanes, track_.start_velocity);
   LaneTorques torques;
+  LaneSticking sticking;
+  if (loop_.sticking.is_any()) draw_sticking(address, group, loop_.sticking, track_.start_velocity, sticking);
+  auto const advance = [&](std::size_t steps) {
+    if (loop_.sticking.is_any()) return advance_sticking_lanes(joint_.lanes, torques, step_s_, steps, sticking, state);
+    advance_lanes(joint_.lanes, torques, step_s_, steps, state);
+  };
   LaneDryFriction const dry{joint_.coulomb_forward, joint_.coulomb_backward};
   LaneInstant at;  // in the middle of a step
   at.step_s = step_s_;
@@ -215,7 +220,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     }
     if (!any_follows_steps) {
       load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), of_tick, state, torques);
-      advance_lanes(joint_.lanes, torques, step_s_, steps_per_tick_, state);
+      advance(steps_per_tick_);
       continue;
     }
     std::copy_n(command, twin_lanes, at.motor_torque);
@@ -226,7 +231,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
       for (auto const& effect : effects)
         if (effect->follows_steps()) effect->add(at, demand);
       load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), demand, state, torques);
-      advance_lanes(joint_.lanes, torques, step_s_, 1, state);
+      advance(1);
     }
   }
 }

@@ -20,6 +20,7 @@
 
 #include "engine/simulate/autoregression.hpp"
 #include "engine/simulate/loop_law.hpp"
+#include "engine/simulate/sticking_range.hpp"
 #include "engine/simulate/twin_joint.hpp"
 
 namespace torquescope {
@@ -40,6 +41,7 @@ struct TwinLoop {
   // twin draws a size of its own, as above
   double friction_wander = 0.0;
   double friction_wander_variance_error = 0.0;
+  StickingRange sticking{};  // of dry friction: every twin draws a law of its own; none: it holds at once
 };
 
 // the same law with nothing random about it

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/portable_math.hpp"
 #include "engine/base/random_stream.hpp"
 #include "kernels/normal_quantiles.hpp"
 
@@ -95,6 +96,19 @@ void LaneFriction::next() {
   change_.next(change);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane)
     level_[lane] = std::max(0.0, level_[lane] + std_[lane] * change[lane]);
+}
+
+void draw_sticking(TwinAddress const& address, std::uint32_t group, StickingRange const& range, double start_velocity,
+                   LaneSticking& sticking) {
+  double const sizes = range.most_creep > 0.0 ? portable_log(range.most_creep / range.least_creep) : 0.0;
+  for (std::uint32_t lane = 0; lane < twin_lanes; ++lane) {
+    RandomStream random({address.seed, address.recording, RandomDomain::twin},
+                        stream_number(address, TwinStream::start),
+                        (second_half + group) * static_cast<std::uint32_t>(twin_lanes) + lane);
+    sticking.creep[lane] = range.least_creep * portable_exp(random.uniform() * sizes);
+    sticking.length[lane] = range.most_length * random.uniform();
+    sticking.bend[lane] = start_velocity > 0.0 ? 1.0 : start_velocity < 0.0 ? -1.0 : 0.0;
+  }
 }
 
 }  // namespace torquescope

@@ -1,5 +1,5 @@
 #pragma once
-// What is random in a group of twins, lane by lane: noises, their levels, and the friction random walk.
+// What is random in a group of twins, lane by lane: noises, their levels, the friction random walk, sticking laws.
 //
 // Random     addressed by (seed, recording, set, stream, twin, draw): one lane's numbers do not depend on its
 //            neighbours
@@ -12,6 +12,7 @@
 
 #include "engine/base/random_stream.hpp"
 #include "engine/simulate/clean_twin.hpp"
+#include "engine/simulate/sticking_lanes.hpp"
 #include "kernels/philox.hpp"
 
 namespace torquescope {
@@ -29,6 +30,9 @@ enum class TwinStream : std::uint32_t {
 };
 
 std::uint32_t stream_number(TwinAddress const& address, TwinStream stream);
+
+// streams have a second half, for what goes beside the first: no batch has so many groups
+inline constexpr std::uint32_t second_half = std::uint32_t{1} << 24;
 
 // one noise of one group: an autoregression per lane
 class LaneNoise {
@@ -76,5 +80,9 @@ class LaneFriction {
   LaneNoise change_;
   double level_[twin_lanes];
 };
+
+// a law for every lane, one draw of the creep and one of the length; bent as of a joint that moves at start_velocity
+void draw_sticking(TwinAddress const& address, std::uint32_t group, StickingRange const& range, double start_velocity,
+                   LaneSticking& sticking);
 
 }  // namespace torquescope

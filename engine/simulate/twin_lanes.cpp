@@ -9,82 +9,11 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#ifndef TORQUESCOPE_SIMULATE_TWIN_LANES
-#define TORQUESCOPE_SIMULATE_TWIN_LANES
-namespace torquescope {
-// accelerations: every torque divided by the inertia; the weight as its Taylor series about `from`
-struct LaneAccelerations {
-  alignas(64) double held_forward[twin_lanes];
-  alignas(64) double held_backward[twin_lanes];
-  alignas(64) double from[twin_lanes];
-  alignas(64) double weight[twin_lanes];
-  alignas(64) double weight_slope[twin_lanes];
-  alignas(64) double damping[twin_lanes];
-};
-}  // namespace torquescope
-#endif
+#include "engine/simulate/lane_field-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, twin_lanes>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-// two vectors in flight hide half of each other's latency; more would spill with AVX2's 16 registers
-inline constexpr std::size_t n_vectors = vector_lanes * 2 <= twin_lanes ? 2 : 1;
-
-// sine, cosine: of the angle, where there is a weight
-template <bool has_weight>
-HWY_INLINE void accelerate(LaneJoint const& joint, LaneTorques const& torques, LaneState const& state,
-                           double const* sine, double const* cosine, LaneAccelerations& a) {
-  V const one = hn::Set(d, 1.0), inertia = hn::Set(d, joint.inertia), viscous = hn::Set(d, joint.viscous);
-  V const gravity_sin = hn::Set(d, joint.gravity_sin), gravity_cos = hn::Set(d, joint.gravity_cos);
-  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
-    V const per_inertia = hn::Div(one, hn::Add(inertia, hn::Load(d, torques.added_inertia + lane)));
-    V const held = hn::Load(d, torques.held + lane);
-    hn::Store(hn::Mul(viscous, per_inertia), d, a.damping + lane);
-    hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.forward + lane)), per_inertia), d, a.held_forward + lane);
-    hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.backward + lane)), per_inertia), d, a.held_backward + lane);
-    hn::Store(hn::Load(d, state.q + lane), d, a.from + lane);
-    if constexpr (has_weight) {
-      V const s = hn::Load(d, sine + lane), c = hn::Load(d, cosine + lane);
-      V const weight = hn::Add(hn::Mul(gravity_sin, s), hn::Mul(gravity_cos, c));
-      V const slope = hn::Sub(hn::Mul(gravity_sin, c), hn::Mul(gravity_cos, s));
-      hn::Store(hn::Mul(weight, per_inertia), d, a.weight + lane);
-      hn::Store(hn::Mul(slope, per_inertia), d, a.weight_slope + lane);
-    } else {
-      hn::Store(hn::Zero(d), d, a.weight + lane);
-      hn::Store(hn::Zero(d), d, a.weight_slope + lane);
-    }
-  }
-}
-
-template <bool has_weight>
-struct Field {
-  V held_forward, held_backward, damping;
-  V from, weight, weight_slope, weight_half, slope_sixth;
-
-  HWY_INLINE Field(LaneAccelerations const& a, std::size_t lane)
-      : held_forward(hn::Load(d, a.held_forward + lane)),
-        held_backward(hn::Load(d, a.held_backward + lane)),
-        damping(hn::Load(d, a.damping + lane)),
-        from(hn::Load(d, a.from + lane)),
-        weight(hn::Load(d, a.weight + lane)),
-        weight_slope(hn::Load(d, a.weight_slope + lane)),
-        weight_half(hn::Mul(weight, hn::Set(d, 0.5))),
-        slope_sixth(hn::Mul(weight_slope, hn::Set(d, 1.0 / 6.0))) {}
-
-  // w0 + w1 x - w0 x^2/2 - w1 x^3/6
-  HWY_INLINE V weight_at(V q) const {
-    V const x = hn::Sub(q, from);
-    V const inner = hn::Sub(weight_slope, hn::Mul(x, hn::Add(weight_half, hn::Mul(x, slope_sixth))));
-    return hn::Add(weight, hn::Mul(x, inner));
-  }
-  HWY_INLINE V slope_at(V q) const { return hn::Sub(weight_slope, hn::Mul(hn::Sub(q, from), weight)); }
-};
 
 struct Moving {
   M forward, backward;
@@ -107,29 +36,9 @@ HWY_INLINE V acceleration(Field<has_weight> const& field, V weight, V dq, Moving
   return hn::IfThenElseZero(hn::Or(moving.forward, moving.backward), a);
 }
 
-template <bool has_weight>
-struct Slide {
-  V q, dq;
-  HWY_INLINE Slide(Field<has_weight> const& field, V q0, V dq0, V a, V step) {
-    V const half = hn::Mul(step, hn::Set(d, 0.5));
-    V jerk = hn::Mul(field.damping, a);
-    if constexpr (has_weight) jerk = hn::Add(jerk, hn::Mul(field.slope_at(q0), dq0));
-    dq = hn::Add(dq0, hn::Mul(step, hn::Sub(a, hn::Mul(half, jerk))));
-    q = hn::Add(q0, hn::Mul(step, hn::Add(dq0, hn::Mul(half, a))));
-  }
-};
-
 HWY_INLINE M turned(Moving const& moving, V dq) {
   V const zero = hn::Zero(d);
   return hn::Or(hn::And(moving.forward, hn::Lt(dq, zero)), hn::And(moving.backward, hn::Gt(dq, zero)));
-}
-
-template <bool has_weight>
-HWY_INLINE V weight_of(Field<has_weight> const& field, V q) {
-  if constexpr (has_weight)
-    return field.weight_at(q);
-  else
-    return hn::Zero(d);
 }
 
 // lanes whose velocity met zero: slide to there, then ask friction again for the rest of the step

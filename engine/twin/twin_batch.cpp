@@ -28,6 +28,7 @@ std::string identity_of(CleanTwin const& twin, TwinAddress const& address, TwinR
                              loop.torque_noise.std, loop.slow_torque_noise.std, loop.torque_noise_variance_error,
                              loop.disturbance_std, loop.disturbance_variance_error, loop.position_noise_std,
                              loop.friction_wander, loop.friction_wander_variance_error, twin.step_s()});
+  digest.numbers(std::vector{loop.sticking.least_creep, loop.sticking.most_creep, loop.sticking.most_length});
   return digest.hex();
 }
 

@@ -101,6 +101,33 @@ TEST(CleanTwin, HasNoiseOfItsOwnInEveryLaneGroupAndSet) {
     EXPECT_NEAR(correlation(*torque), 0.5, 0.1);
 }
 
+TEST(CleanTwin, DrawsAStickingLawForEveryLaneWhereItIsUnknown) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  auto const held = twin_of(recording);
+  TwinLoop loop = held.loop();
+  loop.torque_noise = white(0.0);
+  loop.encoder_step = 0.0;
+  CleanTwin const exact(held.joint(), loop, held.track(), held.step_s());
+  loop.sticking = sticking_range(encoder_step);
+  CleanTwin const drawn(held.joint(), loop, held.track(), held.step_s());
+  EXPECT_FALSE(noiseless(loop).sticking.is_any());
+  TwinGroup at_once, group, again;
+  exact.simulate({1, 0, 0}, 3, at_once);
+  drawn.simulate({1, 0, 0}, 3, group);
+  drawn.simulate({1, 0, 0}, 3, again);
+  double least = 1e9, most = 0.0;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    EXPECT_FALSE(group.ran_away[lane]);
+    EXPECT_EQ(group.torque[lane], again.torque[lane]);
+    double const apart = rms(group.torque[lane] - at_once.torque[lane]);
+    least = std::min(least, apart);
+    most = std::max(most, apart);
+  }
+  // a slow creep is nearly none, a fast one shows at every reversal
+  EXPECT_GT(most, 5.0 * least);
+  EXPECT_LT(least, 0.01 * 1.3);
+}
+
 TEST(CleanTwin, IsTheSameWithATermInTheLanesOrAsAnEffect) {
   // viscous friction and weight as effects: evaluated at the foreseen middle of the step instead of inside it
   auto const recording = simulate_joint(plan_of("pd"), 3);
