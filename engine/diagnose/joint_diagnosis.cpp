@@ -85,6 +85,7 @@ class JointWork {
     StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
                          input_.seed, input_.threads};
     setting.ablation = input_.ablation;
+    setting.reversals = input_.reversals;
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
     std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });

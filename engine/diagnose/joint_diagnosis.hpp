@@ -28,6 +28,7 @@ struct DiagnosisInput {
   std::uint64_t seed = 0;
   int threads = 1;
   Ablation ablation{};
+  ReversalRows reversals = ReversalRows::mask;
   std::string joint_name{};          // for texts: of the position column
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };

@@ -74,7 +74,7 @@ void account_for_models(Selection const& selection, std::string const& timing, J
   joint.power_sentence = power_sentence(before);
 
   // parameters and errors
-  if (selection.keeps_reversals) joint.rows = "with reversals";
+  if (selection.final->pipeline->keeps_reversals()) joint.rows = "with reversals";
   joint.differs_at_reversals = selection.differs_at_reversals;
   joint.shape_evaluations = selection.evaluations;
   joint.baseline = estimate_parameters(before).baseline;

@@ -1,9 +1,9 @@
 #pragma once
-// Weights of rows by their noise: coloured along the rows, and a random walk of the dry friction level.
+// Weights of rows by their noise: coloured along the rows, louder near reversals, a random walk of dry friction.
 //
-// Equation   signals <- (I + W W')^(-1/2) signals, W: rows x K Karhunen-Loeve modes (cosines of time) of the walk about
-//            its mean, torque(t) = friction(t) * x(t), whitened, in standard deviations of the white noise. The same on
-//            torque and columns, so that torque = columns * parameters still holds
+// Equation   signals <- (I + W W')^(-1/2) D A signals; A: row_whitening.hpp; D: how much each row counts; W: rows x K
+//            Karhunen-Loeve modes (cosines of time) of the walk about its mean, torque(t) = friction(t) * x(t),
+//            whitened, in standard deviations of the noise. The same on torque and columns of the model
 // Shapes     friction: torque of dry friction at every kept sample of the pipeline; signals: rows x any number
 // Units      SI; variance of the walk: share of the level, squared, per second
 // Threads    const object, any number of threads
@@ -29,20 +29,28 @@ class NoiseWeights {
   NoiseWeights() = default;  // all rows alike
   explicit NoiseWeights(RowWhitening rows) : rows_(std::move(rows)) {}
 
+  // the same, each kept sample of the pipeline multiplied by its share, 0 to 1 (reversal_weights.hpp)
+  NoiseWeights with_shares(Eigen::VectorXd shares) const;
   // the same with a friction random walk
   NoiseWeights with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const;
 
-  bool are_equal() const { return rows_.is_identity() && !wanders(); }
+  bool are_equal() const { return rows_.is_identity() && !wanders() && !weigh_reversals(); }
+  bool weigh_reversals() const { return shares_.size() > 0; }
   bool wanders() const { return modes_.size() > 0; }
   RowWhitening const& rows() const { return rows_; }
 
+  // without the walk
+  void apply_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
+  // of rows near reversals alone
+  void take_shares(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
   WanderOnRows wander_on(std::vector<Eigen::Index> const& kept_rows) const;
   void apply(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows,
              WanderOnRows const& wander) const;
 
  private:
   RowWhitening rows_;
-  Eigen::MatrixXd modes_{};  // kept samples x K, in standard deviations of the noise
+  Eigen::VectorXd shares_{};  // of all kept samples; empty: all count
+  Eigen::MatrixXd modes_{};   // kept samples x K, in standard deviations of the noise
 };
 
 }  // namespace torquescope

@@ -110,6 +110,11 @@ bool RecordPipeline::is_repeated(Eigen::MatrixXd const& columns, Eigen::Index co
   return false;
 }
 
+std::vector<Eigen::Index> RecordPipeline::own_rows(Motion const& motion) const {
+  if (!fixed_rows_.empty()) return fixed_rows_;
+  return moving_rows(motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz, keeps_reversals_, saturated_);
+}
+
 std::vector<Eigen::Index> RecordPipeline::all_rows() const {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(kept_samples()));
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
@@ -123,6 +128,7 @@ void RecordPipeline::restrict_to(std::vector<Eigen::Index> kept_rows) {
 
 void RecordPipeline::weigh_with(std::shared_ptr<NoiseWeights const> weights) {
   weights_ = std::move(weights);
+  if (weights_ && weights_->weigh_reversals()) keeps_reversals_ = true;
   if (whitens() && !fixed_rows_.empty()) fixed_wander_ = weights_->wander_on(fixed_rows_);
 }
 
@@ -136,7 +142,13 @@ void RecordPipeline::whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eig
 // NOLINTNEXTLINE(performance-unnecessary-value-param): as above
 void RecordPipeline::whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals,
                                  std::vector<Eigen::Index> const& kept_rows) const {
-  if (whitens()) weights_->rows().apply(signals, kept_rows);
+  if (whitens()) weights_->apply_rows(signals, kept_rows);
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): as above
+void RecordPipeline::take_shares(Eigen::Ref<Eigen::MatrixXd> signals,
+                                 std::vector<Eigen::Index> const& kept_rows) const {
+  if (weights_) weights_->take_shares(signals, kept_rows);
 }
 
 void RecordPipeline::fit(ProcessedRecord& record, std::string const& name) const {
@@ -183,10 +195,7 @@ ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
   ProcessedRecord record;
   record.motion = std::move(motion);
   record.drive = std::move(drive);
-  record.kept_rows = fixed_rows_.empty()
-                         ? moving_rows(record.motion, filter_, cutoff_hz_ > 0.0 ? cutoff_hz_ : options_.cutoff_hz,
-                                       keeps_reversals_, saturated_)
-                         : fixed_rows_;
+  record.kept_rows = own_rows(record.motion);
 
   // the torque goes through the filter beside the columns: eight signals cost as much as one
   Eigen::MatrixXd signals = model_.columns(record.motion, record.drive);

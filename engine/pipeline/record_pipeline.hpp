@@ -74,13 +74,17 @@ class RecordPipeline {
 
   // from now on its own mask drops these samples too, one per sample
   void leave_out(std::vector<bool> samples) { saturated_ = std::move(samples); }
+  // rows of a record that moves like this: by its mask, or those it is restricted to
+  std::vector<Eigen::Index> own_rows(Motion const& motion) const;
   // every sample that the filter keeps: what residuals are of when nothing is left out
   std::vector<Eigen::Index> all_rows() const;
 
   // from now on its own mask drops rests alone (reversal_mask.hpp)
-  void keep_reversals() { keeps_reversals_ = true; }
+  void keep_reversals(bool keeps = true) { keeps_reversals_ = keeps; }
+  bool keeps_reversals() const { return keeps_reversals_; }
 
-  // from now on process() weighs rows by what their noise leaves of them; none: every row alike
+  // from now on process() weighs rows by what their noise leaves of them; none: every row alike. With weights of
+  // reversals these rows are kept
   void weigh_with(std::shared_ptr<NoiseWeights const> weights);
   std::shared_ptr<NoiseWeights const> const& weights() const { return weights_; }
   bool whitens() const { return weights_ && !weights_->are_equal(); }
@@ -88,6 +92,8 @@ class RecordPipeline {
   void whiten(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
   // the same without the friction random walk: what that walk is measured on
   void whiten_rows(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
+  // by the shares of rows near reversals alone
+  void take_shares(Eigen::Ref<Eigen::MatrixXd> signals, std::vector<Eigen::Index> const& kept_rows) const;
 
   ProcessedRecord process(Recording const& recording) const;
   // positions of many recordings, one per column, which share the filter's work; drive: none where the model needs none

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/optim/optimiser.hpp"
+#include "engine/pipeline/reversal_rows.hpp"
 #include "engine/twin/null_kind.hpp"
 
 namespace torquescope {
@@ -63,6 +64,8 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"max_effects", &DiagnoseOptions::max_effects, "1", 1.0, 20.0, "effects that are named at most"},
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
+       {"reversals", &DiagnoseOptions::reversals, reversal_words(),
+        "rows near reversals: left out, or weighed by what clean twins of unknown sticking laws show there"},
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,

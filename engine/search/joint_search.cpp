@@ -75,6 +75,7 @@ Remainder judge_with_reversals(StageSetting& setting, SelectionOptions const& op
   Remainder remainder = judge_remainder(selection, *selection.final);
   bool const has_structure = remainder.is_unexplained && !remainder.is_most_left;
   if (has_structure && !selection.accepted.empty()) return remainder;
+  if (setting.reversals == ReversalRows::weigh) return remainder;  // they were never left out
   // how a joint is driven through a reversal nobody knows who does not know its controller
   if (selection.baseline->twin->colour) return remainder;
   // what a late channel's law leaves of a reversal, which is over in a few rows, looks like friction that builds up

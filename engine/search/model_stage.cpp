@@ -8,6 +8,7 @@
 #include "engine/pipeline/joint_bounds.hpp"
 #include "engine/pipeline/motion_limits.hpp"
 #include "engine/statistics/scaled_solution.hpp"
+#include "engine/twin/reversal_weights.hpp"
 #include "engine/twin/twin_whitening.hpp"
 
 namespace torquescope {
@@ -16,6 +17,21 @@ namespace {
 constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have something to do
 
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
+
+TwinAddress reversal_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 2}; }
+
+// how a joint is driven through a reversal nobody knows who does not know its controller
+bool weighs_reversals(StageSetting const& setting) {
+  return setting.reversals == ReversalRows::weigh && !setting.reads_colour &&
+         setting.recording.reference.size() == setting.recording.position.size();
+}
+
+// plain: masks, weighs nothing; the weights are its own then
+NoiseWeights weights_of_rows(StageSetting const& setting, BaselineTwin const& made, RecordPipeline& plain) {
+  RowWhitening const rows = twin_whitening(made.twin, plain, spectrum_set(setting), twins_per_round, setting.workers());
+  if (!weighs_reversals(setting) || made.colour) return NoiseWeights(rows);
+  return reversal_weights(made, plain, rows, reversal_set(setting), twins_per_round, setting.workers());
+}
 
 bool has_sizes(JointModel const& model) {
   auto const sizes = sizes_of_effects(model);
@@ -61,13 +77,13 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   options.reads_colour = setting.reads_colour;
   options.loop = setting.loop;
   options.twins = twins_per_round;
+  options.draws_sticking = weighs_reversals(setting);
   auto const make_twin = [&] { return twin_of_free_or_bounded_fit(setting, *pipeline, options); };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
   BaselineTwin made = make_twin();
   if (!setting.weights && setting.ablation.whitening) {
-    NoiseWeights const rows(
-        twin_whitening(made.twin, *pipeline, spectrum_set(setting), twins_per_round, setting.workers()));
+    NoiseWeights const rows = weights_of_rows(setting, made, *pipeline);
     pipeline->weigh_with(std::make_shared<NoiseWeights const>(rows));
     if (pipeline->whitens()) {
       made.friction_wander = measured_wander(setting.recording, made, *pipeline, options, setting.workers());
@@ -135,9 +151,8 @@ std::optional<ModelStage> reweighed_stage(StageSetting const& setting, ModelStag
   StageSetting own = setting;
   own.levels = levels_of(*stage.twin);
   if (stage.pipeline->whitens()) {
-    RecordPipeline const plain = pipeline_for(setting, setting.recording, stage);
-    NoiseWeights const rows(
-        twin_whitening(stage.twin->twin, plain, spectrum_set(setting), twins_per_round, setting.workers()));
+    RecordPipeline plain = pipeline_for(setting, setting.recording, stage);
+    NoiseWeights const rows = weights_of_rows(setting, *stage.twin, plain);
     own.weights = std::make_shared<NoiseWeights const>(with_wander_of(*stage.twin, rows, plain));
   }
   return make_stage(own, stage.model());

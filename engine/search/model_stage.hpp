@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/pipeline/reversal_rows.hpp"
 #include "engine/search/candidate_columns.hpp"
 #include "engine/twin/ablation.hpp"
 #include "engine/twin/baseline_twin.hpp"
@@ -32,8 +33,9 @@ struct StageSetting {
   std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
-  bool reads_colour = false;         // noise as the model leaves it, whatever the law says (torque_colour.hpp)
-  bool keeps_reversals = false;      // rows at reversals count (friction_buildup.hpp)
+  bool reads_colour = false;     // noise as the model leaves it, whatever the law says (torque_colour.hpp)
+  bool keeps_reversals = false;  // rows at reversals count (friction_buildup.hpp)
+  ReversalRows reversals = ReversalRows::mask;
   double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
   bool inertia_by_turns = false;     // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
   TwinExchange* exchange = nullptr;  // processes that share the replicates; none by default

@@ -39,6 +39,7 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
   for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
                                   &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
     result.loop.loop.*level = 0.0;
+  result.loop.loop.sticking = options.draws_sticking ? sticking_range(result.loop.loop.encoder_step) : StickingRange{};
   auto const correct_from = [&](Eigen::VectorXd const& start) {
     result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
                                        options.step_s, correction_set, options.twins, workers);

@@ -41,6 +41,7 @@ struct TwinOptions {
   WanderReading wander = WanderReading::beside_motion;
   std::shared_ptr<RecordedLoop const> loop{};  // as decided before; none: decide
   bool reads_colour = false;                   // of the torque noise, from what the model leaves, whatever the law says
+  bool draws_sticking = false;                 // every replicate its own law of it (sticking_range.hpp)
   std::optional<TwinLevels> levels{};          // known: only the parameters are corrected; none: measure
 };
 

@@ -21,7 +21,8 @@ double fast_energy(ProcessedRecord const& record, RecordPipeline const& pipeline
   double sum = 0.0;
   std::size_t count = 0;
   auto const& rows = record.kept_rows;
-  Eigen::VectorXd const residual = record.residual_itself();
+  Eigen::VectorXd residual = record.residual_itself();
+  pipeline.take_shares(residual, rows);
   for (std::size_t i = lag; i + lag < rows.size(); ++i) {
     if (rows[i + lag] - rows[i - lag] != static_cast<Eigen::Index>(2 * lag)) {
       sum = 0.0;

@@ -14,6 +14,7 @@
 
 using torquescope::NoiseWeights;
 using torquescope::RowWhitening;
+using torquescope::WanderOnRows;
 using torquescope::test::eigenvalues;
 
 namespace noise_weights_test {
@@ -78,6 +79,32 @@ TEST(NoiseWeights, ShrinkAWanderAndSpareWhatItCannotImitate) {
   apply(weights, signals);
   EXPECT_LT(signals.col(0).norm(), 0.2 * before.col(0).norm());
   EXPECT_GT(signals.col(1).norm(), 0.9 * before.col(1).norm());
+}
+
+TEST(NoiseWeights, MultiplyRowsByTheirShareAndKeepTheWalk) {
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(n);
+  shares.segment(100, 50).setConstant(0.25);
+  shares[120] = 0.0;
+  NoiseWeights const weights = white_rows().with_shares(shares);
+  EXPECT_TRUE(weights.weigh_reversals());
+  EXPECT_FALSE(weights.are_equal());
+  EXPECT_FALSE(NoiseWeights().with_shares(shares).are_equal());
+  Eigen::MatrixXd const before = Eigen::MatrixXd::Random(n, 3);
+  Eigen::MatrixXd signals = before;
+  apply(weights, signals);
+  EXPECT_EQ(signals, Eigen::MatrixXd(shares.asDiagonal() * before));
+
+  // a few rows only: by their place among all kept samples
+  std::vector<Eigen::Index> const some{99, 100, 120, 200};
+  Eigen::MatrixXd few = Eigen::MatrixXd::Ones(4, 1);
+  weights.apply_rows(few, some);
+  EXPECT_EQ(few, (Eigen::MatrixXd(4, 1) << 1.0, 0.25, 0.0, 1.0).finished());
+
+  NoiseWeights const both = weights.with_wander(friction(), duration_s, 1e-2);
+  EXPECT_TRUE(both.weigh_reversals() && both.wanders());
+  WanderOnRows const walk = both.wander_on(all_rows());
+  EXPECT_EQ(walk.modes.row(120).norm(), 0.0);
+  EXPECT_GT(walk.modes.row(99).norm(), 0.0);
 }
 
 TEST(NoiseWeights, WithoutWanderOrWithoutNoiseAreThoseOfTheRows) {

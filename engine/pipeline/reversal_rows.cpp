@@ -1,0 +1,14 @@
+#include "engine/pipeline/reversal_rows.hpp"
+
+#include "engine/base/contract.hpp"
+
+namespace torquescope {
+
+std::vector<std::string> reversal_words() { return {"mask", "weigh"}; }
+
+ReversalRows reversals_of(std::string const& word) {
+  TORQUESCOPE_EXPECT(word == "mask" || word == "weigh");
+  return word == "weigh" ? ReversalRows::weigh : ReversalRows::mask;
+}
+
+}  // namespace torquescope
