@@ -103,6 +103,13 @@ function(only_in_full)
   set_property(TEST ${FULL_TESTS} APPEND PROPERTY LABELS full)
 endfunction()
 
+# time_limit(SECONDS TEST...): of a release build; presets with a sanitizer say how many times as long theirs take
+set(TORQUESCOPE_TIMES_AS_LONG 1 CACHE STRING "factor on the time limits of tests")
+function(time_limit seconds)
+  math(EXPR limit "${seconds} * ${TORQUESCOPE_TIMES_AS_LONG}")
+  set_tests_properties(${ARGN} PROPERTIES TIMEOUT ${limit})
+endfunction()
+
 # test_program(TARGET SOURCE...): a program of tests, whatever they test
 function(test_program target)
   add_executable(${target} ${ARGN})
@@ -155,6 +162,6 @@ function(unit_test folder name)
     set_tests_properties(${flat}.${name} PROPERTIES COST ${TEST_COST})
   endif()
   if(TEST_TIMEOUT)
-    set_tests_properties(${flat}.${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT})
+    time_limit(${TEST_TIMEOUT} ${flat}.${name})
   endif()
 endfunction()
