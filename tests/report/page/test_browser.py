@@ -10,6 +10,7 @@ import unittest
 
 import support
 import numpy as np
+from vary_diagnosis import HOSTILE_WORDS
 
 try:
     from selenium import webdriver
@@ -300,6 +301,20 @@ class Page(unittest.TestCase):
             "}; look();"
         )
         self.assertIn(told, (["copied", False], ["", True]))
+
+    @support.needs_diagnoses
+    def test_hostile_words_are_shown_and_keep_no_script_from_running(self):
+        self.browser.get_log("browser")  # of the pages before this one
+        self.open("hostile_words")
+        self.assertIn(HOSTILE_WORDS, self.script("return document.body.innerText"))
+        kept = self.script("return document.getElementById('verdict-json').textContent")
+        self.assertEqual(json.loads(kept)["reason"], HOSTILE_WORDS)
+        before = self.background()
+        self.browser.find_element(By.ID, "theme").click()
+        self.assertNotEqual(self.background(), before, "the page's own script runs")
+        traces = self.script("return [...document.querySelectorAll('figure')].map((f) => typeof f.zoomTo)")
+        self.assertIn("function", traces, "and so does that of the figures")
+        self.assertEqual([one for one in self.browser.get_log("browser") if one["level"] == "SEVERE"], [])
 
     def wait_for_zoom(self, before):
         self.browser.execute_async_script(

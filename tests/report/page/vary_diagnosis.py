@@ -1,7 +1,12 @@
 """Diagnoses the invented ones do not show: a minute at 1 kHz, two joints, hardly anything measured, effects side by
-side."""
+side, words that would be elements of a page."""
+
+import json
 
 import numpy as np
+
+# a comment that opens, and a script inside: a browser that takes them for its own looks for the end of both
+HOSTILE_WORDS = "<!--<script>alert(1)</script> $unmatched"
 
 NOT_MEASURED = ("validation_relerr", "augmented_validation_relerr", "cv_relerr", "augmented_cv_relerr", "floor_relerr",
                 "train_floor_relerr", "torque_noise", "disturbance")
@@ -93,9 +98,19 @@ def crowded(file):
 
 
 # name: (the kind it is made of, how)
+def hostile_words(file):
+    found = file["diagnosis"]
+    for key in ("reason", "finding", "way_out"):
+        found.attrs[key] = np.bytes_(HOSTILE_WORDS)
+    found["joint_1/effects/effect_1"].attrs["title"] = np.bytes_(HOSTILE_WORDS)
+    del found["verdict_json"]
+    found.create_dataset("verdict_json", data=np.array([json.dumps({"reason": HOSTILE_WORDS}).encode()]))
+
+
 KINDS = {
     "minute": ("named", a_minute_at_1_khz),
     "two_joints": ("named", two_joints),
     "hardly_measured": ("named", hardly_measured),
     "crowded": ("named", crowded),
+    "hostile_words": ("named", hostile_words),
 }
