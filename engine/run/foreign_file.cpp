@@ -36,7 +36,7 @@ std::filesystem::path job_for(std::filesystem::path const& recording) {
 
 bool is_result(std::filesystem::path const& path) {
   try {
-    if (!h5::is_hdf5(path)) return false;
+    if (!h5::is_hdf5(ReadFile(path))) return false;
     ResultReader const reader(path);
     return true;
   } catch (Error const&) {

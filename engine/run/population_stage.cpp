@@ -51,9 +51,8 @@ SegmentOrigin origin_of(Experiment const& experiment, IdentifyOptions const& opt
 
 SavedRuns find_saved_runs(Experiment const& experiment, IdentifyOptions const& options) {
   SavedRunsRequest request;
-  refuse_foreign_folder(segment_folder_of(options.output));
-  request.folders = {segment_folder_of(options.output)};
-  request.folders.insert(request.folders.end(), options.more_segments.begin(), options.more_segments.end());
+  request.own_folder = segment_folder_of(options.output);
+  request.more_folders = options.more_segments;
   request.expected = origin_of(experiment, options);
   for (auto const& plan : experiment.parts().estimators)
     if (!plan.is_closed_form()) request.searches[plan.label] = search_sha256(experiment.parts(), plan);
@@ -70,7 +69,8 @@ bool gather_left_segments_of(SavedRuns const& saved, IdentifyOptions const& opti
     auto const& origin = saved.origins()[i];
     bool const is_of_this_share =
         origin.shard_index == options.shard.index && origin.shard_count == options.shard.count;
-    if (is_of_this_share && saved.files()[i].parent_path() == folder) left.push_back({saved.files()[i], origin});
+    if (is_of_this_share && saved.files()[i].path.parent_path() == folder)
+      left.push_back({saved.files()[i].path, origin});
   }
   return gather_left_segments(left, SegmentNames(folder, options.shard), RunKeeper::Setting{}.most_bytes);
 }

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/store/own_folder.hpp"
 
 namespace torquescope {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t most_open_files = 16;
 constexpr int most_listings = 10;
@@ -77,8 +76,10 @@ void SavedRuns::read_all() {
     origins_.clear();
     warnings_.clear();
     mixed_ = false;
+    folders_ = {std::make_shared<OwnFolder const>(request_.own_folder)};
+    for (auto const& folder : request_.more_folders) folders_.push_back(std::make_shared<OpenFolder const>(folder));
     bool is_whole = true;
-    for (auto const& folder : request_.folders) is_whole = read_folder(folder) && is_whole;
+    for (auto const& folder : folders_) is_whole = read_folder(*folder) && is_whole;
     if (is_whole || listing == most_listings) break;
   }
   for (auto& [label, runs] : runs_)
@@ -89,20 +90,20 @@ void SavedRuns::read_all() {
 }
 
 // false: a segment that was listed is gone
-bool SavedRuns::read_folder(fs::path const& folder) {
+bool SavedRuns::read_folder(OpenFolder const& folder) {
   auto const look = [&](SegmentFile const& file) {
     if (accept(file, request_)) file.verify();
   };
   bool is_whole = true;
-  auto const names = segments_in(folder);
-  auto const harmless = harmless_segments(names, look);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto const& name = names[i];
+  auto const places = segments_in(folder);
+  auto const harmless = harmless_segments(places, look);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    auto const& place = places[i];
     try {
-      if (!harmless[i]) look_at_segment(name, look);
-      SegmentFile const file(name);
+      if (!harmless[i]) look_at_segment(place, look);
+      SegmentFile const file(place);
       if (!accept(file, request_)) continue;
-      files_.push_back(name);
+      files_.push_back(place);
       take(file, files_.size() - 1);
     } catch (Error const& error) {
       // removed meanwhile, or damaged: as if it had never been there
@@ -189,8 +190,8 @@ std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShap
   std::vector<std::pair<std::size_t, std::size_t>> sources;  // until which generation, from which file
   auto const source_of = [&](std::size_t generation) {
     for (auto const& [end, file] : sources)
-      if (generation < end) return files_[file];
-    return files_[sources.back().second];
+      if (generation < end) return files_[file].path;
+    return files_[sources.back().second].path;
   };
   for (Piece const& piece : *pieces) {
     if (piece.first > whole.count) break;  // what lies between is lost: so is what follows

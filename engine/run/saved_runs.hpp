@@ -23,9 +23,10 @@
 namespace torquescope {
 
 struct SavedRunsRequest {
-  std::vector<std::filesystem::path> folders;
-  SegmentOrigin expected;                       // the job and the program that would go on
-  std::map<std::string, std::string> searches;  // search_sha256 of every population method, by label
+  std::filesystem::path own_folder;                   // of this job: refused where it is not this user's
+  std::vector<std::filesystem::path> more_folders{};  // that somebody has named
+  SegmentOrigin expected;                             // the job and the program that would go on
+  std::map<std::string, std::string> searches;        // search_sha256 of every population method, by label
   bool allow_mixed =
       false;  // take segments of another program, or of a job whose other text changes no number of these
   std::function<bool(std::size_t run)> wanted{};  // segments without such runs are not read further; empty: all
@@ -43,9 +44,9 @@ class SavedRuns {
   // its history so far, and the optimiser's state when it has not ended; nothing when no segment has its beginning
   std::optional<RunPart> load(std::string const& label, HistoryShape const& shape, std::size_t run);
 
-  std::vector<std::filesystem::path> const& files() const { return files_; }  // every segment taken
-  std::vector<SegmentOrigin> const& origins() const { return origins_; }      // of each of them
-  std::vector<std::string> const& warnings() const { return warnings_; }      // what was left aside, and why
+  std::vector<FilePlace> const& files() const { return files_; }          // every segment taken
+  std::vector<SegmentOrigin> const& origins() const { return origins_; }  // of each of them
+  std::vector<std::string> const& warnings() const { return warnings_; }  // what was left aside, and why
   bool empty() const { return files_.empty(); }
   bool mixed() const { return mixed_; }
 
@@ -57,7 +58,7 @@ class SavedRuns {
   using Pieces = std::vector<Piece>;
 
   void read_all();
-  bool read_folder(std::filesystem::path const& folder);
+  bool read_folder(OpenFolder const& folder);
   std::optional<RunPart> load_now(std::string const& label, HistoryShape const& shape, std::size_t run);
 
   Pieces const* find(std::string const& label, std::size_t run) const;
@@ -66,7 +67,8 @@ class SavedRuns {
   SegmentFile& opened(std::size_t file);
 
   SavedRunsRequest request_;
-  std::vector<std::filesystem::path> files_;
+  std::vector<std::shared_ptr<OpenFolder const>> folders_;  // of the files
+  std::vector<FilePlace> files_;
   std::map<std::size_t, std::unique_ptr<SegmentFile>> open_;   // a few of them
   std::map<std::string, std::map<std::size_t, Pieces>> runs_;  // by label and run, sorted by first generation
   std::vector<SegmentOrigin> origins_;

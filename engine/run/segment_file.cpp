@@ -179,7 +179,7 @@ void write_segment(FilePlace const& place, SegmentOrigin const& origin, std::vec
   writer.finish();
 }
 
-SegmentFile::SegmentFile(std::filesystem::path const& name) : reader_(name), origin_(read_origin(reader_)) {
+SegmentFile::SegmentFile(FilePlace const& place) : reader_(place), origin_(read_origin(reader_)) {
   for (auto const& label : reader_.attribute<std::vector<std::string>>("/parts", "order")) read_index(label);
 }
 
@@ -250,29 +250,29 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
   return part;
 }
 
-void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look) {
+void look_at_segment(FilePlace const& place, std::function<void(SegmentFile const&)> const& look) {
   auto const read = [&] {
-    look(SegmentFile(name));
+    look(SegmentFile(place));
     return std::string();
   };
-  run_confined(read, limits_for_file(name, 60), [&name](std::string const& how) {
+  run_confined(read, limits_for_file(place.path, 60), [&place](std::string const& how) {
     return Problem{.code = ExitCode::bad_data,
-                   .what = name.string() + " is damaged: HDF5 " + how + " while reading it",
+                   .what = place.path.string() + " is damaged: HDF5 " + how + " while reading it",
                    .help = "delete it and run the same command again"};
   });
 }
 
-std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& names,
+std::vector<bool> harmless_segments(std::vector<FilePlace> const& places,
                                     std::function<void(SegmentFile const&)> const& look) {
-  std::vector<bool> harmless(names.size(), false);
-  if (names.empty()) return harmless;
+  std::vector<bool> harmless(places.size(), false);
+  if (places.empty()) return harmless;
   ConfinedLimits limits{.processor_seconds = 0};
-  for (auto const& name : names) limits.processor_seconds += limits_for_file(name, 60).processor_seconds;
+  for (auto const& place : places) limits.processor_seconds += limits_for_file(place.path, 60).processor_seconds;
   auto const read = [&] {
-    std::string answers(names.size(), 'n');
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string answers(places.size(), 'n');
+    for (std::size_t i = 0; i < places.size(); ++i) {
       try {
-        look(SegmentFile(names[i]));
+        look(SegmentFile(places[i]));
         answers[i] = 'y';
       } catch (Error const&) {
       }
@@ -281,7 +281,7 @@ std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& na
   };
   try {
     std::string const answers = run_confined(read, limits, [](std::string const& how) { return Problem{.what = how}; });
-    for (std::size_t i = 0; i < names.size(); ++i) harmless[i] = answers[i] == 'y';
+    for (std::size_t i = 0; i < places.size(); ++i) harmless[i] = answers[i] == 'y';
   } catch (Error const&) {  // one of them ended it
   }
   return harmless;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/run/run_part.hpp"
+#include "engine/store/file_place.hpp"
 #include "engine/store/result_reader.hpp"
 #include "engine/store/segment_folder.hpp"
 
@@ -57,11 +58,12 @@ class SegmentFile {
     std::vector<Entry> entries;
   };
 
-  explicit SegmentFile(std::filesystem::path const& name);
+  explicit SegmentFile(FilePlace const& place);
 
   std::filesystem::path const& name() const { return reader_.name(); }
   SegmentOrigin const& origin() const { return origin_; }
   std::map<std::string, Index> const& estimators() const { return estimators_; }  // by label
+  std::uint64_t bytes() const { return reader_.bytes(); }
   void verify() const { static_cast<void>(reader_.verify()); }
   RunPart read(std::string const& label, std::size_t entry) const;
 
@@ -75,11 +77,11 @@ class SegmentFile {
 
 // opens a segment in a process of its own, for `look` to read what will be read of it. Errors: those of both; 65 when
 // HDF5 crashes, loops or takes too much memory
-void look_at_segment(std::filesystem::path const& name, std::function<void(SegmentFile const&)> const& look);
+void look_at_segment(FilePlace const& place, std::function<void(SegmentFile const&)> const& look);
 
 // The same for many, in one process: a process costs as much as a small segment. Whether each was read without
 // complaint; what was not is to be looked at by itself, which says why
-std::vector<bool> harmless_segments(std::vector<std::filesystem::path> const& names,
+std::vector<bool> harmless_segments(std::vector<FilePlace> const& places,
                                     std::function<void(SegmentFile const&)> const& look);
 
 }  // namespace torquescope

@@ -58,6 +58,16 @@ std::vector<std::span<LeftSegment const>> batches_of(std::span<LeftSegment const
   return batches;
 }
 
+// segments of a folder become one of it: read, written and removed in the very same
+void gather(std::vector<std::filesystem::path> const& files, SegmentOrigin const& origin,
+            std::filesystem::path const& gathered) {
+  OwnFolder const folder(gathered.parent_path());
+  std::vector<FilePlace> places;
+  for (auto const& file : files) places.push_back(folder.place(file.filename().string()));
+  write_segment(folder.place(gathered.filename().string()), origin, gathered_parts(places));
+  for (auto const& place : places) folder.unlink(place.name);
+}
+
 }  // namespace
 
 bool gather_left_segments(std::vector<LeftSegment> const& left, SegmentNames names, std::uintmax_t most_bytes) {
@@ -67,23 +77,20 @@ bool gather_left_segments(std::vector<LeftSegment> const& left, SegmentNames nam
       if (batch.size() < segments_together) continue;
       std::vector<std::filesystem::path> files;
       for (auto const& one : batch) files.push_back(one.file);
-      auto const gathered = names.next();
-      OwnFolder const folder(gathered.parent_path());
-      write_segment(folder.place(gathered.filename().string()), batch.back().origin, gathered_parts(files));
+      gather(files, batch.back().origin, names.next());
       any = true;
-      for (auto const& file : files) folder.unlink(file.filename().string());
     }
   } catch (Error const&) {  // they stay as they are
   }
   return any;
 }
 
-std::vector<EstimatorParts> gathered_parts(std::vector<std::filesystem::path> const& segments) {
+std::vector<EstimatorParts> gathered_parts(std::vector<FilePlace> const& segments) {
   std::vector<EstimatorParts> all;
   std::map<std::string, std::size_t> place_of_estimator;
   std::map<std::pair<std::string, std::size_t>, std::size_t> place_of_run;
-  for (auto const& name : segments) {
-    SegmentFile const segment(name);
+  for (auto const& place : segments) {
+    SegmentFile const segment(place);
     for (auto const& [label, index] : segment.estimators()) {
       auto const [estimator, is_new] = place_of_estimator.emplace(label, all.size());
       if (is_new) all.push_back({label, index.search_sha256, index.shape, {}});
@@ -111,9 +118,7 @@ void SegmentPile::add(std::filesystem::path const& segment, SegmentOrigin const&
       auto const full = std::exchange(levels_[level], {});
       if (bytes_of_files(full) > most_bytes_) return;
       newest = next_name();
-      OwnFolder const folder(newest.parent_path());
-      write_segment(folder.place(newest.filename().string()), origin, gathered_parts(full));
-      for (auto const& file : full) folder.unlink(file.filename().string());
+      gather(full, origin, newest);
     }
   } catch (Error const&) {
     gathers_ = false;

@@ -45,6 +45,6 @@ struct LeftSegment {
 bool gather_left_segments(std::vector<LeftSegment> const& left, SegmentNames names, std::uintmax_t most_bytes);
 
 // the parts of several segments in the order in which they were written; those of a run that follow each other are one
-std::vector<EstimatorParts> gathered_parts(std::vector<std::filesystem::path> const& segments);
+std::vector<EstimatorParts> gathered_parts(std::vector<FilePlace> const& segments);
 
 }  // namespace torquescope

@@ -94,18 +94,18 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
   std::map<std::string, Covered> estimators;
   std::map<std::tuple<std::string, std::int64_t, std::string>, JobStatus::Writer> writers;
   auto const opened = [](SegmentFile const&) {};
-  auto const names = segments_in(segment_folder);
-  auto const harmless = harmless_segments(names, opened);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto const& name = names[i];
+  OpenFolder const folder(segment_folder);
+  auto const places = segments_in(folder);
+  auto const harmless = harmless_segments(places, opened);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    auto const& place = places[i];
     try {
-      if (!harmless[i]) look_at_segment(name, opened);
-      SegmentFile const file(name);
+      if (!harmless[i]) look_at_segment(place, opened);
+      SegmentFile const file(place);
       auto const& origin = file.origin();
       status.job_name = origin.job_name;
       status.job_sha256 = origin.job_sha256;
-      std::error_code ignored;
-      status.bytes += std::filesystem::file_size(name, ignored);
+      status.bytes += file.bytes();
       auto& writer = writers[{origin.host, origin.pid, origin.started}];
       writer.shard = static_cast<std::int64_t>(origin.shard_index);
       writer.shards = static_cast<std::int64_t>(origin.shard_count);
@@ -127,7 +127,7 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
       }
     } catch (Error const& error) {
       if (error.code() == ExitCode::no_input) is_whole = false;
-      if (error.code() == ExitCode::bad_data) status.damaged.push_back(name.filename().string());
+      if (error.code() == ExitCode::bad_data) status.damaged.push_back(place.name);
     }
   }
   for (auto const& [label, covered] : estimators) status.estimators.push_back(summed(label, covered));

@@ -1,6 +1,6 @@
 #pragma once
-// Where a file is to be written: under a path, or under a name in a folder that was opened before, whatever the
-// folder's own path leads to meanwhile (own_folder.hpp).
+// Where a file is, or is to be written: under a path, or under a name in a folder that was opened before, whatever the
+// folder's own path leads to meanwhile (open_folder.hpp).
 //
 // Lifetime   the open folder outlives it
 // Threads    a value
@@ -18,6 +18,8 @@ struct FilePlace {
   std::filesystem::path path;  // for words
   int folder = AT_FDCWD;       // as openat(2) and its kin take it, together with the name
   std::string name{};
+
+  bool is_in_open_folder() const { return folder != AT_FDCWD; }
 
   FilePlace(std::convertible_to<std::filesystem::path> auto const& given) : path(given), name(path.native()) {}
   FilePlace(std::filesystem::path whole, int open_folder, std::string name_in_it)

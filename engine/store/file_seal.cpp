@@ -1,8 +1,6 @@
 #include "engine/store/file_seal.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,7 +8,6 @@
 #include <functional>
 #include <vector>
 
-#include "engine/base/interrupted_call.hpp"
 #include "engine/store/disk_failure.hpp"
 
 namespace torquescope {
@@ -52,20 +49,6 @@ std::optional<Sha256> seal_digest(Footer const& footer, std::vector<ByteRange> c
   return digest.raw();
 }
 
-bool read_all(int descriptor, std::uint64_t offset, void* data, std::size_t size) {
-  auto* bytes = static_cast<char*>(data);
-  while (size > 0) {
-    ssize_t const got =
-        unless_interrupted([&] { return ::pread(descriptor, bytes, size, static_cast<off_t>(offset)); });
-    if (got == 0) errno = 0;
-    if (got <= 0) return false;
-    bytes += got;
-    offset += static_cast<std::uint64_t>(got);
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
 struct Found {
   Footer footer;
   bool fits;  // the lengths it tells of make up the file
@@ -79,7 +62,7 @@ std::optional<Found> find_footer(int descriptor) {
   if (::fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
   auto const size = static_cast<std::uint64_t>(facts.st_size);
   if (size < sizeof(Footer)) return std::nullopt;
-  if (!read_all(descriptor, size - sizeof(Footer), &found.footer, sizeof(Footer))) return std::nullopt;
+  if (!read_at(descriptor, size - sizeof(Footer), &found.footer, sizeof(Footer))) return std::nullopt;
   if (std::memcmp(found.footer.letters, seal_letters, sizeof(found.footer.letters)) != 0) return std::nullopt;
   std::uint64_t const before = size - sizeof(Footer), ranges = found.footer.ranges;
   found.fits = ranges <= before / sizeof(ByteRange) &&
@@ -95,22 +78,6 @@ bool are_in_order(std::vector<ByteRange> const& ranges, std::uint64_t end) {
   }
   return true;
 }
-
-class ReadOnlyFile {
- public:
-  // O_NONBLOCK: a FIFO under this name must not be waited for
-  explicit ReadOnlyFile(std::filesystem::path const& name)
-      : descriptor_(unless_interrupted([&] { return ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })) {}
-  ~ReadOnlyFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  ReadOnlyFile(ReadOnlyFile const&) = delete;
-  ReadOnlyFile& operator=(ReadOnlyFile const&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 }  // namespace
 
@@ -136,18 +103,16 @@ void seal_file(TempFile& file, ByteRanges const& values, Sha256 const& job) {
   file.write_at(file.size(), &footer, sizeof(footer));
 }
 
-Seal check_seal(std::filesystem::path const& name) {
-  ReadOnlyFile const file(name);
-  if (file.descriptor() < 0) throw cannot_read(name, errno);
+Seal check_seal(ReadFile const& file) {
   auto const found = find_footer(file.descriptor());
-  if (!found && errno != 0) throw cannot_read(name, errno);
+  if (!found && errno != 0) throw cannot_read(file.path(), errno);
   if (!found) return Seal::absent;
   auto const& footer = found->footer;
   if (!found->fits) return Seal::broken;
   std::vector<ByteRange> ranges(footer.ranges);
   auto const read = [&](std::uint64_t offset, void* data, std::size_t size) {
-    if (read_all(file.descriptor(), offset, data, size)) return true;
-    throw cannot_read(name, errno != 0 ? errno : EIO);
+    if (read_at(file.descriptor(), offset, data, size)) return true;
+    throw cannot_read(file.path(), errno != 0 ? errno : EIO);
   };
   read(footer.hdf5_bytes, ranges.data(), ranges.size() * sizeof(ByteRange));
   if (!are_in_order(ranges, footer.hdf5_bytes)) return Seal::broken;
@@ -156,7 +121,7 @@ Seal check_seal(std::filesystem::path const& name) {
 
 std::optional<Sha256> sealed_identity(int descriptor) {
   unsigned char begin[sizeof(hdf5_letters)] = {};
-  if (!read_all(descriptor, 0, begin, sizeof(begin)) || std::memcmp(begin, hdf5_letters, sizeof(begin)) != 0)
+  if (!read_at(descriptor, 0, begin, sizeof(begin)) || std::memcmp(begin, hdf5_letters, sizeof(begin)) != 0)
     return std::nullopt;
   auto const found = find_footer(descriptor);
   return found && found->fits ? std::optional(found->footer.job) : std::nullopt;

@@ -9,12 +9,12 @@
 // Threads    free functions
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "engine/base/digest.hpp"
 #include "engine/store/byte_ranges.hpp"
+#include "engine/store/read_file.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope {
@@ -28,7 +28,7 @@ Sha256 job_identity(std::string const& inputs_sha256, Keeps keeps);
 void seal_file(TempFile& file, ByteRanges const& values, Sha256 const& job);
 
 enum class Seal { whole, absent, broken };
-Seal check_seal(std::filesystem::path const& name);
+Seal check_seal(ReadFile const& file);
 
 // the identity in the seal of an open file that begins and ends as ours do; nothing when it does not
 std::optional<Sha256> sealed_identity(int descriptor);

@@ -4,8 +4,10 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <string_view>
 
 #include "engine/store/chunking.hpp"
+#include "engine/store/h5_input_driver.hpp"
 #include "engine/store/h5_output_driver.hpp"
 
 namespace torquescope::h5 {
@@ -99,21 +101,21 @@ Handle create_file(TempFile& file, ByteRanges& values) {
       checked(H5Fcreate(file.final_name().c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "create the file"));
 }
 
-Handle open_file(std::filesystem::path const& name) {
+Handle open_file(ReadFile const& file) {
   prepare_library();
   Handle const access = access_list();
-  constexpr int attempts = 100;
-  for (int i = 1;; ++i) try {
-      return Handle(checked(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()), "open the file"));
-    } catch (Failure const& failure) {
-      // a signal came in between, as it may on network file systems
-      if (failure.error_number() != EINTR || i == attempts) throw;
-    }
+  if (!use_input_driver(access.id(), file)) fail("use the input driver");
+  return Handle(checked(H5Fopen(file.path().c_str(), H5F_ACC_RDONLY, access.id()), "open the file"));
 }
 
-bool is_hdf5(std::filesystem::path const& name) {
-  prepare_library();
-  return H5Fis_hdf5(name.c_str()) > 0;
+// its first bytes, or those behind a block of 512, 1024, 2048, ... that is another program's
+bool is_hdf5(ReadFile const& file) {
+  constexpr std::string_view letters = "\x89HDF\r\n\x1a\n";
+  constexpr std::uint64_t smallest_block = 512;
+  std::string found(letters.size(), '\0');
+  for (std::uint64_t at = 0; at + letters.size() <= file.size(); at = at == 0 ? smallest_block : 2 * at)
+    if (read_at(file.descriptor(), at, found.data(), found.size()) && found == letters) return true;
+  return false;
 }
 
 void flush(Handle const& file) { checked(H5Fflush(file.id(), H5F_SCOPE_LOCAL), "write the file"); }

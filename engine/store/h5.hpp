@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -22,6 +21,7 @@
 
 #include "engine/base/options.hpp"
 #include "engine/store/byte_ranges.hpp"
+#include "engine/store/read_file.hpp"
 #include "engine/store/temp_file.hpp"
 
 namespace torquescope::h5 {
@@ -92,8 +92,8 @@ struct PaddedTexts {
 // h5.cpp
 // values: is told where the chunks of values lie; lives as long as the file is open
 Handle create_file(TempFile& file, ByteRanges& values);
-Handle open_file(std::filesystem::path const& name);
-bool is_hdf5(std::filesystem::path const& name);
+Handle open_file(ReadFile const& file);  // which outlives it
+bool is_hdf5(ReadFile const& file);
 void flush(Handle const& file);
 
 // h5_group.cpp. "/runs/fade": steps from the root; "/" is the root itself

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-
 #include "engine/base/error.hpp"
 #include "engine/store/disk_failure.hpp"
 #include "engine/store/file_seal.hpp"
@@ -25,26 +23,14 @@ Error damaged(fs::path const& name, std::string const& object, std::string const
   return refused(fmt::format("{} is damaged{}: {}", name.string(), where, reason), run_again);
 }
 
-// a pipe would hang, a device could do anything
-void check_is_file(fs::path const& name) {
-  std::error_code ignored;
-  fs::file_status const status = fs::status(name, ignored);
-  validate(fs::exists(status), [&] {
-    return Problem{.code = ExitCode::no_input,
-                   .what = "there is no file " + name.string(),
-                   .help = "torquescope run JOB.toml --out " + name.string() + " makes it"};
-  });
-  if (!fs::is_regular_file(status)) throw refused(name.string() + " is not a file", "name a result file");
-}
-
-h5::Handle open_checked(fs::path const& name) {
-  check_is_file(name);
-  if (check_seal(name) == Seal::broken) throw damaged(name, "", "its bytes do not match their sha256");
+h5::Handle open_checked(ReadFile const& file) {
+  auto const& name = file.path();
+  if (check_seal(file) == Seal::broken) throw damaged(name, "", "its bytes do not match their sha256");
   try {
-    return h5::open_file(name);
+    return h5::open_file(file);
   } catch (h5::Failure const& failure) {
     if (failure.error_number() != 0) throw cannot_read(name, failure.error_number());
-    if (h5::is_hdf5(name)) throw damaged(name, "", failure.what());
+    if (h5::is_hdf5(file)) throw damaged(name, "", failure.what());
     throw refused(name.string() + " is not an HDF5 file",
                   "name a result file of torquescope run (or delete a damaged one)");
   }
@@ -95,21 +81,23 @@ auto ResultReader::guarded(std::string const& object, Read&& read) const {
   try {
     return read();
   } catch (h5::Failure const& failure) {
-    if (failure.error_number() != 0) throw cannot_read(name_, failure.error_number());
-    throw damaged(name_, failure.object().empty() ? object : failure.object(), failure.what());
+    if (failure.error_number() != 0) throw cannot_read(open_.path(), failure.error_number());
+    throw damaged(open_.path(), failure.object().empty() ? object : failure.object(), failure.what());
   }
 }
 
-ResultReader::ResultReader(fs::path name) : name_(std::move(name)), file_(open_checked(name_)) {
+ResultReader::ResultReader(FilePlace const& place) : open_(place), file_(open_checked(open_)) {
   auto const format = find_attribute<std::int64_t>("/", "format");
   if (!format || !find_attribute<std::string>("/", "creator"))
-    throw refused(name_.string() + " is an HDF5 file, but not a result of torquescope (it has no attribute \"format\")",
-                  "name a result file of torquescope run");
+    throw refused(
+        open_.path().string() + " is an HDF5 file, but not a result of torquescope (it has no attribute \"format\")",
+        "name a result file of torquescope run");
   if (*format > result_format)
-    throw refused(fmt::format("{} has format {}; this version reads up to {}", name_.string(), *format, result_format),
-                  "use the version that wrote it, or a later one (attribute \"creator\" names it)");
+    throw refused(
+        fmt::format("{} has format {}; this version reads up to {}", open_.path().string(), *format, result_format),
+        "use the version that wrote it, or a later one (attribute \"creator\" names it)");
   if (find_attribute<std::int64_t>("/", complete_key).value_or(0) != 1)
-    throw refused(name_.string() + " was never finished", run_again);
+    throw refused(open_.path().string() + " was never finished", run_again);
 }
 
 bool ResultReader::exists(std::string const& path) const {
@@ -161,7 +149,7 @@ std::optional<Value> ResultReader::find_attribute(std::string const& object_path
 template <class Value>
 Value ResultReader::attribute(std::string const& object_path, std::string const& name) const {
   auto value = find_attribute<Value>(object_path, name);
-  if (!value) throw damaged(name_, object_path, "there is no attribute \"" + name + "\"");
+  if (!value) throw damaged(open_.path(), object_path, "there is no attribute \"" + name + "\"");
   return *std::move(value);
 }
 
@@ -190,16 +178,16 @@ ReadFacts ResultReader::read_everything(FilePart part) const {
 ReadFacts ResultReader::verified_content() const {
   auto const format = attribute<std::int64_t>("/", "format");
   if (format != result_format)
-    throw refused(fmt::format("{} has format {}: its digest was taken in another way", name_.string(), format),
+    throw refused(fmt::format("{} has format {}: its digest was taken in another way", open_.path().string(), format),
                   "run the job again to get a file whose content can be verified");
   ReadFacts found = read_everything(FilePart::content);
-  if (found.sha256 != content_sha256()) throw damaged(name_, "", "its content does not match its sha256");
+  if (found.sha256 != content_sha256()) throw damaged(open_.path(), "", "its content does not match its sha256");
   return found;
 }
 
 void ResultReader::expect_seal() const {
-  if (find_attribute<std::int64_t>("/", sealed_key).value_or(0) == 1 && check_seal(name_) != Seal::whole)
-    throw damaged(name_, "", "its seal is missing: another program wrote into it, or its end is lost");
+  if (find_attribute<std::int64_t>("/", sealed_key).value_or(0) == 1 && check_seal(open_) != Seal::whole)
+    throw damaged(open_.path(), "", "its seal is missing: another program wrote into it, or its end is lost");
 }
 
 std::string ResultReader::verify() const {

@@ -17,6 +17,7 @@
 
 #include "engine/store/file_digest.hpp"
 #include "engine/store/h5.hpp"
+#include "engine/store/read_file.hpp"
 
 namespace torquescope {
 
@@ -31,7 +32,7 @@ class ResultReader {
     std::vector<std::int64_t> values;
   };
 
-  explicit ResultReader(std::filesystem::path name);
+  explicit ResultReader(FilePlace const& place);
 
   bool exists(std::string const& path) const;
   std::vector<std::string> children(std::string const& group) const;  // names sorted by bytes
@@ -52,7 +53,8 @@ class ResultReader {
   std::optional<Value> find_attribute(std::string const& object_path, std::string const& name) const;
   std::vector<std::string> attribute_names(std::string const& object_path) const;
 
-  std::filesystem::path const& name() const { return name_; }
+  std::filesystem::path const& name() const { return open_.path(); }
+  std::uint64_t bytes() const { return open_.size(); }
   std::string content_sha256() const;  // as the writer stored it
 
   // every value and attribute of a part, whatever its digest is
@@ -68,7 +70,7 @@ class ResultReader {
   template <class Read>
   auto guarded(std::string const& object, Read&& read) const;
 
-  std::filesystem::path name_;
+  ReadFile open_;
   h5::Handle file_;
 };
 

@@ -132,13 +132,15 @@ SegmentNames::SegmentNames(fs::path folder, ShardChoice const& shard) : folder_(
 
 fs::path SegmentNames::next() { return folder_ / fmt::format("{}.{:06}.h5", begin_, number_++); }
 
-std::vector<fs::path> segments_in(fs::path const& folder) {
-  std::error_code failed;
-  auto names = files_in(folder, failed);
+std::vector<FilePlace> segments_in(OpenFolder const& folder) {
+  auto const found = folder.listing();
   // to see none of them is not to have none
-  if (failed) throw cannot_read(folder, failed.value());
-  std::erase_if(names, [](fs::path const& name) { return name.extension() != ".h5"; });
-  return names;
+  bool const is_absent = found.error_number == ENOENT || found.error_number == ENOTDIR;
+  if (found.error_number != 0 && !is_absent) throw cannot_read(folder.path(), found.error_number);
+  std::vector<FilePlace> segments;
+  for (auto const& name : found.names)
+    if (is_segment(name)) segments.push_back(folder.place(name));
+  return segments;
 }
 
 std::size_t twin_parts_in(fs::path const& folder) {

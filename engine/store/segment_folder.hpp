@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/store/open_folder.hpp"
+
 namespace torquescope {
 
 struct ShardChoice {
@@ -50,8 +52,8 @@ class SegmentNames {
   std::size_t number_ = 0;
 };
 
-// finished segments, sorted by name; none when there is no folder
-std::vector<std::filesystem::path> segments_in(std::filesystem::path const& folder);
+// finished segments, sorted by name, to be read while the folder is open; none when there is no folder
+std::vector<FilePlace> segments_in(OpenFolder const& folder);
 
 // how many parts of a diagnosis's twins are there (engine/run/twin_folder.hpp)
 std::size_t twin_parts_in(std::filesystem::path const& folder);

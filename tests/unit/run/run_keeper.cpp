@@ -66,9 +66,9 @@ class Keeping : public ::testing::Test {
         {.folder = folder_ / "r.h5.parts", .origin = origin, .interval_s = interval_s, .everything = everything},
         hdf5_);
   }
-  std::size_t segments() const { return segments_in(folder_ / "r.h5.parts").size(); }
+  std::size_t segments() const { return segments_in(OpenFolder(folder_ / "r.h5.parts")).size(); }
   SavedRunsRequest request() const {
-    return {.folders = {folder_ / "r.h5.parts"}, .expected = origin, .searches = {{"de", "search"}}};
+    return {.own_folder = folder_ / "r.h5.parts", .expected = origin, .searches = {{"de", "search"}}};
   }
   SavedRuns saved() const { return SavedRuns(request()); }
   static void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
@@ -191,10 +191,11 @@ TEST_F(Keeping, SegmentsThatAreGatheredMeanwhileAreFoundAgain) {
     keeper.write_all();
   }
   auto runs = saved();
-  auto const before = segments_in(folder_ / "r.h5.parts");
+  OpenFolder const parts(folder_ / "r.h5.parts");
+  auto const before = segments_in(parts);
   ASSERT_EQ(before.size(), 2u);
   write_segment(folder_ / "r.h5.parts" / "shard-gathered.h5", origin, gathered_parts(before));
-  for (auto const& name : before) std::filesystem::remove(name);
+  for (auto const& place : before) std::filesystem::remove(place.path);
   for (std::size_t run = 0; run < 2; ++run) {
     auto const part = runs.load("de", shape, run);
     ASSERT_TRUE(part && part->ended);

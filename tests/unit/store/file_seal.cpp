@@ -36,7 +36,7 @@ class FileSeal : public testing::Test {
 };
 
 TEST_F(FileSeal, SaysWhoseItIs) {
-  EXPECT_EQ(check_seal(folder_ / "R.h5"), Seal::whole);
+  EXPECT_EQ(check_seal(ReadFile(folder_ / "R.h5")), Seal::whole);
   EXPECT_EQ(identity_of(folder_ / "R.h5"), job_identity("job", Keeps::result));
   EXPECT_EQ(identity_of(folder_.write("text.h5", "my own words")), std::nullopt);
   EXPECT_EQ(identity_of(folder_.write("cut.h5", whole_.substr(0, whole_.size() - 1))), std::nullopt);
@@ -51,7 +51,7 @@ TEST_F(FileSeal, IsBrokenByAnyBitThatHdf5WouldBuildOn) {
     std::string flipped = whole_;
     flipped[place] = static_cast<char>(flipped[place] ^ (1 << (place % 8)));
     test::write_bytes(name, flipped);
-    if (check_seal(name) == Seal::broken) {
+    if (check_seal(ReadFile(name)) == Seal::broken) {
       ++broken;
       EXPECT_THROW(ResultReader reader(name), Error) << place;
       continue;
@@ -66,7 +66,7 @@ TEST_F(FileSeal, IsBrokenByAnyBitThatHdf5WouldBuildOn) {
 TEST_F(FileSeal, IsAbsentWhereAnotherProgramWroteAndThenNobodyVerifies) {
   std::string const without = whole_.substr(0, whole_.size() - 8);
   test::write_bytes(folder_ / "R.h5", without);
-  EXPECT_EQ(check_seal(folder_ / "R.h5"), Seal::absent);
+  EXPECT_EQ(check_seal(ReadFile(folder_ / "R.h5")), Seal::absent);
   EXPECT_NO_THROW(ResultReader reader(folder_ / "R.h5"));
   EXPECT_THROW(verify_everything(folder_ / "R.h5"), Error);
 }

@@ -24,7 +24,7 @@ TEST(SegmentFolder, StandsBesideTheResult) {
   EXPECT_EQ(segment_folder_of("out/R.h5"), fs::path("out/R.h5.parts"));
   test::TemporaryFolder const folder;
   fs::path const parts = segment_folder_of(folder / "R.h5");
-  EXPECT_TRUE(segments_in(parts).empty());
+  EXPECT_TRUE(segments_in(OpenFolder(parts)).empty());
   make_segment_folder(parts);
   make_segment_folder(parts);
   EXPECT_TRUE(fs::is_directory(parts));
