@@ -318,6 +318,10 @@ class Segments(study.FaultTest):
             os.remove(folder / name)
         self.assert_same(folder)
 
+    def read_until(self, process, word):
+        while word not in (line := process.stderr.readline()):
+            self.assertTrue(line, f"ended with {process.poll()} before it said {word}")
+
     def test_only_a_second_interrupt_ends_at_once(self):
         for numbers, code in (
             ((signal.SIGINT, signal.SIGINT), 130),
@@ -326,15 +330,13 @@ class Segments(study.FaultTest):
         ):
             folder = self.folder(study.JOB.replace("generations = 250", "generations = 200000"))
             process = folder.start("run", "job.toml", "--out", "r.h5", "--progress", "none")
-            while b"fitness" not in process.stderr.readline():
-                pass
+            self.read_until(process, b"fitness")
             process.send_signal(signal.SIGSTOP)  # so that all of them wait for it
             for number in numbers[:-1]:
                 process.send_signal(number)
                 if number == numbers[-1]:  # a pending signal is pending once
                     process.send_signal(signal.SIGCONT)
-                    while b"stopping" not in process.stderr.readline():
-                        pass
+                    self.read_until(process, b"stopping")
             with study.contextlib.suppress(ProcessLookupError):
                 process.send_signal(numbers[-1])
             process.send_signal(signal.SIGCONT)
