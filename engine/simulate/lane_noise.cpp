@@ -106,7 +106,9 @@ void draw_sticking(TwinAddress const& address, std::uint32_t group, StickingRang
                         stream_number(address, TwinStream::start),
                         (second_half + group) * static_cast<std::uint32_t>(twin_lanes) + lane);
     sticking.creep[lane] = range.least_creep * portable_exp(random.uniform() * sizes);
-    sticking.length[lane] = range.most_length * random.uniform();
+    // what bristles give back goes with the square root of their length; every second joint has none
+    double const kick = std::max(0.0, random.uniform(-1.0, 1.0));
+    sticking.length[lane] = range.most_length * kick * kick;
     sticking.bend[lane] = start_velocity > 0.0 ? 1.0 : start_velocity < 0.0 ? -1.0 : 0.0;
   }
 }

@@ -156,7 +156,7 @@ TEST(StickingLanes, DrawAllSizesOfCreepAlikeWithinTheRange) {
   // a coarse encoder shows nothing slower than some of its steps
   EXPECT_EQ(sticking_range(0.01).most_creep, 0.1);
   constexpr std::uint32_t groups = 100;
-  int slow = 0, n = 0;
+  int slow = 0, rigid = 0, n = 0;
   for (std::uint32_t group = 0; group < groups; ++group) {
     LaneSticking law, again;
     draw_sticking({7, 0, 4}, group, range, -0.1, law);
@@ -169,9 +169,11 @@ TEST(StickingLanes, DrawAllSizesOfCreepAlikeWithinTheRange) {
       EXPECT_LE(law.length[lane], range.most_length);
       EXPECT_EQ(law.bend[lane], -1.0);
       if (law.creep[lane] < std::sqrt(range.least_creep * range.most_creep)) ++slow;
+      if (law.length[lane] == 0.0) ++rigid;
     }
   }
   EXPECT_NEAR(slow, n / 2, 5.0 * std::sqrt(0.25 * n));
+  EXPECT_NEAR(rigid, n / 2, 5.0 * std::sqrt(0.25 * n));
 }
 
 }  // namespace sticking_lanes_test
