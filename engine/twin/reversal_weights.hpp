@@ -8,7 +8,7 @@
 // Rows       all but rests. A row that fewer than half of the replicates keep counts for nothing
 // Result     as `rows` alone where replicates diverge
 // Threads    spreads replicates over the threads and processes of `workers`; same bits for any number
-// Source     weights by replication: Aitken 1935; Carroll, Ruppert 1988, Transformation and Weighting in Regression, 3.1
+// Source     Aitken 1935; weights by replication: Carroll, Ruppert 1988, Transformation and Weighting in Regression
 
 #include "engine/twin/baseline_twin.hpp"
 #include "engine/twin/twin_exchange.hpp"

@@ -1,5 +1,6 @@
 #include "concealed/case_list.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "concealed/noise.hpp"
@@ -124,7 +125,7 @@ Case const& sealed_case(std::string const& name) {
   throw std::invalid_argument("no sealed case named " + name);
 }
 
-Case clean_case(std::uint64_t seed) {
+Case clean_case(std::uint64_t seed, std::string const& sticking) {
   Random random(seed, "clean rig");
   auto pick = [&](std::vector<std::string> const& names) { return names[random.index(names.size())]; };
   JointDesign joint = joint_named(pick({"elbow", "wrist", "shoulder", "stage"}));
@@ -135,9 +136,11 @@ Case clean_case(std::uint64_t seed) {
   base.offset *= random.between(-2.0, 2.0);
 
   Case clean;
-  clean.name = "clean_" + std::to_string(seed);
+  clean.name = "clean_" + std::to_string(seed) + (sticking == "coulomb" ? "" : "_" + sticking);
   clean.rig = {joint, controller_named(pick({"pd", "soft_pd", "pid", "cascade", "stiff_cascade"})),
                noise_named(pick({"quiet", "bench", "workshop"})), 16 + static_cast<int>(random.index(4))};
+  double const encoder_step = joint.travel_per_turn / std::exp2(clean.rig.encoder_bits);
+  clean.rig.joint.baseline.sticking = sticking_named(sticking, encoder_step);
   clean.train = random.uniform() < 0.6 ? Recipe::mixed : random.uniform() < 0.5 ? Recipe::staircase : Recipe::multisine;
   clean.validate = clean.train == Recipe::multisine ? Recipe::staircase : Recipe::multisine;
   clean.train_s = 40.0;

@@ -44,7 +44,8 @@ LoopRun training_run(Case const& one_case, Rig const& rig, std::vector<Concealed
 std::vector<Case> const& sealed_cases();
 Case const& sealed_case(std::string const& name);
 
-// joint, friction, loop, noise, encoder and motions follow from the seed; nothing is concealed
-Case clean_case(std::uint64_t seed);
+// joint, friction, loop, noise, encoder and motions follow from the seed; nothing is concealed. sticking: of
+// sticking_law.hpp, the same for all seeds
+Case clean_case(std::uint64_t seed, std::string const& sticking = "coulomb");
 
 }  // namespace concealed

@@ -1,5 +1,6 @@
 // make_case NAME OUT_DIR          writes a sealed case to OUT_DIR/NAME
 // make_case --clean SEED OUT_DIR  writes a clean record to OUT_DIR/clean_SEED
+// make_case --clean SEED LAW OUT_DIR   the same with another sticking law (sticking_law.hpp), to OUT_DIR/clean_SEED_LAW
 // make_case --list                names of the sealed cases, one per line
 // make_case --words               effects, families, parameters, units and axes the truths are written with, as JSON
 // make_case --drawn NAME OUT_DIR  writes a drawn case (drawn_name.hpp) to OUT_DIR/FOLDER
@@ -21,7 +22,7 @@ namespace {
 
 int usage() {
   std::fputs(
-      "usage: make_case NAME OUT_DIR | make_case --clean SEED OUT_DIR | make_case --drawn NAME OUT_DIR\n"
+      "usage: make_case NAME OUT_DIR | make_case --clean SEED [LAW] OUT_DIR | make_case --drawn NAME OUT_DIR\n"
       "       make_case --list | make_case --list-drawn TIER FROM..TO [SUITE] | make_case --folders NAME...\n"
       "       make_case --words\n",
       stderr);
@@ -67,9 +68,9 @@ int run(std::vector<std::string> const& words) {
     std::fputs(concealed::words_text().c_str(), stdout);
     return 0;
   }
-  if (words.size() == 3 && words[0] == "--clean") {
+  if ((words.size() == 3 || words.size() == 4) && words[0] == "--clean") {
     if (!is_number(words[1])) return usage();
-    make(concealed::clean_case(std::stoull(words[1])), words[2]);
+    make(concealed::clean_case(std::stoull(words[1]), words.size() == 4 ? words[2] : "coulomb"), words.back());
     return 0;
   }
   if ((words.size() == 3 || words.size() == 4) && words[0] == "--list-drawn")

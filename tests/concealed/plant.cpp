@@ -10,6 +10,8 @@ namespace {
 
 constexpr int max_iterations = 60;
 
+int sign_of(double v) { return v > 0.0 ? 1 : v < 0.0 ? -1 : 0; }
+
 Instant at(double t, Vector const& y, int direction, Drive const& drive) {
   return {t, y[0], y[1], 0.0, direction, drive.motor};
 }
@@ -24,6 +26,7 @@ Plant::Plant(Baseline const& baseline, HiddenEffects effects)
     motor_inertia_ -= effect->moved_inertia();
     feels_load_ = feels_load_ || effect->feels_load();
   }
+  if (baseline_.sticking.kind == Sticking::bristle) ++n_states_;
   if (n_states_ > max_states) throw std::invalid_argument("the effects have more states than max_states");
 }
 
@@ -55,11 +58,27 @@ double Plant::dry_level(Instant const& now, Vector const& y, Drive const& drive)
 }
 
 int Plant::direction(State const& state, Drive const& drive) const {
-  if (state.v() != 0.0) return state.v() > 0.0 ? 1 : -1;
+  StickingLaw const& law = baseline_.sticking;
+  bool const slow = law.kind == Sticking::band && std::abs(state.v()) < law.speed;
+  if (law.is_smooth() || (state.v() != 0.0 && !slow)) return sign_of(state.v());
   double const push = drive.total() - smooth_torque(at(state.t, state.y, 0, drive), state.y);
   int const wanted = push > 0.0 ? 1 : -1;
   double const hold = dry_level(at(state.t, state.y, wanted, drive), state.y, drive);
-  return std::abs(push) > hold ? wanted : 0;
+  if (std::abs(push) <= hold) return 0;
+  return state.v() != 0.0 ? sign_of(state.v()) : wanted;
+}
+
+double Plant::bending_speed(Instant const& now, Vector const& y) const {
+  return now.v - std::abs(now.v) * y[n_states_ - 1] / baseline_.sticking.length;
+}
+
+double Plant::share(Instant const& now, Vector const& y, double level) const {
+  StickingLaw const& law = baseline_.sticking;
+  if (law.kind == Sticking::creep) return std::clamp(now.v / law.speed, -1.0, 1.0);
+  if (law.kind != Sticking::bristle || !(level > 0.0)) return now.direction;
+  constexpr double of_critical = 0.1;
+  double const damping = of_critical * 2.0 * std::sqrt(level / law.length * baseline_.inertia);
+  return y[n_states_ - 1] / law.length + damping / level * bending_speed(now, y);
 }
 
 double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive const& drive) const {
@@ -69,7 +88,8 @@ double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive co
   auto answer = [&](double a) {
     Instant loaded = now;
     loaded.a = a;
-    return (push - now.direction * dry_level(loaded, y, drive)) / inertia;
+    double const level = dry_level(loaded, y, drive);
+    return (push - share(now, y, level) * level) / inertia;
   };
   double a = answer(0.0);
   if (!feels_load_) return a;
@@ -90,7 +110,7 @@ double Plant::sliding_acceleration(Instant const& now, Vector const& y, Drive co
 
 double Plant::acceleration(State const& state, Drive const& drive) const {
   int const branch = direction(state, drive);
-  if (branch == 0) return 0.0;
+  if (branch == 0 && !baseline_.sticking.is_smooth()) return 0.0;
   return sliding_acceleration(at(state.t, state.y, branch, drive), state.y, drive);
 }
 
@@ -99,14 +119,16 @@ double Plant::added_torque(std::size_t index, State const& state, Drive const& d
   double const* z = state.y.data() + first_state_[index];
   Instant now = at(state.t, state.y, direction(state, drive), drive);
   now.a = acceleration(state, drive);
-  return effect.torque(now, z) + now.direction * effect.dry(now, z) +
+  return effect.torque(now, z) + share(now, state.y, dry_level(now, state.y, drive)) * effect.dry(now, z) +
          (effect.added_inertia(now) - effect.moved_inertia()) * now.a;
 }
 
 void Plant::derivative(double t, Vector const& y, int direction, Drive const& drive, Vector& dy) const {
-  Instant const now = at(t, y, direction, drive);
+  bool const smooth = baseline_.sticking.is_smooth();
+  Instant const now = at(t, y, smooth ? sign_of(y[1]) : direction, drive);
   dy[0] = y[1];
-  dy[1] = direction == 0 ? 0.0 : sliding_acceleration(now, y, drive);
+  dy[1] = direction == 0 && !smooth ? 0.0 : sliding_acceleration(now, y, drive);
+  if (baseline_.sticking.kind == Sticking::bristle) dy[n_states_ - 1] = bending_speed(now, y);
   for (std::size_t i = 0; i < effects_.size(); ++i)
     effects_[i]->rates(now, y.data() + first_state_[i], dy.data() + first_state_[i]);
 }
@@ -151,11 +173,36 @@ double Plant::slide_to_rest(State& state, int direction, Drive const& drive, dou
   return cut;
 }
 
+double Plant::stiffness(State const& state, Drive const& drive, double step_s) const {
+  StickingLaw const& law = baseline_.sticking;
+  Instant const now = at(state.t, state.y, sign_of(state.v()), drive);
+  double const level = dry_level(now, state.y, drive);
+  if (law.kind == Sticking::bristle)
+    return std::max(std::abs(state.v()) / law.length, 2.0 * std::sqrt(level / law.length / baseline_.inertia));
+  double const nearest = std::abs(state.v()) - std::abs(acceleration(state, drive)) * step_s;
+  return nearest < law.speed ? level / law.speed / baseline_.inertia : 0.0;
+}
+
+void Plant::advance_smoothly(State& state, Drive const& drive, double step_s) const {
+  auto const parts = static_cast<int>(std::ceil(std::max(1.0, stiffness(state, drive, step_s) * step_s)));
+  for (int i = 0; i < parts; ++i) {
+    state.y = step(state, 0, drive, step_s / parts);
+    state.t += step_s / parts;
+  }
+}
+
 void Plant::advance(State& state, Drive const& drive, double step_s) const {
+  if (baseline_.sticking.is_smooth()) {
+    double const after = state.t + step_s;
+    advance_smoothly(state, drive, step_s);
+    state.t = after;
+    return;
+  }
   double const end = state.t + step_s;
   double left = step_s;
   while (left > 0.0) {
     int const branch = direction(state, drive);
+    if (branch == 0) state.y[1] = 0.0;
     Vector next = step(state, branch, drive, left);
     if (branch * next[1] < 0.0) {
       if (state.v() != 0.0) {

@@ -1,6 +1,6 @@
 #pragma once
 // One joint: baseline (inertia, viscous, Coulomb, offset, known gravity) and hidden effects, with dry friction that can
-// hold it at rest.
+// hold it at rest, by any of the laws of sticking_law.hpp.
 //
 // Method     classical Runge-Kutta of fourth order on each smooth branch; where the velocity meets zero the step is cut
 //            there (regula falsi), then the joint rests or leaves on the other branch
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "concealed/hidden_effect.hpp"
+#include "concealed/sticking_law.hpp"
 
 namespace concealed {
 
@@ -21,6 +22,7 @@ namespace concealed {
 struct Baseline {
   double inertia = 0.0, viscous = 0.0, coulomb = 0.0, offset = 0.0;
   double gravity_sin = 0.0, gravity_cos = 0.0;
+  StickingLaw sticking{};
   bool has_gravity() const { return gravity_sin != 0.0 || gravity_cos != 0.0; }
 };
 
@@ -32,7 +34,7 @@ struct Drive {
   double total() const { return motor + disturbance; }
 };
 
-// position, velocity, then the states of the effects one after the other
+// position, velocity, the states of the effects one after the other, then the bend of bristles
 inline constexpr std::size_t max_states = 18;
 using Vector = std::array<double, max_states>;
 
@@ -62,8 +64,14 @@ class Plant {
   double known_torque(Instant const& now) const;  // baseline without inertia and dry friction
   double smooth_torque(Instant const& now, Vector const& y) const;
   double dry_level(Instant const& now, Vector const& y, Drive const& drive) const;
+  // of the dry friction: 1 while sliding forwards
+  double share(Instant const& now, Vector const& y, double level) const;
+  double bending_speed(Instant const& now, Vector const& y) const;
   double sliding_acceleration(Instant const& now, Vector const& y, Drive const& drive) const;
   void derivative(double t, Vector const& y, int direction, Drive const& drive, Vector& dy) const;
+  void advance_smoothly(State& state, Drive const& drive, double step_s) const;
+  // per second, of the fastest part that a sticking law adds
+  double stiffness(State const& state, Drive const& drive, double step_s) const;
   Vector step(State const& state, int direction, Drive const& drive, double step_s) const;
   // cuts a step that ends at v_end, beyond zero, where the velocity is zero; returns the time used
   double slide_to_rest(State& state, int direction, Drive const& drive, double step_s, double v_end) const;

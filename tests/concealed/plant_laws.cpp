@@ -106,6 +106,68 @@ TEST(ConcealedPlant, KeepsItsAccuracyThroughAReversal) {
   EXPECT_NEAR(end.q(), way_out + way_back, 1e-9);
 }
 
+Baseline sticky(StickingLaw law) {
+  Baseline baseline{.inertia = 0.1, .viscous = 0.6, .coulomb = 0.9};
+  baseline.sticking = law;
+  return baseline;
+}
+
+TEST(ConcealedPlant, CreepsInProportionToWhatPushesIt) {
+  Plant const plant(sticky({Sticking::creep, 0.002, 0.0}), {});
+  State const end = after(plant, plant.at_rest(0.3), {.motor = 0.45}, 0.2, step_s);
+  double const level_per_speed = 0.9 / 0.002 + 0.6;
+  EXPECT_NEAR(end.v(), 0.45 / level_per_speed, 1e-12);
+}
+
+TEST(ConcealedPlant, BristlesBendBeforeTheySlide) {
+  double const length = 1e-4;
+  Plant const plant(sticky({Sticking::bristle, 0.0, length}), {});
+  State bent = plant.at_rest(0.0);
+  int const parts = 1000;
+  for (int i = 1; i <= parts; ++i) bent = after(plant, bent, {.motor = 0.3 * i / parts}, 1e-3, step_s);
+  // dz = (1 - z / D) dq up to z = D / 3
+  EXPECT_NEAR(bent.q(), -length * std::log(1.0 - 1.0 / 3.0), 0.01 * length);
+  State const slid = after(plant, bent, {.motor = 2.1}, 2.0, step_s);
+  EXPECT_NEAR(slid.v(), 2.0, 1e-4);
+}
+
+TEST(ConcealedPlant, RestsWithinItsBandAndSlidesLikeCoulomb) {
+  Plant const band(sticky({Sticking::band, 1e-3, 0.0}), {}), at_once(sticky({}), {});
+  State slow = moving(band, 0.0, 0.9e-3);
+  EXPECT_EQ(band.direction(slow, {.motor = 0.5}), 0);
+  band.advance(slow, {.motor = 0.5}, step_s);
+  EXPECT_EQ(slow.v(), 0.0);
+  EXPECT_EQ(band.direction(slow, {.motor = 1.0}), 1);
+  State const start = moving(band, 0.0, 2.0);
+  EXPECT_EQ(after(band, start, {.motor = 0.5}, 0.1, step_s).q(),
+            after(at_once, start, {.motor = 0.5}, 0.1, step_s).q());
+}
+
+TEST(ConcealedPlant, HoldsAtOnceInTheLimitOfSlowCreepAndShortBristles) {
+  Drive const back{.motor = -3.0};
+  auto const end = [&](StickingLaw law) {
+    Plant const plant(sticky(law), {});
+    return after(plant, moving(plant, 0.0, 2.0), back, 0.5, step_s).q();
+  };
+  double const held = end({});
+  auto const apart = [&](StickingLaw law) { return std::abs(end(law) - held); };
+  double const creeping = apart({Sticking::creep, 1e-3, 0.0}), bending = apart({Sticking::bristle, 0.0, 1e-5});
+  EXPECT_LT(creeping, 1e-4);
+  // while bristles turn over they give back up to 2 level D; the speed of that for the rest of the time
+  EXPECT_LT(bending, 0.5 * std::sqrt(4.0 * 0.9 * 1e-5 / 0.1));
+  EXPECT_LT(apart({Sticking::creep, 1e-4, 0.0}), 0.3 * creeping);
+  EXPECT_LT(apart({Sticking::bristle, 0.0, 1e-6}), 0.5 * bending);
+}
+
+TEST(ConcealedPlant, KnowsItsStickingLawsByName) {
+  for (auto const& name : sticking_names()) {
+    StickingLaw const law = sticking_named(name, 1e-4);
+    EXPECT_EQ(law.kind == Sticking::at_once, name == "coulomb");
+    EXPECT_EQ(law.length > 0.0, law.kind == Sticking::bristle);
+  }
+  EXPECT_THROW(sticking_named("glue", 0.0), std::invalid_argument);
+}
+
 TEST(ConcealedPlant, RefusesMoreStatesThanItHasRoomFor) {
   auto const tank = sloshing_load(0.01, 1.0, 0.0, 1.0);
   EXPECT_THROW(Plant(frictionless(1.0), HiddenEffects(max_states / 2, tank)), std::invalid_argument);

@@ -1,6 +1,6 @@
 """Makes concealed cases, lets the engine diagnose them, and has the scorer judge the verdicts.
 
-    run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO | --drawn FILE_OR_NAMES]
+    run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO [--sticking LAW] | --drawn FILE_OR_NAMES]
                  [--shard [I/N]] [--jobs N] [--threads N] [--all-right]
 
 PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or
@@ -127,7 +127,10 @@ def wanted_cases(options, make_case):
         ends = re.fullmatch(r"(\d+)\.\.(\d+)", options.clean)
         if not ends or int(ends[1]) > int(ends[2]):
             return f"--clean {options.clean}: write FROM..TO, for example 1..100"
-        return {f"clean_{seed}": ["--clean", str(seed)] for seed in range(int(ends[1]), int(ends[2]) + 1)}
+        seeds, law = range(int(ends[1]), int(ends[2]) + 1), options.sticking
+        if law:
+            return {f"clean_{seed}_{law}": ["--clean", str(seed), law] for seed in seeds}
+        return {f"clean_{seed}": ["--clean", str(seed)] for seed in seeds}
     if options.drawn:
         path = pathlib.Path(options.drawn)
         names = (path.read_text() if path.is_file() else options.drawn.replace(",", "\n")).split()
@@ -151,6 +154,7 @@ def main(arguments):
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--cases", help="sealed cases, separated by commas")
     which.add_argument("--clean", help="seeds of clean records, FROM..TO")
+    parser.add_argument("--sticking", help="law of clean records: creep_0.2, ..., lugre, karnopp (sticking_law.hpp)")
     which.add_argument("--drawn", help="names of drawn cases: a file, one per line, or separated by commas")
     parser.add_argument("--shard", nargs="?", const="", help="I/N: the cases whose name is dealt to it (shard.py)")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
