@@ -81,7 +81,16 @@ ModelStage made_stage(StageSetting const& setting, JointModel model) {
   auto const make_twin = [&] { return twin_of_free_or_bounded_fit(setting, *pipeline, options); };
   if (setting.weights) pipeline->weigh_with(setting.weights);
   options.levels = setting.levels;
-  BaselineTwin made = make_twin();
+  BaselineTwin made = [&] {
+    try {
+      return make_twin();
+    } catch (Error const&) {
+      // the mask may leave too few rows for a first look at a recording that is all reversals
+      if (setting.weights || !weighs_reversals(setting)) throw;
+      pipeline->keep_reversals();
+      return make_twin();
+    }
+  }();
   if (!setting.weights && setting.ablation.whitening) {
     NoiseWeights const rows = weights_of_rows(setting, made, *pipeline);
     pipeline->weigh_with(std::make_shared<NoiseWeights const>(rows));
