@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "engine/base/contract.hpp"
 #include "engine/effects/passive_signs.hpp"
-#include "engine/robot/inverse_dynamics.hpp"
 
 namespace torquescope {
 namespace {
@@ -26,6 +26,7 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
     : chain_(std::move(chain)),
       drives_(terms.drives),
       base_(chain_, terms.drives),
+      rigid_(chain_, base_, std::vector<FrictionColumns>(chain_.joints.size(), {false, false, false})),
       friction_(friction_of(chain_, terms, model)),
       own_(chain_.joints.size()) {
   for (Eigen::Index k = 0; k < base_.size(); ++k) {
@@ -90,26 +91,15 @@ std::string ArmModel::equation() const {
   return text + " +" + own.substr(own.find('=') + 1) + " in each joint";
 }
 
-std::size_t ArmModel::rigid_columns(std::size_t joint) const {
-  return own_[joint].size() - (friction_.empty() ? 0 : friction_[joint].size());
-}
-
 void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const {
-  Eigen::Index const n = motion.front().q.size(), joints = chain_.size();
-  Eigen::VectorXd q(joints), dq(joints), ddq(joints);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < joints; ++j) {
-      auto const& joint = motion[static_cast<std::size_t>(j)];
-      q[j] = joint.q[i];
-      dq[j] = joint.dq[i];
-      ddq[j] = joint.ddq[i];
-    }
-    Eigen::MatrixXd const phi = arm_regressor(chain_, q, dq, ddq, drives_);
-    for (std::size_t j = 0; j < rows.size(); ++j)
-      for (std::size_t c = 0; c < rigid_columns(j); ++c)
-        rows[j](i, static_cast<Eigen::Index>(c)) =
-            phi(static_cast<Eigen::Index>(j), base_.columns()[static_cast<std::size_t>(own_[j][c])]);
-  }
+  auto const numbers = [](Eigen::VectorXd const& signal) {
+    return std::span<double const>(signal.data(), static_cast<std::size_t>(signal.size()));
+  };
+  std::vector<JointSamples> samples;
+  // nobody asks for the torque
+  for (auto const& joint : motion)
+    samples.push_back({numbers(joint.q), numbers(joint.dq), numbers(joint.ddq), numbers(joint.dq)});
+  rigid_.fill(samples, rows);
 }
 
 std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion) const {

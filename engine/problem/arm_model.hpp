@@ -17,6 +17,7 @@
 
 #include "engine/data/motion.hpp"
 #include "engine/effects/regressor.hpp"
+#include "engine/robot/arm_rows.hpp"
 #include "engine/robot/base_parameters.hpp"
 #include "engine/robot/serial_chain.hpp"
 
@@ -55,11 +56,11 @@ class ArmModel {
 
  private:
   void fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
-  std::size_t rigid_columns(std::size_t joint) const;  // of its rows, in front of its friction
 
   SerialChain chain_;
   DriveInertias drives_;
   BaseParameters base_;
+  ArmRows rigid_;
   std::vector<Regressor> friction_;  // one a joint, or none
   std::vector<RegressorColumn> columns_;
   std::vector<std::vector<Eigen::Index>> own_;

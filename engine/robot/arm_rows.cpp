@@ -73,23 +73,46 @@ ArmRows::ArmRows(SerialChain const& chain, BaseParameters const& base, std::span
   }
 }
 
-Eigen::MatrixXd ArmRows::rows(std::span<JointSamples const> samples, Index joint) const {
-  TORQUESCOPE_EXPECT(place(joints()) == samples.size() && joint >= 0 && joint < joints());
+template <class Take>
+void ArmRows::for_each_block(std::span<JointSamples const> samples, Take const& take) const {
+  TORQUESCOPE_EXPECT(place(joints()) == samples.size());
   auto const signals = signals_of(samples);
-  std::size_t const n = samples.front().q.size(), width = plan_.row_width(place(joint));
+  std::size_t const n = samples.front().q.size();
   kernels::AlignedDoubles block(plan_.rows_before(plan_.size()));
   kernels::AlignedDoubles workspace(kernels::arm_rows_workspace_size(plan_));
-  Eigen::MatrixXd rows(static_cast<Index>(n), static_cast<Index>(width));
   for (std::size_t first = 0; first < n; first += kernels::row_block_samples) {
     std::size_t const count = std::min(kernels::row_block_samples, n - first);
     kernels::arm_rows(plan_, signals.data(), first, count, block.data(), workspace.data());
-    double const* const from = block.data() + plan_.rows_before(place(joint));
-    for (std::size_t t = 0; t < count; ++t)
-      for (std::size_t c = 0; c < width; ++c)
-        rows(static_cast<Index>(first + t), static_cast<Index>(c)) =
-            from[(t / kernels::n_lanes * width + c) * kernels::n_lanes + t % kernels::n_lanes];
+    take(block.data(), first, count);
   }
+}
+
+void ArmRows::copy_columns(double const* block, Index joint, std::size_t count, Eigen::Ref<Eigen::MatrixXd> out) const {
+  std::size_t const width = plan_.row_width(place(joint));
+  double const* const from = block + plan_.rows_before(place(joint));
+  for (Index c = 0; c < out.cols(); ++c)
+    for (std::size_t t = 0; t < count; t += kernels::n_lanes)
+      std::copy_n(from + (t / kernels::n_lanes * width + place(c)) * kernels::n_lanes,
+                  std::min(kernels::n_lanes, count - t), out.col(c).data() + t);
+}
+
+Eigen::MatrixXd ArmRows::rows(std::span<JointSamples const> samples, Index joint) const {
+  TORQUESCOPE_EXPECT(joint >= 0 && joint < joints());
+  Eigen::MatrixXd rows(static_cast<Index>(samples.front().q.size()), static_cast<Index>(plan_.row_width(place(joint))));
+  for_each_block(samples, [&](double const* block, std::size_t first, std::size_t count) {
+    copy_columns(block, joint, count, rows.middleRows(static_cast<Index>(first), static_cast<Index>(count)));
+  });
   return rows;
+}
+
+void ArmRows::fill(std::span<JointSamples const> samples, std::span<Eigen::MatrixXd> rows) const {
+  TORQUESCOPE_EXPECT(rows.size() == samples.size());
+  for_each_block(samples, [&](double const* block, std::size_t first, std::size_t count) {
+    for (Index j = 0; j < joints(); ++j)
+      copy_columns(block, j, count,
+                   rows[place(j)].block(static_cast<Index>(first), 0, static_cast<Index>(count),
+                                        static_cast<Index>(columns(j).size())));
+  });
 }
 
 std::vector<kernels::JointSignals> signals_of(std::span<JointSamples const> samples) {

@@ -46,8 +46,16 @@ class ArmRows {
 
   // n_samples x (columns + 1), the torque last; each row times its root weight. samples: one a joint
   Eigen::MatrixXd rows(std::span<JointSamples const> samples, Eigen::Index joint) const;
+  // of every joint in one sweep, without the torque: into the first columns(joint) columns of rows[joint], which has
+  // n_samples rows
+  void fill(std::span<JointSamples const> samples, std::span<Eigen::MatrixXd> rows) const;
 
  private:
+  // take(block, first sample, count), block after block
+  template <class Take>
+  void for_each_block(std::span<JointSamples const> samples, Take const& take) const;
+  void copy_columns(double const* block, Eigen::Index joint, std::size_t count, Eigen::Ref<Eigen::MatrixXd> out) const;
+
   std::vector<std::vector<ArmColumn>> columns_;
   kernels::ArmPlan plan_;
 };

@@ -99,6 +99,23 @@ TEST(ArmRows, HaveTheSameBitsOnEveryInstructionSet) {
   }
 }
 
+TEST(ArmRows, OfAllJointsAreThoseOfEachWithoutTheTorque) {
+  auto const chain = test::crs_a465(4);
+  BaseParameters const base(chain, DriveInertias::included);
+  auto const rows = rows_of(chain, base);
+  test::ArmSignals const signals(kernels::row_block_samples + 21, chain.size(), 7);
+  std::vector<Eigen::MatrixXd> all;
+  for (Index j = 0; j < chain.size(); ++j)
+    all.push_back(Eigen::MatrixXd::Constant(signals.q.rows(), static_cast<Index>(rows.columns(j).size()) + 2, 9.0));
+  rows.fill(signals.samples(), all);
+  for (Index j = 0; j < chain.size(); ++j) {
+    auto const count = static_cast<Index>(rows.columns(j).size());
+    auto const& made = all[static_cast<std::size_t>(j)];
+    EXPECT_EQ(made.leftCols(count), rows.rows(signals.samples(), j).leftCols(count)) << j;
+    EXPECT_EQ(made.rightCols(2), Eigen::MatrixXd::Constant(made.rows(), 2, 9.0)) << j;  // not its own
+  }
+}
+
 TEST(ArmRows, OfASampleDoNotDependOnItsPlace) {
   auto const chain = test::panda();
   BaseParameters const base(chain, DriveInertias::included);
