@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "engine/base/error.hpp"
 #include "engine/robot/consistency.hpp"
+#include "engine/robot/pseudo_inertia.hpp"
 #include "engine/robot/robot_writers.hpp"
 #include "engine/run/robot_tables.hpp"
 
@@ -84,6 +86,34 @@ std::vector<std::string> words_of(BaseParameters const& base) {
   return words;
 }
 
+// of zero thickness: nothing is near it
+bool is_flat(LinkInertia const& link) {
+  constexpr double rounding = 1e-12;
+  Eigen::SelfAdjointEigenSolver<PseudoInertia> const solver(pseudo_inertia(link.vector()), Eigen::EigenvaluesOnly);
+  return !(solver.eigenvalues().minCoeff() > rounding * solver.eigenvalues().maxCoeff());
+}
+
+InertiaPrior prior_of_file(SerialChain const& chain) {
+  validate(chain.has_inertias(), [] {
+    return Problem{.code = ExitCode::usage,
+                   .what = "the robot file of this result has no inertias to stay near to",
+                   .help = "leave --cad out, or write masses and inertias into it and run the job again"};
+  });
+  InertiaPrior prior;
+  prior.links = chain.links;
+  for (auto const& joint : chain.joints) prior.drives.push_back(joint.drive_inertia);
+  for (std::size_t i = 0; i < chain.links.size(); ++i) {
+    std::string fault = body_fault(chain.links[i]);
+    if (fault.empty() && is_flat(chain.links[i])) fault = "it has no thickness";
+    validate(fault.empty(), [&] {
+      return Problem{.code = ExitCode::usage,
+                     .what = fmt::format("link {} of the robot file is no body: {}", i + 1, fault),
+                     .help = "leave --cad out, or correct its inertias and run the job again"};
+    });
+  }
+  return prior;
+}
+
 }  // namespace
 
 IdentifiedArm read_identified_arm(ResultReader const& reader) {
@@ -116,14 +146,14 @@ std::vector<ExportFormat> export_formats() {
 }
 
 ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
-                     std::string const& format) {
+                     std::string const& format, NearBodies near) {
   BaseParameters const base(arm.chain, arm.drives);
   Index const p = base.size();
   validate(values.size() == arm.information.rows() && names.size() == static_cast<std::size_t>(values.size()), [] {
     return Problem{.code = ExitCode::bad_data, .what = "the parameters of this result do not fit its arm", .help = ""};
   });
+  InertiaPrior prior = near == NearBodies::robot_file ? prior_of_file(arm.chain) : InertiaPrior();
   // costs no more than can be seen, and keeps masses finite that no torque limits
-  InertiaPrior prior;
   prior.weight = visible_gap;
   auto const found = consistent_parameters(arm.chain, base, {values.head(p), base_root(arm.information, p)}, prior);
   SerialChain chain = arm.chain;
@@ -139,6 +169,7 @@ ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& n
       fmt::format("Identified by Torquescope: the bodies closest to {} base parameters, {:.3g} standard errors away.",
                   p, found.distance));
   for (auto const& words : words_of(base)) out.notes.push_back(words);
+  if (near == NearBodies::robot_file) out.notes.emplace_back("What is chosen is near the robot file's inertias.");
   std::vector<std::string> beside;
   for (Index k = p; k < values.size(); ++k)
     beside.push_back(fmt::format("{} = {:.6g}", names[static_cast<std::size_t>(k)], values[k]));

@@ -34,8 +34,12 @@ struct ArmExport {
   double distance = 0.0;           // standard errors that consistency cost
 };
 
-// names, values: of all parameters of the result, base parameters first
+// what the bodies stay near to where the parameters leave them open: cubes, or the inertias of the job's robot file
+enum class NearBodies { cubes, robot_file };
+
+// names, values: of all parameters of the result, base parameters first. Error 64 when near the robot file is asked for
+// and the file has none, or its links are no bodies
 ArmExport export_arm(IdentifiedArm const& arm, std::vector<std::string> const& names, Eigen::VectorXd const& values,
-                     std::string const& format);
+                     std::string const& format, NearBodies near = NearBodies::cubes);
 
 }  // namespace torquescope

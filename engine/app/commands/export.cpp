@@ -10,6 +10,7 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/result/result_summary.hpp"
+#include "engine/app/result/result_tables.hpp"
 #include "engine/run/arm_export.hpp"
 
 namespace torquescope {
@@ -19,6 +20,7 @@ namespace {
 struct ExportArguments {
   std::string file, estimator;
   std::map<std::string, std::string> out;  // by format
+  bool near_cad = false;
 };
 
 EstimatorSummary const& chosen_estimator(ResultSummary const& summary, std::string const& name) {
@@ -62,9 +64,11 @@ ExitCode export_result(ExportArguments const& arguments, Session const& session)
   auto const& estimator = chosen_estimator(summary, arguments.estimator);
   Eigen::VectorXd const values =
       Eigen::VectorXd::Map(estimator.parameters.data(), static_cast<Eigen::Index>(estimator.parameters.size()));
+  session.note(session.topic_line("values", "of " + column_title(estimator)));
+  auto const near = arguments.near_cad ? NearBodies::robot_file : NearBodies::cubes;
   bool first = true;
   for (auto const& [format, file] : arguments.out) {
-    auto const written = export_arm(arm, summary.names, values, format);
+    auto const written = export_arm(arm, summary.names, values, format, near);
     write_text(file, written.text, session);
     if (file != "-") session.note(session.topic_line("wrote", file));
     for (auto const& note : written.notes)
@@ -85,6 +89,9 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope export arm.h5 --json - --estimator wls\n");
   command->add_option("R.h5", arguments->file, "result file of torquescope run of an arm, HDF5")->required();
   command->add_option("--estimator", arguments->estimator, "whose parameters; the first by default")->group("results");
+  command
+      ->add_flag("--cad", arguments->near_cad, "masses and inertias left open stay near those of the job's robot file")
+      ->group("results");
   for (auto const& format : export_formats())
     command
         ->add_option_function<std::string>(

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "engine/base/error.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "engine/robot/robot_registry.hpp"
 #include "support/temporary_folder.hpp"
@@ -37,6 +40,32 @@ TEST(ArmExport, OfATrueEstimateHasItsTorqueAndSaysWhatIsChosen) {
   auto const ours = inverse_dynamics(again, standard_parameters(again, DriveInertias::included), q, dq, ddq);
   EXPECT_LT((ours - tau).norm(), 1e-3 * tau.norm());
   EXPECT_EQ(again.joints[2].upper, chain.joints[2].upper);
+}
+
+// near bodies that are a tenth too heavy, what no torque tells is a tenth too heavy; what torques tell is not
+TEST(ArmExport, NearTheRobotFileKeepsWhatTheParametersLeaveOpen) {
+  auto chain = read_robot(TORQUESCOPE_SOURCE_DIR "/jobs/robots/crs_a465.toml");
+  BaseParameters const base(chain, DriveInertias::included);
+  auto const chi = standard_parameters(chain, DriveInertias::included);
+  IdentifiedArm arm;
+  arm.information = 1e8 * Eigen::MatrixXd::Identity(base.size(), base.size());
+  Eigen::VectorXd const values = base.from_standard(chi);
+  std::vector<std::string> names;
+  for (auto const& parameter : base.parameters()) names.push_back(parameter.name);
+  for (auto& link : chain.links) link = LinkInertia::from_vector(1.1 * link.vector());
+  arm.chain = chain;
+  test::TemporaryFolder const folder;
+  auto const made = [&](NearBodies near) {
+    return read_robot(folder.write("arm.toml", export_arm(arm, names, values, "toml", near).text));
+  };
+  auto const near = made(NearBodies::robot_file), cubes = made(NearBodies::cubes);
+  // the mass of the first link moves nothing
+  EXPECT_NEAR(near.links[0].mass, chain.links[0].mass, 0.02 * chain.links[0].mass);
+  EXPECT_GT(std::abs(cubes.links[0].mass - chain.links[0].mass), 0.1 * chain.links[0].mass);
+  Eigen::VectorXd const again = base.from_standard(standard_parameters(near, DriveInertias::included));
+  EXPECT_LT((again - values).norm(), 1e-3 * values.norm());
+  arm.chain.links.clear();
+  EXPECT_THROW(export_arm(arm, names, values, "toml", NearBodies::robot_file), Error);
 }
 
 TEST(ArmExport, KnowsEveryWriter) {
