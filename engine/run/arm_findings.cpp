@@ -10,7 +10,6 @@
 #include "engine/data/levels.hpp"
 #include "engine/robot/forward_dynamics.hpp"
 #include "engine/run/fit_findings.hpp"
-#include "engine/statistics/gram_identifiability.hpp"
 
 namespace torquescope {
 namespace {
@@ -76,42 +75,48 @@ MatrixXd own_inertias(ArmModel const& model, VectorXd const& q) {
   return columns;
 }
 
-struct NegativeInertia {
-  std::string words;
-  bool surely = false;
+// the most negative M_jj of each joint along the motion, and the arm's positions there; 0 where none is negative
+struct LeastInertias {
+  VectorXd least;
+  std::vector<VectorXd> where;
 };
 
-// the most negative M_jj of each joint along the motion
-NegativeInertia negative_inertias(Experiment::Parts const& parts, LeastSquaresFit const& fit) {
+LeastInertias least_inertias(Experiment::Parts const& parts, VectorXd const& parameters) {
   auto const& model = parts.arm->model;
-  auto const count = model.base().size();
-  VectorXd const standard = model.base().to_standard(fit.parameters.head(count));
+  VectorXd const standard = model.base().to_standard(parameters.head(model.base().size()));
   auto const joints = static_cast<Index>(model.joints());
-  VectorXd least = VectorXd::Zero(joints);
-  std::vector<VectorXd> where(model.joints());
+  LeastInertias found{VectorXd::Zero(joints), std::vector<VectorXd>(model.joints())};
   for (auto const& q : positions_of(parts.train, model.joints())) {
     VectorXd const own = mass_matrix(model.chain(), standard, q).diagonal();
     for (Index j = 0; j < joints; ++j)
-      if (own[j] < least[j]) {
-        least[j] = own[j];
-        where[static_cast<std::size_t>(j)] = q;
+      if (own[j] < found.least[j]) {
+        found.least[j] = own[j];
+        found.where[static_cast<std::size_t>(j)] = q;
       }
-  }
-  NegativeInertia found;
-  for (Index j = 0; j < joints; ++j) {
-    if (least[j] >= 0.0) continue;
-    VectorXd const gradient = own_inertias(model, where[static_cast<std::size_t>(j)]).row(j).transpose();
-    double const error = std::sqrt(gradient.dot(fit.covariance_hac.topLeftCorner(count, count) * gradient));
-    if (!(least[j] < -levels::surely_negative * error)) continue;
-    found.surely = true;
-    bool const turns = model.chain().joints[static_cast<std::size_t>(j)].kind == JointKind::revolute;
-    found.words += fmt::format("{}inertia of joint {} = {:.3g} {}", found.words.empty() ? "" : ", ", j + 1, least[j],
-                               turns ? "kg m^2" : "kg");
   }
   return found;
 }
 
+// those that are surely negative; "" where none is
+std::string negative_inertias(ArmModel const& model, LeastInertias const& inertias, MatrixXd const& covariance) {
+  auto const count = model.base().size();
+  std::string words;
+  for (Index j = 0; j < inertias.least.size(); ++j) {
+    double const least = inertias.least[j];
+    if (least >= 0.0) continue;
+    VectorXd const gradient = own_inertias(model, inertias.where[static_cast<std::size_t>(j)]).row(j).transpose();
+    double const error = std::sqrt(gradient.dot(covariance.topLeftCorner(count, count) * gradient));
+    if (!(least < -levels::surely_negative * error)) continue;
+    bool const turns = model.chain().joints[static_cast<std::size_t>(j)].kind == JointKind::revolute;
+    words += fmt::format("{}inertia of joint {} = {:.3g} {}", words.empty() ? "" : ", ", j + 1, least,
+                         turns ? "kg m^2" : "kg");
+  }
+  return words;
+}
+
 }  // namespace
+
+std::string word(Seen seen) { return seen == Seen::alone ? "alone" : seen == Seen::in_a_group ? "group" : "no"; }
 
 ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
   auto const& phi = parts.train.regression.phi;
@@ -125,6 +130,7 @@ ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
     if (found.seen[k] == Seen::not_at_all) unseen.push_back(static_cast<Index>(k));
   }
   ArmIdentifiability said;
+  said.seen = found.seen;
   said.all_seen = alone == names.size();
   said.words = fmt::format("{} parameters: {} alone, {} only in a group, {} not at all", names.size(), alone, grouped,
                            unseen.size());
@@ -137,8 +143,12 @@ ArmIdentifiability arm_identifiability(Experiment::Parts const& parts) {
 std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
   auto const& rows = parts.train.regression;
   if (too_few_rows(rows) || !parts.health.identifiable) return {};
-  auto const fit = fit_with_errors(rows, solve_reduced(rows, parts.reductions));
+  VectorXd const parameters = solve_reduced(rows, parts.reductions);
   VectorXd const signs = parts.arm->model.passive_signs();
+  auto const inertias = least_inertias(parts, parameters);
+  // errors cost as much as a fit: asked for only where something is negative
+  if (signs.cwiseProduct(parameters).minCoeff() >= 0.0 && inertias.least.minCoeff() >= 0.0) return {};
+  auto const fit = fit_with_errors(rows, parameters);
   Finding finding{FindingKind::less_than_none, Grade::warning};
   finding.recording = parts.train.recordings.front().name;
   for (Index i = 0; i < signs.size(); ++i) {
@@ -148,11 +158,11 @@ std::vector<Finding> arm_findings(Experiment::Parts const& parts, RecordingOptio
     finding.detail += fmt::format("{}{} = {:.3g} {}", finding.detail.empty() ? "" : ", ", column.name,
                                   fit.parameters[i], column.unit);
   }
-  auto const inertia = negative_inertias(parts, fit);
-  if (inertia.surely) {
+  std::string const negative = negative_inertias(parts.arm->model, inertias, fit.covariance_hac);
+  if (!negative.empty()) {
     ++finding.count;
     finding.grade = Grade::fault;
-    finding.detail += (finding.detail.empty() ? "" : ", ") + inertia.words;
+    finding.detail += (finding.detail.empty() ? "" : ", ") + negative;
   }
   if (finding.count == 0) return {};
   auto const torque = options.columns.find("torque");

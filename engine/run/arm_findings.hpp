@@ -12,13 +12,16 @@
 #include <vector>
 
 #include "engine/run/experiment_parts.hpp"
+#include "engine/statistics/gram_identifiability.hpp"
 
 namespace torquescope {
 
 struct ArmIdentifiability {
-  bool all_seen = true;  // each alone
-  std::string words;     // "47 parameters: 45 alone, 2 only in a group (...), none unseen"
+  std::vector<Seen> seen;  // [R]
+  bool all_seen = true;    // each alone
+  std::string words;       // "47 parameters: 45 alone, 2 only in a group (...), none unseen"
 };
+std::string word(Seen seen);  // "alone", "group", "no"
 ArmIdentifiability arm_identifiability(Experiment::Parts const& parts);
 
 // needs parts.reductions and the motion of the rows

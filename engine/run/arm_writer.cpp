@@ -6,6 +6,7 @@
 
 #include "engine/problem/arm_accuracy.hpp"
 #include "engine/robot/gather_text.hpp"
+#include "engine/run/arm_findings.hpp"
 #include "engine/run/robot_tables.hpp"
 
 namespace torquescope {
@@ -82,11 +83,15 @@ void write_joint_errors(ResultWriter& writer, std::string const& group, std::str
 
 }  // namespace
 
-void write_arm(ResultWriter& writer, ArmParts const& arm) {
+void write_arm(ResultWriter& writer, Experiment::Parts const& parts) {
+  auto const& arm = *parts.arm;
   write_robot(writer, arm);
   writer.attribute("/arm", "joints", static_cast<std::int64_t>(arm.model.joints()));
   writer.attribute("/arm", "noise_iterations", std::int64_t{arm.noise.iterations});
   write_vector(writer, "/arm/noise", arm.noise.deviation, {"N m or N", "noise of each joint: rows are divided by it"});
+  std::vector<std::string> seen;
+  for (auto const one : arm_identifiability(parts).seen) seen.push_back(word(one));
+  writer.texts("/arm/seen", seen, {"1", "how the training rows tell each parameter"});
   for (std::size_t j = 0; j < arm.grams.size(); ++j) {
     auto const& gram = arm.grams[j];
     std::string const group = joint_group("/arm", j);

@@ -141,6 +141,7 @@ void write_fitness_choice(ResultWriter& writer, std::string const& label, Fitnes
 void write_least_squares(ResultWriter& writer, std::string const& label, LeastSquaresFit const& fit,
                          JointForm const* form) {
   std::string const group = group_of(label);
+  if (!fit.remark.empty()) writer.attribute(group, "remark", fit.remark);
   write_parameters(writer, group + "/standard_error", {fit.standard_error}, {"SI", "standard error", "Newey-West"});
   write_parameters(writer, group + "/standard_error_naive", {fit.standard_error_naive},
                    {"SI", "standard error if residuals were white"});

@@ -271,7 +271,7 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     if (plan.is_closed_form()) continue;
     auto const members = static_cast<double>(plan.make_optimiser(parts_->box, {})->largest_batch());
     double const generations = static_cast<double>(plan.stop_rules.generations) + 1.0;
-    evaluations += static_cast<double>(parts_->experiment.runs) * generations * members;
+    evaluations += static_cast<double>(evaluations_of(*parts_, plan));
     double const stored = parts_->output.populations ? members * (parameters + 1.0) : 0.0;
     bytes += static_cast<double>(parts_->experiment.runs) * generations * (stored + 7.0) * 8.0;
   }

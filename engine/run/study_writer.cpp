@@ -142,7 +142,7 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   write_job(writer, parts);
   writer.attribute("/job", "inputs_sha256", experiment.inputs_sha256());
   write_model(writer, parts);
-  if (parts.arm) write_arm(writer, *parts.arm);
+  if (parts.arm) write_arm(writer, parts);
   write_data_set(writer, "/data/train", parts.train, parts);
   if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts);
   write_health(writer, parts.health);

@@ -65,6 +65,7 @@ class Arm:
         robot = result.robot
         self.name = robot.name
         self.base_parameters, self.gathers = list(robot.base_parameters), list(robot.gathers)
+        self.seen = result.arm.get("seen")  # [R] "alone", "group", "no"; None of an earlier version
         self.file_values = robot.get("file_values")  # [B], of the robot file's inertias; None when it gives none
         self.joints = [Joint(result, index, name) for index, name in enumerate(robot.joints)]
 

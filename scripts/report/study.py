@@ -11,7 +11,7 @@ import style
 from arm import Arm
 from read_result import Result, ResultError
 
-LEAST_SQUARES = ("ols", "wls", "irls", "essential")
+LEAST_SQUARES = ("ols", "wls", "irls", "essential", "iv", "tls")
 
 
 class View:

@@ -18,6 +18,8 @@ def parameters(study):
     head = ["parameter", "unit", e.short, "± 95 %"]
     head += [origin, "difference, standard errors"] if known is not None else []
     head += [one.short for one in others]
+    seen = study.arm.seen
+    head += ["seen"] if seen is not None else []
     rows = []
     for k, (name, unit) in enumerate(zip(study.model.names, study.model.units)):
         half = words.Z95 * errors[k]
@@ -25,7 +27,8 @@ def parameters(study):
         row = [name, q.unit(unit), q.fixed(e.chosen[k], decimals), q.fixed(half, decimals)]
         if known is not None:
             row += [q.fixed(known[k], decimals), q.fixed((e.chosen[k] - known[k]) / errors[k], 1)]
-        rows.append(row + [q.fixed(one.chosen[k], decimals) for one in others])
+        row += [q.fixed(one.chosen[k], decimals) for one in others]
+        rows.append(row + ([seen[k]] if seen is not None else []))
     return {"head": head, "rows": rows}
 
 

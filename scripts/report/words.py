@@ -120,6 +120,11 @@ def big_numbers(study):
     return found[:4]
 
 
+def remarks(study):
+    """What closed forms have to say of themselves: "ESSENTIAL: 29 of 47 parameters are kept. "."""
+    return "".join(f"{e.short}: {e.remark}. " for e in study.estimators if e.remark)
+
+
 def parameters_answer(study):
     """Which parameters are known, which are not: from the stored intervals."""
     e = study.ols or next((e for e in study.estimators if e.ci95 is not None), None)

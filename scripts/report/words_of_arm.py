@@ -81,7 +81,10 @@ def parameters_answer(study):
     base = len(study.arm.base_parameters)
     beside = len(study.model.names) - base
     said = f"{q.whole(base)} base parameters: the sums of masses, moments and inertias that torques depend on"
-    said += f"; {q.whole(beside)} of friction beside them. " if beside else ". "
+    kinds = "friction, payloads and gains" if "gain_error_1" in study.model.names else "friction"
+    said += f"; {q.whole(beside)} of {kinds} beside them. " if beside else ". "
+    said += f"torquescope export writes the values of {study.estimators[0].short}, unless --estimator names another. "
+    said += words.remarks(study)
     if e.ci95 is None:
         return said + "No least squares in this job, so there are no intervals."
     seen = int(np.sum((e.ci95[0][:, 0] > 0) | (e.ci95[0][:, 1] < 0)))

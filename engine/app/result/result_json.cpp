@@ -20,6 +20,7 @@ Json parameters_json(ResultSummary const& summary, EstimatorSummary const& estim
                     {"value", number(estimator.parameters.at(i))},
                     {"mean", number(estimator.parameters_mean.at(i))},
                     {"standard_error", has_error ? number(estimator.standard_error.at(i)) : Json(nullptr)}});
+    if (summary.arm && i < summary.arm->seen.size()) list.back()["seen"] = summary.arm->seen[i];
   }
   return list;
 }
@@ -91,6 +92,7 @@ std::string result_json(ResultSummary const& summary) {
   Json estimators = Json::array();
   for (auto const& estimator : summary.estimators) {
     estimators.push_back(estimator_json(summary, estimator));
+    if (!estimator.remark.empty()) estimators.back()["remark"] = estimator.remark;
     if (summary.arm) add_joint_errors(estimator, estimators.back());
   }
 

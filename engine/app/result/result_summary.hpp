@@ -20,6 +20,7 @@ namespace torquescope {
 
 struct EstimatorSummary {
   std::string name, kind, title;
+  std::string remark;                       // of a closed form: what a person should know; "" where it has none
   std::int64_t runs = 0, missing_runs = 0;  // missing: of a partial merge
   std::vector<double> parameters;           // [R] of the median run
   std::vector<double> parameters_mean;      // [R] over the runs, as a paper would average them
@@ -43,6 +44,7 @@ struct ArmSummary {
   std::vector<std::string> joints;                      // names, from the base to the tip
   std::vector<double> noise;                            // N m or N, of each joint
   std::vector<std::string> parameters, units, gathers;  // base parameters, and what each is the sum of
+  std::vector<std::string> seen;                        // [R] "alone", "group", "no"; of an earlier version empty
 };
 
 struct DataSummary {

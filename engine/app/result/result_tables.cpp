@@ -34,6 +34,8 @@ bool knows_truth(ResultSummary const& summary) {
 
 std::vector<Column> columns_of_result(ResultSummary const& summary) {
   std::vector<Column> columns;
+  if (summary.arm && summary.arm->seen.size() == summary.names.size())
+    columns.push_back({"seen", [&](std::size_t i) { return printable(summary.arm->seen[i]); }});
   if (knows_truth(summary))
     columns.push_back({"truth", [&](std::size_t i) { return short_number(summary.truth.at(i)); }});
   for (auto const& estimator : summary.estimators) {
@@ -144,6 +146,14 @@ std::string standard_error_lines(ResultSummary const& summary) {
   return text;
 }
 
+std::string remark_lines(ResultSummary const& summary) {
+  std::string text;
+  for (auto const& estimator : summary.estimators)
+    if (!estimator.remark.empty())
+      text += hanging(fmt::format("  {}: ", column_title(estimator)), printable(estimator.remark));
+  return text;
+}
+
 std::string reasons_text(std::map<std::string, std::int64_t> const& reasons) {
   std::string text;
   for (auto const& [reason, count] : reasons)
@@ -186,7 +196,7 @@ std::string result_table(ResultSummary const& summary, Ink const& ink) {
     text += (begin ? "\n" : "") + block_text(summary, shown, name_width, unit_width, ink);
     begin += count;
   }
-  text += standard_error_lines(summary);
+  text += standard_error_lines(summary) + remark_lines(summary);
   if (summary.arm) text += "\n" + joint_error_table(summary, ink) + "\n";
   text += fmt::format("{} runs, {} evaluations", count_text(summary.runs()), count_text(summary.evaluations()));
   if (!std::isnan(summary.provenance.seconds)) text += ", " + seconds_text(summary.provenance.seconds);
