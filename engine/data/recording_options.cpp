@@ -40,7 +40,14 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"simulated_torque", &Options::simulated_torque,
         "column with the torque (N m or N) of your own simulator on the same motion, neither scaled nor delayed; "
         "diagnose "
-        "then explains what is left of the recording beside it"}});
+        "then explains what is left of the recording beside it"},
+       {"payload_kg", &Options::payload_kg,
+        "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none"},
+       {"payload_first_moments_kgm", &Options::payload_first_moments_kgm,
+        "kg m, in the last link's frame: x, y, z of each training recording; none: they are parameters, as the "
+        "payload's inertia"},
+       {"validate_payload_kg", &Options::validate_payload_kg,
+        "of each validation recording: the mass of one of the training payloads, or 0"}});
   return table;
 }
 

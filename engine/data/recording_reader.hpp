@@ -34,6 +34,8 @@ struct RecordingOptions {
   std::string gaps = "fill";       // missing values: "error", or "fill" short ones and leave out longer ones
   std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
   double train_share = 1.0;        // of every training recording, from its start; the rest judges
+  // of an arm, kg: what its last link carries in each recording; none: nothing. First moments: three a recording
+  std::vector<double> payload_kg{}, payload_first_moments_kgm{}, validate_payload_kg{};
 
   double torque_factor() const { return torque_per_unit.front(); }
   double velocity_factor() const { return velocity_per_unit != 0.0 ? velocity_per_unit : position_per_unit; }

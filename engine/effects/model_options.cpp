@@ -16,7 +16,17 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
        {"friction", &ModelOptions::friction,
         "of an arm: effects that every joint has beside the rigid arm, e.g. viscous, coulomb, offset"},
        {"drive_inertia", &ModelOptions::drive_inertia,
-        "of an arm: the inertia of each drive, on the joint's side, is a parameter"}});
+        "of an arm: the inertia of each drive, on the joint's side, is a parameter"},
+       {"drive_gains", &ModelOptions::drive_gains,
+        "of an arm: the error of each torque_per_unit is a parameter; needs recording.payload_kg, and name = "
+        "\"tls\""}});
+  return table;
+}
+
+OptionTable<JointModelOptions> const& JointModelOptions::table() {
+  static OptionTable<JointModelOptions> const table(
+      "model.joint_1", "of an arm: what joint 1 has of its own; [model.joint_2] and so on likewise",
+      {{"friction", &JointModelOptions::friction, "effects beside the rigid arm, in place of model.friction"}});
   return table;
 }
 

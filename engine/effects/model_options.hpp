@@ -17,8 +17,16 @@ struct ModelOptions {
   std::string robot{};                  // its file, relative to the job's; "": the job is about one joint
   std::vector<std::string> friction{};  // terms of every joint beside the rigid arm
   bool drive_inertia = true;            // rotors are parameters of their own
+  bool drive_gains = false;             // errors of torque_per_unit as well
 
   static OptionTable<ModelOptions> const& table();
+};
+
+// [model.joint_1], [model.joint_2], ...
+struct JointModelOptions {
+  std::vector<std::string> friction{};
+
+  static OptionTable<JointModelOptions> const& table();
 };
 
 // Errors     as Regressor()

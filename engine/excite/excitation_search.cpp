@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "engine/base/parallel.hpp"
@@ -16,6 +17,7 @@ using Eigen::Index;
 
 constexpr double too_near = 1e6;               // beyond any logarithm of a condition or a determinant
 constexpr Index samples_per_harmonic = 16;     // of the rows that are judged
+constexpr Index fine_per_harmonic = 64;        // where an effect may act at the lowest speeds alone
 constexpr Index clearances_per_harmonic = 64;  // of the shortest period
 
 struct Judge {
@@ -42,6 +44,9 @@ struct Judge {
   double fitness(std::span<double const> point) const {
     if (double const near = lack(point); near > 0.0) return too_near * (1.0 + near);
     auto const found = quality(point);
+    // an angle of 0: nothing tells the two apart, and no motion near it may be any better
+    if (criterion == ExciteCriterion::angle)
+      return found.angle > 0.0 ? -found.angle : std::numeric_limits<double>::infinity();
     return criterion == ExciteCriterion::condition ? std::log10(found.condition) : -found.log_determinant;
   }
 };
@@ -99,7 +104,7 @@ ExcitingMotion search_excitation(SerialChain const& chain, RowModel const& model
       criterion_of(options),
       {options.floor_m, options.clearance_m},
       {chain, {options.position_share, options.speed_share, options.acceleration_share}, harmonics, options.period_s},
-      {samples_per_harmonic * harmonics, harmonics},
+      {(options.separate.empty() ? samples_per_harmonic : fine_per_harmonic) * harmonics, harmonics},
       {clearances_per_harmonic * harmonics, harmonics}};
   auto const search = optimiser_of(options, judge.space.bounds(), seed);
   ExcitingMotion found;

@@ -1,8 +1,8 @@
 #pragma once
 // The motion, among Fourier motions within an arm's limits, from which its parameters can best be told.
 //
-// Fitness    condition: log10 of it; d_optimal: - log det per parameter; above all of these, by its lack, where the arm
-//            comes too near to the table or to itself at one of 64 instants of the shortest period
+// Fitness    condition: log10 of it; d_optimal: - log det per parameter; angle: minus it; above all of these, by its
+//            lack, where the arm comes too near to the table or to itself at one of 64 instants of the shortest period
 // Random     addressed by the seed: the same motion on any number of threads
 // Errors     Error 78: no motion keeps its distance; no motion tells the parameters apart; those of MotionSpace
 // Threads    splits every generation over `threads`; model.rows is called from all of them

@@ -1,6 +1,9 @@
 #include "engine/excite/motion_quality.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,8 +11,41 @@
 
 namespace torquescope {
 
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+std::vector<Index> neither(std::vector<Index> const& one, std::vector<Index> const& other, Index size) {
+  std::vector<Index> rest;
+  for (Index k = 0; k < size; ++k)
+    if (std::count(one.begin(), one.end(), k) + std::count(other.begin(), other.end(), k) == 0) rest.push_back(k);
+  return rest;
+}
+
+// gram: of columns of length one
+double angle_between(MatrixXd const& gram, std::vector<Index> const& one, std::vector<Index> const& other) {
+  std::vector<Index> both = one;
+  both.insert(both.end(), other.begin(), other.end());
+  auto const rest = neither(one, other, gram.rows());
+  MatrixXd left = gram(both, both);
+  if (!rest.empty()) {
+    Eigen::LLT<MatrixXd> const root(gram(rest, rest));
+    if (root.info() != Eigen::Success) return 0.0;
+    MatrixXd const share = root.matrixL().solve(gram(rest, both));
+    left -= share.transpose() * share;
+  }
+  auto const n = static_cast<Index>(one.size()), m = static_cast<Index>(other.size());
+  Eigen::LLT<MatrixXd> const a(left.topLeftCorner(n, n)), b(left.bottomRightCorner(m, m));
+  if (a.info() != Eigen::Success || b.info() != Eigen::Success) return 0.0;
+  MatrixXd const half = a.matrixL().solve(left.topRightCorner(n, m));
+  MatrixXd const cosines = b.matrixL().solve(half.transpose());
+  return std::acos(std::min(1.0, Eigen::JacobiSVD<MatrixXd>(cosines).singularValues()[0]));
+}
+
+}  // namespace
+
 MotionQuality motion_quality(RowModel const& model, MotionSamples const& samples) {
-  using Eigen::Index;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(model.size, model.size);
   auto const rows = model.rows(samples);
   TORQUESCOPE_EXPECT(rows.size() == model.own.size());
@@ -29,7 +65,8 @@ MotionQuality motion_quality(RowModel const& model, MotionSamples const& samples
   double const rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(model.size) * values.maxCoeff();
   if (values.minCoeff() <= rounding) return {infinite, -infinite};
   double const logarithms = values.array().log().sum() + squares.array().log().sum();
-  return {std::sqrt(values.maxCoeff() / values.minCoeff()), logarithms / static_cast<double>(model.size)};
+  return {std::sqrt(values.maxCoeff() / values.minCoeff()), logarithms / static_cast<double>(model.size),
+          model.one.empty() ? 0.0 : angle_between(scaled, model.one, model.other)};
 }
 
 }  // namespace torquescope

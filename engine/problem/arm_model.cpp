@@ -12,11 +12,13 @@
 namespace torquescope {
 namespace {
 
-std::vector<Regressor> friction_of(SerialChain const& chain, ArmTerms const& terms, Section const& model) {
-  std::vector<Regressor> friction;
-  if (terms.friction.empty()) return friction;
-  for (auto const& joint : chain.joints)
-    friction.emplace_back(terms.friction, joint.kind, terms.velocity_deadband, model);
+std::vector<std::optional<Regressor>> friction_of(SerialChain const& chain, ArmTerms const& terms,
+                                                  Section const& model) {
+  std::vector<std::optional<Regressor>> friction(chain.joints.size());
+  for (std::size_t j = 0; j < friction.size(); ++j) {
+    auto const& own = terms.joint_friction.empty() ? terms.friction : terms.joint_friction[j];
+    if (!own.empty()) friction[j].emplace(own, chain.joints[j].kind, terms.velocity_deadband, model);
+  }
   return friction;
 }
 
@@ -38,11 +40,33 @@ ArmModel::ArmModel(SerialChain chain, ArmTerms const& terms, Section const& mode
       own_[static_cast<std::size_t>(j)].push_back(k);
   }
   for (std::size_t j = 0; j < friction_.size(); ++j) {
-    for (auto column : friction_[j].column_owners()) {
+    if (!friction_[j]) continue;
+    for (auto column : friction_[j]->column_owners()) {
       own_[j].push_back(static_cast<Eigen::Index>(columns_.size()));
       column.name += fmt::format("_{}", j + 1);
       columns_.push_back(std::move(column));
     }
+  }
+  for (auto const& payload : terms.payloads) payloads_.push_back(payload_columns(chain_, base_, payload));
+  add_payload_columns();
+  if (terms.drive_gains) add_gain_columns();
+}
+
+void ArmModel::add_payload_columns() {
+  for (std::size_t p = 0; p < payloads_.size(); ++p)
+    for (std::size_t k = 0; k < payloads_[p].names.size(); ++k) {
+      RegressorColumn column{fmt::format("payload{}_{}", p + 1, payloads_[p].names[k]), payloads_[p].units[k]};
+      column.needs_position = column.needs_velocity = column.needs_acceleration = true;
+      for (auto& own : own_) own.push_back(static_cast<Eigen::Index>(columns_.size()));
+      columns_.push_back(std::move(column));
+    }
+}
+
+void ArmModel::add_gain_columns() {
+  for (std::size_t j = 0; j < joints(); ++j) {
+    gains_.push_back(static_cast<Eigen::Index>(columns_.size()));
+    own_[j].push_back(gains_.back());
+    columns_.push_back({fmt::format("gain_error_{}", j + 1), "1"});
   }
 }
 
@@ -55,7 +79,8 @@ Eigen::VectorXd ArmModel::passive_signs() const {
   }
   Eigen::Index first = base_.size();
   for (auto const& friction : friction_) {
-    auto const own = torquescope::passive_signs(friction);
+    if (!friction) continue;
+    auto const own = torquescope::passive_signs(*friction);
     signs.segment(first, own.size()) = own;
     first += own.size();
   }
@@ -86,9 +111,14 @@ std::string ArmModel::torque_unit(std::size_t joint) const {
 
 std::string ArmModel::equation() const {
   std::string text = "tau = Phi(q, dq, ddq) chi";
-  if (friction_.empty()) return text;
-  std::string const own = friction_.front().equation();
-  return text + " +" + own.substr(own.find('=') + 1) + " in each joint";
+  std::vector<std::string> laws;
+  for (auto const& friction : friction_) {
+    std::string const own = friction ? friction->equation() : "=";
+    laws.push_back(own.substr(own.find('=') + 1));
+  }
+  if (std::all_of(laws.begin(), laws.end(), [](auto const& law) { return law.empty(); })) return text;
+  bool const are_alike = std::all_of(laws.begin(), laws.end(), [&](auto const& law) { return law == laws.front(); });
+  return text + " +" + (are_alike ? laws.front() + " in each joint" : " friction of each joint");
 }
 
 void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const {
@@ -102,17 +132,43 @@ void ArmModel::fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::
   rigid_.fill(samples, rows);
 }
 
-std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion) const {
+std::vector<Eigen::Index> ArmModel::rigid_parameters(std::size_t joint) const {
+  auto const& own = own_[joint];
+  return {own.begin(), std::lower_bound(own.begin(), own.end(), base_.size())};
+}
+
+Eigen::VectorXd ArmModel::known_torque(std::size_t joint, Eigen::MatrixXd const& rows, std::size_t payload) const {
+  auto const rigid = rigid_parameters(joint);
+  return rows.leftCols(static_cast<Eigen::Index>(rigid.size())) * payloads_[payload].known(rigid);
+}
+
+std::vector<Eigen::MatrixXd> ArmModel::rows(std::vector<Motion> const& motion,
+                                            std::optional<std::size_t> payload) const {
   TORQUESCOPE_EXPECT(motion.size() == joints());
   Eigen::Index const n = motion.front().q.size();
   std::vector<Eigen::MatrixXd> rows;
   for (std::size_t j = 0; j < joints(); ++j) {
     TORQUESCOPE_EXPECT(motion[j].q.size() == n);
-    rows.emplace_back(n, static_cast<Eigen::Index>(own_[j].size()));
-    if (!friction_.empty())
-      rows[j].rightCols(static_cast<Eigen::Index>(friction_[j].size())) = friction_[j].columns(motion[j]);
+    rows.emplace_back(Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(own_[j].size())));
   }
   fill_rigid(motion, rows);
+  for (std::size_t j = 0; j < joints(); ++j) {
+    auto const rigid = rigid_parameters(j);
+    auto next = static_cast<Eigen::Index>(rigid.size());
+    if (friction_[j]) {
+      auto const count = static_cast<Eigen::Index>(friction_[j]->size());
+      rows[j].middleCols(next, count) = friction_[j]->columns(motion[j]);
+      next += count;
+    }
+    for (std::size_t p = 0; p < payloads_.size(); ++p) {
+      auto const& unknown = payloads_[p].unknown;
+      if (payload == p)
+        rows[j].middleCols(next, unknown.cols()) =
+            rows[j].leftCols(static_cast<Eigen::Index>(rigid.size())) * unknown(rigid, Eigen::all);
+      next += unknown.cols();
+    }
+    if (!gains_.empty()) rows[j].col(next) = -motion[j].torque;
+  }
   return rows;
 }
 

@@ -1,17 +1,18 @@
 #pragma once
-// The model of an arm as linear parameters: the base parameters of its links and drives, then the friction of each
-// joint.
+// The model of an arm as linear parameters: the base parameters of its links and drives, the friction of each joint,
+// what is not known of its payloads, the errors of its drive gains.
 //
-// Equation   tau_j = y_j(q, dq, ddq) chi + f_j(q_j, dq_j, ddq_j) phi_j; row j has the links from j on, its own drive
-//            and its own friction
-// Order      base parameters as robot/base_parameters.hpp has them; friction of joint 1, of joint 2, ...; names end in
-//            the joint's number: "viscous_3"
+// Equation   (1 + g_j) tau_j = y_j(q, dq, ddq) (chi + payload) + f_j(q_j, dq_j, ddq_j) phi_j; row j has the links from
+//            j on, its own drive and its own friction; the column of g_j is - tau_j
+// Order      base parameters (robot/base_parameters.hpp); friction of joint 1, 2, ...: "viscous_3"; unknown numbers of
+//            each payload (robot/payload.hpp): "payload1_mx6"; "gain_error_3"
 // Shapes     N joints, R parameters, n samples
 // Errors     Error 78 as Regressor(), of the effects that each joint has beside the rigid arm
 // Threads    immutable
 // Source     Khalil and Dombre 2002, Modeling, Identification and Control of Robots, chapter 12
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,18 @@
 #include "engine/effects/regressor.hpp"
 #include "engine/robot/arm_rows.hpp"
 #include "engine/robot/base_parameters.hpp"
+#include "engine/robot/payload.hpp"
 #include "engine/robot/serial_chain.hpp"
 
 namespace torquescope {
 
 struct ArmTerms {
-  std::vector<std::string> friction{};
+  std::vector<std::string> friction{};                     // of every joint
+  std::vector<std::vector<std::string>> joint_friction{};  // [N] of each, in place of it; empty: all are alike
   DriveInertias drives = DriveInertias::included;
   double velocity_deadband = 0.0;
+  std::vector<Payload> payloads{};
+  bool drive_gains = false;
 };
 
 class ArmModel {
@@ -37,6 +42,8 @@ class ArmModel {
   SerialChain const& chain() const { return chain_; }
   BaseParameters const& base() const { return base_; }
   DriveInertias drives() const { return drives_; }
+  // of each joint, where it has any
+  std::vector<std::optional<Regressor>> const& friction() const { return friction_; }
   std::size_t joints() const { return chain_.joints.size(); }
   std::size_t size() const { return columns_.size(); }
   std::vector<RegressorColumn> const& columns() const { return columns_; }
@@ -51,17 +58,30 @@ class ArmModel {
   // parameters that row `joint` depends on, ascending
   std::vector<Eigen::Index> const& parameters_of(std::size_t joint) const { return own_[joint]; }
 
-  // of each joint the columns of its own parameters, n x parameters_of(joint); one motion a joint, equal lengths
-  std::vector<Eigen::MatrixXd> rows(std::vector<Motion> const& motion) const;
+  // [N] of the errors of the gains; empty where gains are no parameters
+  std::vector<Eigen::Index> const& gain_columns() const { return gains_; }
+  std::vector<PayloadColumns> const& payloads() const { return payloads_; }
+
+  // of each joint the columns of its own parameters, n x parameters_of(joint); one motion a joint, equal lengths, with
+  // torques if gains are parameters. payload: which one the arm carries
+  std::vector<Eigen::MatrixXd> rows(std::vector<Motion> const& motion, std::optional<std::size_t> payload = {}) const;
+  // [n] of one joint: what is known of a payload, from the joint's rows
+  Eigen::VectorXd known_torque(std::size_t joint, Eigen::MatrixXd const& rows, std::size_t payload) const;
 
  private:
+  void add_payload_columns();
+  void add_gain_columns();
   void fill_rigid(std::vector<Motion> const& motion, std::vector<Eigen::MatrixXd>& rows) const;
+  // base parameters of a joint's rows: its first columns
+  std::vector<Eigen::Index> rigid_parameters(std::size_t joint) const;
 
   SerialChain chain_;
   DriveInertias drives_;
   BaseParameters base_;
   ArmRows rigid_;
-  std::vector<Regressor> friction_;  // one a joint, or none
+  std::vector<std::optional<Regressor>> friction_;
+  std::vector<PayloadColumns> payloads_;
+  std::vector<Eigen::Index> gains_;
   std::vector<RegressorColumn> columns_;
   std::vector<std::vector<Eigen::Index>> own_;
 };

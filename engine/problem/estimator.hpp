@@ -24,6 +24,7 @@ struct EstimatorChoice {
   std::vector<OptionDescription> options;
   // reads the options of an [[estimator]] section ("name" and other callers' keys in `ignored`), appending problems
   std::function<Estimate(Section const&, std::vector<std::string> const& ignored, std::vector<Problem>&)> prepare;
+  bool needs_instruments = false;  // RegressionData::Arm::instruments
 };
 
 // every estimator that CMakeLists.txt lists, in that order

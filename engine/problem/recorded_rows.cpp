@@ -39,7 +39,7 @@ JointRows picked_rows(JointRows const& all, std::vector<Eigen::Index> const& row
 
 RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const& motion,
                                 std::vector<std::vector<bool>> const& moves, FilterOptions const& options,
-                                ArmModel const& model, Section const& section) {
+                                ArmModel const& model, Section const& section, std::optional<std::size_t> payload) {
   TORQUESCOPE_EXPECT(moves.size() == motion.size() && motion.size() == model.joints());
   auto const& first = motion.front();
   ParallelFilter const filter(options, first.rate_hz, first.q.size(), section);
@@ -49,12 +49,13 @@ RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const
   rows.kept_rate_hz = filter.kept_rate_hz();
   rows.instants = filter.kept_samples();
   auto const out = left_out_instants(motion, options, filter);
-  auto columns = model.rows(motion);
+  auto columns = model.rows(motion, payload);
   for (std::size_t j = 0; j < motion.size(); ++j) {
     JointRows all;
+    all.torque = filter.apply(payload ? (motion[j].torque - model.known_torque(j, columns[j], *payload)).eval()
+                                      : motion[j].torque);
     all.columns = filter.apply_columns(columns[j]);
     columns[j].resize(0, 0);
-    all.torque = filter.apply(motion[j].torque);
     all.time_s = filter.pick(motion[j].time_s);
     all.q = filter.pick(motion[j].q);
     all.dq = filter.pick(motion[j].dq);

@@ -29,9 +29,10 @@ struct RecordedRows {
   std::vector<JointRows> moving, others;  // [N]
 };
 
-// motion: one a joint; moves: [N][n], true where the joint surely moves one way
+// motion: one a joint; moves: [N][n], true where the joint surely moves one way; payload: which one the arm carries.
+// torque is without what is known of the payload
 RecordedRows make_recorded_rows(std::string recording, std::vector<Motion> const& motion,
                                 std::vector<std::vector<bool>> const& moves, FilterOptions const& options,
-                                ArmModel const& model, Section const& filter);
+                                ArmModel const& model, Section const& filter, std::optional<std::size_t> payload = {});
 
 }  // namespace torquescope

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,9 @@ struct RegressionData {
     std::vector<Eigen::Index> instant;        // [n] rows of several joints at the same time have the same
     std::vector<Eigen::Index> first_instant;  // [files + 1]
     Eigen::VectorXd scale;                    // [joints] rows of a joint were divided by it: its noise, N m or N
+    std::vector<Eigen::Index> gain_column{};  // [joints] of the error of its gain; empty: gains are no parameters
+    // [n][R] phi along the motion that an arm of these parameters makes without noise; none unless an estimator asks
+    std::function<Eigen::MatrixXd(Eigen::VectorXd const& parameters)> instruments{};
 
     std::size_t joints() const { return static_cast<std::size_t>(scale.size()); }
   };

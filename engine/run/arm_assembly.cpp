@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -16,6 +17,8 @@
 #include "engine/problem/arm_regression.hpp"
 #include "engine/problem/recorded_rows.hpp"
 #include "engine/robot/robot_registry.hpp"
+#include "engine/run/arm_instruments.hpp"
+#include "engine/run/arm_keys.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/recordings_of_job.hpp"
 #include "engine/run/sample_range.hpp"
@@ -25,7 +28,11 @@ namespace torquescope {
 namespace {
 
 using Joints = std::vector<Recording>;  // of one arm recording
-using Files = std::vector<Joints>;
+struct File {
+  Joints joints;
+  std::optional<std::size_t> payload{};  // which one the arm carries
+};
+using Files = std::vector<File>;
 
 // everything that decides the columns of a regressor, and what a result keeps of the robot beside it
 std::string digest_of(SerialChain const& chain) {
@@ -46,34 +53,42 @@ std::string digest_of(SerialChain const& chain) {
 }
 
 Files read_files(Job const& job, std::vector<std::string> const& files, RecordingOptions const& options,
-                 std::vector<std::string> const& joint_names) {
+                 CarriedPayloads const& payloads, std::vector<std::string> const& joint_names) {
   Section const section = section_or_empty(job, "recording");
   auto const of_joints = joint_options(options, joint_names, section);
   Files recordings;
-  for (auto const& file : files) {
-    RawTable const table = read_table(job.resolve(file), section);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    RawTable const table = read_table(job.resolve(files[k]), section);
     for (auto const& one : of_joints) refuse_huge_samples(table, one);
-    recordings.push_back(make_arm_recording(table, of_joints, joint_names, section).joints);
+    recordings.push_back({make_arm_recording(table, of_joints, joint_names, section).joints, payloads[k]});
   }
   return recordings;
 }
 
+// of the first estimator that needs instruments; nullptr: none does
+Section const* instrumental_section(Experiment::Parts const& parts) {
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < parts.estimators.size(); ++i)
+    if (parts.estimators[i].needs_instruments) return sections[i];
+  return nullptr;
+}
+
 void split_files(Files& train, Files& unseen, double share) {
   if (share >= 1.0) return;
-  for (auto& joints : train) {
+  for (auto& [joints, payload] : train) {
     Joints tails;
     split_off_unseen(joints, tails, share);
-    unseen.push_back(std::move(tails));
+    unseen.push_back({std::move(tails), payload});
   }
 }
 
 void bring_files_to_one_rate(Files& train, Files& unseen) {
   Joints first_of_train, first_of_unseen;
-  for (auto const& joints : train) first_of_train.push_back(joints.front());
-  for (auto const& joints : unseen) first_of_unseen.push_back(joints.front());
+  for (auto const& file : train) first_of_train.push_back(file.joints.front());
+  for (auto const& file : unseen) first_of_unseen.push_back(file.joints.front());
   double const rate_hz = rate_of_job(first_of_train, first_of_unseen);
   for (auto* files : {&train, &unseen})
-    for (auto& joints : *files) bring_to_rate(joints, rate_hz);
+    for (auto& file : *files) bring_to_rate(file.joints, rate_hz);
 }
 
 // an arm of which no joint moves tells nothing; one joint that stands still is worth a warning
@@ -92,13 +107,13 @@ void grade_standstill(Joints& joints) {
 FilterSuggestion suggest_filter_of(SerialChain const& chain, Files const& train, Files const& unseen) {
   double shortest_s = std::numeric_limits<double>::infinity();
   for (auto const* files : {&train, &unseen})
-    for (auto const& joints : *files)
+    for (auto const& [joints, payload] : *files)
       shortest_s = std::min(shortest_s, static_cast<double>(joints.front().position.size()) / joints.front().rate_hz);
   FilterSuggestion best;
   for (auto const kind : {JointKind::revolute, JointKind::prismatic}) {
     Joints alike;
     for (std::size_t j = 0; j < chain.joints.size(); ++j)
-      if (chain.joints[j].kind == kind) alike.push_back(train.front()[j]);
+      if (chain.joints[j].kind == kind) alike.push_back(train.front().joints[j]);
     if (alike.empty()) continue;
     FilterSuggestion const one = suggest_arm_filter(alike, shortest_s);
     if (one.options.cutoff_hz > best.options.cutoff_hz) best = one;
@@ -116,8 +131,10 @@ void choose_filter(Experiment::Parts& parts, Files const& train, Files const& un
   parts.noise_hz = suggestion.noise_hz;
 }
 
-// one recording of the arm: its rows, and into `set` what is to be said about it
-RecordedRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, DataSet& set) {
+// one recording of the arm: its rows, and into `set` what is to be said about it; into `track`, if there is one, what
+// its instruments are made from
+RecordedRows prepare_recording(File&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track) {
+  auto& joints = file.joints;
   Section const filter = section_or_empty(parts.job, "filter");
   auto const& model = parts.arm->model;
   auto const names = model.joint_names();
@@ -128,6 +145,7 @@ RecordedRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, 
   set.n_samples.push_back(static_cast<std::size_t>(joints.front().time_s.size()));
   std::vector<Motion> motion;
   std::vector<std::vector<bool>> moves;
+  if (track != nullptr) track->joints = joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     auto& joint = joints[j];
     char const* const unit = model.chain().joints[j].kind == JointKind::revolute ? "rad" : "m";
@@ -141,16 +159,34 @@ RecordedRows prepare_recording(Joints&& joints, Experiment::Parts const& parts, 
     set.excitation.push_back(facts);
     moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
   }
+  if (track != nullptr) track->moves = moves;
   whole.findings = joined_findings(whole.findings);
-  auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter);
+  auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
   return rows;
 }
 
-std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set) {
+std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set,
+                                        std::vector<ArmTrack>* tracks = nullptr) {
   std::vector<RecordedRows> rows;
-  for (auto& joints : files) rows.push_back(prepare_recording(std::move(joints), parts, set));
+  for (auto& file : files) {
+    ArmTrack* const track = tracks != nullptr ? &tracks->emplace_back() : nullptr;
+    rows.push_back(prepare_recording(std::move(file), parts, set, track));
+  }
   return rows;
+}
+
+// an estimator that simulates what the arm was asked to do must be told what that was
+void require_references(Experiment::Parts const& parts, Files const& train) {
+  auto const is_there = [](Recording const& joint) { return joint.reference.size() > 0; };
+  std::vector<Problem> problems;
+  for (auto const& [joints, payload] : train)
+    if (!std::all_of(joints.begin(), joints.end(), is_there))
+      problems.push_back(problem_at(*instrumental_section(parts), "name",
+                                    joints.front().name + " has no commanded positions: iv has no instruments",
+                                    "name them in recording.columns, as reference = \"q_ref{j}_rad\"; without them use "
+                                    "wls"));
+  if (!problems.empty()) throw Error(std::move(problems));
 }
 
 void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts, DataSet& set) {
@@ -163,10 +199,17 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
 }
 
 void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
-  auto const rows = prepare_files(std::move(train), parts, parts.train);
+  std::vector<ArmTrack> tracks;
+  bool const is_instrumental = instrumental_section(parts) != nullptr;
+  if (is_instrumental) require_references(parts, train);
+  auto const rows = prepare_files(std::move(train), parts, parts.train, is_instrumental ? &tracks : nullptr);
   parts.arm->grams = filtered_grams(rows, parts.arm->model);
   parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
   stack(rows, parts, parts.train);
+  if (is_instrumental)
+    parts.train.regression.arm->instruments = instruments_of(
+        std::move(tracks),
+        {parts.arm->model, parts.filter, section_or_empty(parts.job, "filter"), parts.arm->noise.deviation});
   if (unseen.empty()) return;
   parts.validate.emplace();
   stack(prepare_files(std::move(unseen), parts, *parts.validate), parts, *parts.validate);
@@ -174,44 +217,35 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 
 }  // namespace
 
-void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
-  if (Section const* model = job.find("model")) {
-    for (auto const* key : {"terms", "joint"})
-      if (model->find(key) != nullptr)
-        problems.push_back(problem_at(*model, key, std::string("model.") + key + " beside model.robot",
-                                      "the robot file says how its joints move; what each has beside the rigid arm is "
-                                      "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
-  }
-  if (purpose == Experiment::Purpose::diagnose)
-    problems.push_back(problem_at(*job.find("model"), "robot", "an arm cannot be diagnosed yet",
-                                  "`torquescope run` identifies it; for one joint write a job without robot, with "
-                                  "recording.simulated_torque = the column of your arm model's torque"));
-}
-
-ArmParts read_arm(Job const& job, ModelOptions const& options) {
-  ArmTerms const terms{options.friction, options.drive_inertia ? DriveInertias::included : DriveInertias::left_out,
-                       options.velocity_deadband};
+ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
   SerialChain chain = read_robot(job.resolve(options.robot));
+  ArmTerms terms{options.friction};
+  terms.joint_friction = read_joint_friction(job, options.friction, chain.joints.size());
+  terms.drives = options.drive_inertia ? DriveInertias::included : DriveInertias::left_out;
+  terms.velocity_deadband = options.velocity_deadband;
+  terms.payloads = payloads;
+  terms.drive_gains = options.drive_gains;
   std::string const sha256 = digest_of(chain);
   return {ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
 }
 
-void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options) {
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads) {
   auto const names = parts.arm->model.joint_names();
-  Files train = read_files(parts.job, options.train, options, names);
-  Files unseen = read_files(parts.job, options.validate, options, names);
+  Files train = read_files(parts.job, options.train, options, payloads.train, names);
+  Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names);
   split_files(train, unseen, options.train_share);
   bring_files_to_one_rate(train, unseen);
-  for (auto& joints : train) grade_standstill(joints);
+  for (auto& file : train) grade_standstill(file.joints);
   choose_filter(parts, train, unseen);
   use_recordings(parts, std::move(train), std::move(unseen));
 }
 
 void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan) {
   auto simulated = simulate_arms(plan, static_cast<std::uint64_t>(parts.experiment.seed));
-  Files train;
-  train.push_back(std::move(simulated.train));
-  use_recordings(parts, std::move(train), std::move(simulated.validate));
+  Files train, unseen;
+  train.push_back({std::move(simulated.train)});
+  for (auto& joints : simulated.validate) unseen.push_back({std::move(joints)});
+  use_recordings(parts, std::move(train), std::move(unseen));
   parts.train.simulated = true;
   if (parts.validate) parts.validate->simulated = true;
   // without drives the base parameters gather something else

@@ -1,24 +1,22 @@
 #pragma once
 // From a job with model.robot to the parts of an Experiment: the arm, its recordings joint by joint, and their rows.
 //
-// Errors     those of read_robot(), ArmModel, make_arm_recording() and the filters
+// Errors     those of read_robot(), read_joint_friction(), ArmModel, make_arm_recording() and the filters
 // Threads    free functions
 
 #include <vector>
 
 #include "engine/effects/model_options.hpp"
+#include "engine/run/arm_payloads.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/simulate/arm_simulation_plan.hpp"
 
 namespace torquescope {
 
-// what only a job about one joint may have, and commands that do not work on arms yet (78)
-void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems);
-
-ArmParts read_arm(Job const& job, ModelOptions const& options);
+ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads = {});
 
 // fills train, validate, the filter where the job has none, and what the arm's training rows tell
-void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options);
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads);
 // the same, and truth, from a simulation
 void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan);
 

@@ -14,6 +14,7 @@
 #include "engine/problem/position_factor.hpp"
 #include "engine/run/arm_assembly.hpp"
 #include "engine/run/arm_findings.hpp"
+#include "engine/run/arm_keys.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/fit_findings.hpp"
 #include "engine/run/foreign_file.hpp"
@@ -267,10 +268,13 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   check_work(job, purpose, problems);
   parts->diagnose = read_options<DiagnoseOptions>(job, problems);
   parts->estimators = plan_estimators(job.all("estimator"), problems);
+  PayloadPlan payloads;
   try {
     if (is_arm) {
       refuse_joint_keys(job, purpose, problems);
-      parts->arm = read_arm(job, model);
+      payloads = plan_payloads(job, recording, model.drive_gains, problems);
+      parts->arm = read_arm(job, model, payloads.payloads);
+      refuse_useless_payloads(*parts, problems);
     } else {
       parts->regressor = make_regressor(model, section_or_empty(job, "model"));
       parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,
@@ -280,6 +284,7 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
   }
+  if (!is_arm) refuse_arm_keys(job, parts->estimators, problems);
   bool const simulates = job.find("simulate") != nullptr;
   SimulationPlan plan;
   ArmSimulationPlan arm_plan;
@@ -295,7 +300,7 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   if (is_arm && simulates) {
     use_arm_simulation(*parts, arm_plan);
   } else if (is_arm) {
-    use_arm_files(*parts, recording);
+    use_arm_files(*parts, recording, payloads);
   } else {
     if (simulates)
       use_simulation(*parts, plan, channels);

@@ -112,6 +112,7 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
       "A lower one makes "
       "errors smaller, not the model better: compare errors at the same one only."};
   add_section<ModelOptions>(entries);
+  add_section<JointModelOptions>(entries);
   entries.push_back(
       {"model.bounds",
        "section",

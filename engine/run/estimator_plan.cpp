@@ -97,6 +97,7 @@ EstimatorPlan plan_population_method(OptimiserChoice const& choice, Section cons
 EstimatorPlan plan_closed_form(EstimatorChoice const& choice, Section const& section, EstimatorPlan plan,
                                std::vector<Problem>& problems) {
   plan.fit = choice.prepare(section, keys_of(EstimatorOptions::table()), problems);
+  plan.needs_instruments = choice.needs_instruments;
   append_options(choice.options, section, plan);
   return plan;
 }

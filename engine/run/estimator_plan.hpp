@@ -36,6 +36,7 @@ struct EstimatorPlan {
 
   // closed forms
   Estimate fit{};
+  bool needs_instruments = false;
 
   // population methods
   std::function<std::unique_ptr<Optimiser>(Bounds const&, RandomKey)> make_optimiser{};
@@ -48,5 +49,4 @@ struct EstimatorPlan {
 
 // one plan per section, in their order
 std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& sections, std::vector<Problem>& problems);
-
 }  // namespace torquescope

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "engine/effects/model_options.hpp"
 #include "engine/excite/excitation_search.hpp"
@@ -12,6 +13,7 @@
 #include "engine/run/arm_motion_file.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/separated_columns.hpp"
 #include "engine/run/workflows.hpp"
 #include "engine/store/temp_file.hpp"
 
@@ -24,19 +26,19 @@ RowModel row_model(ArmModel const& model, ExciteOptions const& options) {
   rows.size = static_cast<Eigen::Index>(model.size());
   for (std::size_t j = 0; j < model.joints(); ++j) rows.own.push_back(model.parameters_of(j));
   rows.noise = torque_noise(model.chain(), options);
-  rows.rows = [&model](MotionSamples const& samples) {
-    std::vector<Motion> motion(model.joints());
-    for (std::size_t j = 0; j < motion.size(); ++j) {
-      auto const at = static_cast<Eigen::Index>(j);
-      motion[j].rate_hz = 1.0 / (samples.time_s[1] - samples.time_s[0]);
-      motion[j].time_s = samples.time_s;
-      motion[j].q = samples.q.col(at);
-      motion[j].dq = samples.dq.col(at);
-      motion[j].ddq = samples.ddq.col(at);
-    }
-    return model.rows(motion);
-  };
+  rows.rows = [&model](MotionSamples const& samples) { return model.rows(joint_motions(samples)); };
   return rows;
+}
+
+// simulate.noise.torque_std of an arm, where there is noise at every joint
+std::vector<double> simulated_noise(Job const& job) {
+  Section const* noise = job.find("simulate.noise");
+  Setting const* written = noise != nullptr ? noise->find("torque_std") : nullptr;
+  auto const value = written != nullptr ? converted(written->value, OptionValue(std::vector<double>())) : std::nullopt;
+  if (!value) return {};
+  auto const numbers = std::get<std::vector<double>>(*value);
+  bool const is_loud = std::all_of(numbers.begin(), numbers.end(), [](double one) { return one > 0.0; });
+  return is_loud ? numbers : std::vector<double>();
 }
 
 void require_robot(Job const& job, ModelOptions const& model, std::vector<Problem>& problems) {
@@ -56,24 +58,30 @@ ExciteReport excite_arm(std::filesystem::path const& job_file, std::filesystem::
   std::vector<Problem> problems;
   check_section_names(job, problems);
   auto const experiment = read_options<ExperimentOptions>(job, problems);
-  auto const model_options = read_options<ModelOptions>(job, problems);
-  auto const options = read_options<ExciteOptions>(job, problems);
+  auto model_options = read_options<ModelOptions>(job, problems);
+  model_options.drive_gains = false;  // a motion has no torque
+  auto options = read_options<ExciteOptions>(job, problems);
+  if (options.torque_noise.empty()) options.torque_noise = simulated_noise(job);
   require_robot(job, model_options, problems);
   if (!problems.empty()) throw Error(std::move(problems));
   ArmParts const arm = read_arm(job, model_options);
   SerialChain const& chain = arm.model.chain();
-  check_excite(options, chain.joints.size(), section_or_empty(job, "excite"), problems);
+  Section const excite = section_or_empty(job, "excite");
+  check_excite(options, chain.joints.size(), excite, problems);
+  RowModel const rows = with_separated(row_model(arm.model, options), arm.model, options, excite, problems);
   if (!problems.empty()) throw Error(std::move(problems));
 
   // the motion
-  auto const seed = static_cast<std::uint64_t>(options.seed >= 0 ? options.seed : experiment.seed);
-  ExcitingMotion const found = search_excitation(chain, row_model(arm.model, options), options, seed, threads);
+  auto const seed = static_cast<std::uint64_t>(experiment.seed);
+  ExcitingMotion const found = search_excitation(chain, rows, options, seed, threads);
   auto const n = static_cast<Eigen::Index>(std::llround(options.period_s * options.rate_hz));
   auto const samples = samples_of(found.motion, FourierTable(n, options.harmonics));
+  std::string const criterion =
+      options.separate.empty() ? options.criterion : fmt::format("separate {}", fmt::join(options.separate, " from "));
   std::string const comment = fmt::format(
       "# {}: motion by torquescope excite; {}, {} harmonics of {:g} s, seed {}\n"
       "# condition {:.4g}, log determinant per parameter {:.4g}\n",
-      chain.name, options.criterion, options.harmonics, options.period_s, seed, found.best.condition,
+      chain.name, criterion, options.harmonics, options.period_s, seed, found.best.condition,
       found.best.log_determinant);
   std::string const text = arm_motion_text(samples, chain, comment);
   TempFile file(output);
@@ -85,6 +93,8 @@ ExciteReport excite_arm(std::filesystem::path const& job_file, std::filesystem::
           found.best.condition,
           found.usual.log_determinant,
           found.best.log_determinant,
+          found.usual.angle,
+          found.best.angle,
           static_cast<std::size_t>(found.evaluations),
           static_cast<std::size_t>(n) + 1,
           options.period_s,

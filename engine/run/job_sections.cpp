@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace torquescope {
 
@@ -11,6 +12,7 @@ std::vector<std::string> const& known_sections() {
                                               "recording",
                                               "filter",
                                               "model",
+                                              "model.joint_1",
                                               "model.bounds",
                                               "estimator",
                                               "simulate",
@@ -26,10 +28,20 @@ std::vector<std::string> const& known_sections() {
   return names;
 }
 
+std::optional<std::size_t> joint_of_section(std::string const& name) {
+  std::string const before = "model.joint_";
+  if (!name.starts_with(before)) return {};
+  std::size_t number = 0;
+  char const* const end = name.data() + name.size();
+  auto const read = std::from_chars(name.data() + before.size(), end, number);
+  if (read.ec != std::errc() || read.ptr != end) return {};
+  return number;
+}
+
 void check_section_names(Job const& job, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < job.sections.size(); ++i) {
     Section const& section = job.sections[i];
-    bool known = false;
+    bool known = joint_of_section(section.name).has_value();
     for (auto const& name : known_sections()) known = known || name == section.name;
     if (known) continue;
     Problem problem;

@@ -3,6 +3,7 @@
 //
 // Errors     problems are appended (78)
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 namespace torquescope {
 
 std::vector<std::string> const& known_sections();
+// J of "model.joint_J"; nothing of any other section
+std::optional<std::size_t> joint_of_section(std::string const& name);
 void check_section_names(Job const& job, std::vector<Problem>& problems);
 
 // an absent section is an empty one: all defaults

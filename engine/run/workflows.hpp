@@ -177,6 +177,7 @@ struct ExciteReport {
   std::size_t parameters = 0;
   double usual_condition = 0.0, condition = 0.0;  // of random Fourier motions within the limits; of the one found
   double usual_log_determinant = 0.0, log_determinant = 0.0;  // per parameter
+  double usual_angle = 0.0, angle = 0.0;                      // rad, between the two to separate; 0: not asked for
   std::size_t evaluations = 0, samples = 0;
   double seconds = 0.0, rate_hz = 0.0;
 };

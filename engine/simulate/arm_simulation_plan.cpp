@@ -11,8 +11,6 @@ namespace torquescope {
 
 namespace {
 
-constexpr double arm_step_s = 2.5e-4;
-
 Section written_or_empty(Section const* section, Section const* simulate, std::string const& name) {
   if (section) return *section;
   return {name, simulate ? simulate->place : SourcePlace{}, {}};

@@ -14,6 +14,9 @@
 
 namespace torquescope {
 
+// small enough for dry friction of light wrists
+inline constexpr double arm_step_s = 2.5e-4;
+
 struct ArmSimulationSections {
   SimulationSections simulate{};
   std::vector<Section const*> effects{};  // [[simulate.effects]], each with joint = and name =

@@ -122,16 +122,9 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
   ReferenceSignal const reference(track_.reference);
-  LoopLaw const& law = loop_.law;
-  open_.resize(n);
+  open_ = open_part(loop_.law, track_.reference);
   wanted_.resize(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    wanted_[k] = reference(k + law.shift);
-    open_[k] = law.constant;
-    for (std::size_t j = 0; j < law.reference.size(); ++j)
-      open_[k] += law.reference[j] * reference(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
-    for (auto const& term : law.terms) open_[k] += term.gain * term(reference, k);
-  }
+  for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.law.shift);
 }
 
 void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const {

@@ -15,4 +15,16 @@ double LoopLaw::velocity_gain(double rate_hz) const {
   return sum / rate_hz;
 }
 
+Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference) {
+  ReferenceSignal const signal(reference);
+  Eigen::VectorXd open(reference.size());
+  for (Eigen::Index k = 0; k < open.size(); ++k) {
+    open[k] = law.constant;
+    for (std::size_t j = 0; j < law.reference.size(); ++j)
+      open[k] += law.reference[j] * signal(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
+    for (auto const& term : law.terms) open[k] += term.gain * term(signal, k);
+  }
+  return open;
+}
+
 }  // namespace torquescope

@@ -9,6 +9,7 @@
 // Units      q, r rad or m; u N m or N; gains their quotients
 // Threads    plain record
 
+#include <Eigen/Core>
 #include <limits>
 #include <vector>
 
@@ -32,5 +33,8 @@ struct LoopLaw {
   // -u per unit of a constant velocity of the joint alone, beside the proportional part; N m s/rad or N s/m
   double velocity_gain(double rate_hz) const;
 };
+
+// [n] the part of u that the joint does not change: constant, reference and its terms
+Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference);
 
 }  // namespace torquescope

@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <system_error>
 
 #include "engine/app/commands/command.hpp"
@@ -34,6 +35,11 @@ ExitCode excite(ExciteArguments const& arguments, Session const& session) {
   ExciteReport const report = excite_arm(arguments.job, arguments.out, choose_threads(arguments.threads).count);
   session.note(fmt::format("{}: {} parameters, {} motions tried\n", printable(report.robot), report.parameters,
                            count_text(static_cast<std::int64_t>(report.evaluations))));
+  if (report.angle > 0.0) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    session.note(fmt::format("angle              {:.3g} degrees, of random motions {:.3g}\n", degrees * report.angle,
+                             degrees * report.usual_angle));
+  }
   session.note(
       fmt::format("condition          {:.4g}, of random motions {:.4g}\n", report.condition, report.usual_condition));
   // of the information: standard errors shrink by its root

@@ -40,6 +40,36 @@ TEST(MotionQuality, IsThatOfTheStackedRows) {
   EXPECT_NEAR(quality.condition, values[0] / values[model.size - 1], 1e-8 * quality.condition);
 }
 
+// by projections and singular values, without a Gram
+TEST(MotionQuality, TheAngleIsThatOfTheColumnsBesideAllOthers) {
+  auto const chain = test::limited_crs(2);
+  auto model = test::row_model(chain);
+  auto const samples = some_motion(chain);
+  auto const rows = model.rows(samples);
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(2 * 80, model.size);
+  for (std::size_t j = 0; j < 2; ++j)
+    for (std::size_t c = 0; c < model.own[j].size(); ++c)
+      stacked.block(80 * static_cast<Index>(j), model.own[j][c], 80, 1) = rows[j].col(static_cast<Index>(c));
+  // viscous of joint 1 and base parameter 0, from viscous and Coulomb of joint 2
+  model.one = {model.size - 4, 0};
+  model.other = {model.size - 2, model.size - 1};
+  std::vector<Index> rest;
+  for (Index k = 1; k < model.size; ++k)
+    if (k != model.size - 4 && k < model.size - 2) rest.push_back(k);
+  auto const range = [](Eigen::MatrixXd const& columns) {
+    return Eigen::MatrixXd(Eigen::JacobiSVD<Eigen::MatrixXd>(columns, Eigen::ComputeThinU).matrixU());
+  };
+  Eigen::MatrixXd const others = range(stacked(Eigen::all, rest));
+  auto const beside = [&](std::vector<Index> const& which) {
+    Eigen::MatrixXd const columns = stacked(Eigen::all, which);
+    return range(columns - others * (others.transpose() * columns));
+  };
+  Eigen::MatrixXd const cosines = beside(model.one).transpose() * beside(model.other);
+  double const expected = std::acos(Eigen::JacobiSVD<Eigen::MatrixXd>(cosines).singularValues()[0]);
+  EXPECT_NEAR(motion_quality(model, samples).angle, expected, 1e-6);
+  EXPECT_GT(expected, 0.1);
+}
+
 // 32 base parameters with drives (29 + 3), and viscous and Coulomb friction of five joints
 TEST(MotionQuality, FiveJointsOfTheCrsCanBeTold) {
   auto const chain = test::limited_crs(5);

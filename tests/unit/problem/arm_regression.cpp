@@ -6,100 +6,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "engine/base/random_stream.hpp"
 #include "engine/problem/arm_accuracy.hpp"
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/filtered_grams.hpp"
-#include "engine/robot/inverse_dynamics.hpp"
-#include "engine/robot/robot_registry.hpp"
 #include "support/decompositions.hpp"
+#include "unit/problem/arm_data.hpp"
 
 namespace torquescope {
 namespace arm_regression_test {
 
-std::vector<std::string> const friction{"viscous", "coulomb", "offset"};
-std::vector<double> const noise{0.4, 0.9, 0.3, 0.05, 0.02};  // N m
-
-// five joints with synthetic masses
-ArmModel crs(DriveInertias drives = DriveInertias::included) {
-  auto chain = read_robot(std::filesystem::path(TORQUESCOPE_SOURCE_DIR) / "jobs/robots/crs_a465.toml");
-  return {std::move(chain), {friction, drives}, Section{"model", {}, {}}};
-}
-
-// three incommensurate sines a joint, all joints different
-std::vector<Motion> motion_of(std::size_t joints, Eigen::Index n, std::uint32_t draw) {
-  std::vector<Motion> motion(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
-    auto& one = motion[j];
-    one.rate_hz = 50.0;
-    for (auto signal : {&Motion::time_s, &Motion::q, &Motion::dq, &Motion::ddq, &Motion::torque})
-      (one.*signal).setZero(n);
-    RandomStream random({1, draw, RandomDomain::test}, 0, static_cast<std::uint32_t>(j));
-    for (int k = 0; k < 3; ++k) {
-      double const w = random.uniform(1.0, 5.0), phase = random.uniform(0.0, 6.28), amplitude = 1.2 / w;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        one.time_s[i] = static_cast<double>(i) / one.rate_hz;
-        double const x = w * one.time_s[i] + phase;
-        one.q[i] += amplitude * std::sin(x);
-        one.dq[i] += amplitude * w * std::cos(x);
-        one.ddq[i] -= amplitude * w * w * std::sin(x);
-      }
-    }
-  }
-  return motion;
-}
-
-double friction_torque(std::size_t joint, double dq) {
-  double const j = static_cast<double>(joint) + 1.0;
-  return 0.7 / j * dq + 1.1 / j * (dq > 0.0 ? 1.0 : -1.0) - 0.1 * j;
-}
-
-// by the inverse dynamics of the whole links, not by the regressor
-void add_torque(ArmModel const& model, std::vector<Motion>& motion) {
-  auto const parameters = standard_parameters(model.chain(), DriveInertias::included);
-  auto const joints = static_cast<Eigen::Index>(motion.size());
-  Eigen::VectorXd q(joints), dq(joints), ddq(joints);
-  for (Eigen::Index i = 0; i < motion.front().q.size(); ++i) {
-    for (Eigen::Index j = 0; j < joints; ++j) {
-      auto const& one = motion[static_cast<std::size_t>(j)];
-      q[j] = one.q[i];
-      dq[j] = one.dq[i];
-      ddq[j] = one.ddq[i];
-    }
-    Eigen::VectorXd const tau = inverse_dynamics(model.chain(), parameters, q, dq, ddq);
-    for (Eigen::Index j = 0; j < joints; ++j)
-      motion[static_cast<std::size_t>(j)].torque[i] = tau[j] + friction_torque(static_cast<std::size_t>(j), dq[j]);
-  }
-}
-
-// common: share of each joint's variance that all joints have together
-void add_noise(std::vector<Motion>& motion, std::uint32_t draw, double common = 0.0) {
-  for (Eigen::Index i = 0; i < motion.front().q.size(); ++i) {
-    double const shared = RandomStream({2, draw, RandomDomain::test}, static_cast<std::uint32_t>(i), 99).normal();
-    for (std::size_t j = 0; j < motion.size(); ++j) {
-      double const own =
-          RandomStream({2, draw, RandomDomain::test}, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))
-              .normal();
-      motion[j].torque[i] += noise[j] * (std::sqrt(common) * shared + std::sqrt(1.0 - common) * own);
-    }
-  }
-}
-
-std::vector<std::vector<bool>> all_move(std::vector<Motion> const& motion) {
-  return {motion.size(), std::vector<bool>(static_cast<std::size_t>(motion.front().q.size()), true)};
-}
-
-RecordedRows rows_of(ArmModel const& model, std::vector<Motion> const& motion) {
-  return make_recorded_rows("x.csv", motion, all_move(motion), {.edge_s = 0.0}, model, Section{"filter", {}, {}});
-}
+using namespace test;
 
 std::vector<RecordedRows> noisy_recordings(ArmModel const& model) {
   std::vector<RecordedRows> recordings;
   for (std::uint32_t draw : {1u, 2u}) {
     auto motion = motion_of(model.joints(), 900, draw);
-    add_torque(model, motion);
+    add_torque(model.chain(), motion);
     add_noise(motion, draw);
     recordings.push_back(rows_of(model, motion));
   }
@@ -152,7 +75,7 @@ TEST(ArmModel, HasTheParametersOfFiveJoints) {
 TEST(ArmRegression, FindsTheParametersOfNoiseFreeTorques) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
-  add_torque(model, motion);
+  add_torque(model.chain(), motion);
   std::vector<RecordedRows> const recordings{rows_of(model, motion)};
   Eigen::VectorXd const found = estimate("wls", stacked(recordings, model, Eigen::VectorXd::Ones(5)));
   Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
@@ -205,7 +128,7 @@ TEST(FilteredGrams, GiveResidualsAndNoiseLevels) {
 TEST(FilteredGrams, WithoutNoiseNoJointOutweighsTheOthersBeyondBounds) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
-  add_torque(model, motion);
+  add_torque(model.chain(), motion);
   std::vector<RecordedRows> const recordings{rows_of(model, motion)};
   auto const grams = filtered_grams(recordings, model);
   auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
@@ -217,7 +140,7 @@ TEST(FilteredGrams, WithoutNoiseNoJointOutweighsTheOthersBeyondBounds) {
 TEST(RecordedRows, NearReversalsAreCountedAndNotFitted) {
   auto const model = crs();
   auto motion = motion_of(5, 900, 1);
-  add_torque(model, motion);
+  add_torque(model.chain(), motion);
   auto moves = all_move(motion);
   for (std::size_t i = 100; i < 200; ++i) moves[2][i] = false;
   motion[0].left_out = {{0.0, 0.5}};
@@ -234,7 +157,7 @@ TEST(RecordedRows, NearReversalsAreCountedAndNotFitted) {
 TEST(ArmRegression, StandardErrorsKnowThatJointsShareNoise) {
   auto const model = crs();
   auto clean = motion_of(5, 500, 3);
-  add_torque(model, clean);
+  add_torque(model.chain(), clean);
   Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
   std::vector<Problem> problems;
   Section const white{"estimator", {}, {{"hac_lags", std::int64_t{0}}}};
@@ -265,7 +188,7 @@ TEST(ArmRegression, IntervalsHold) {
   auto const model = crs();
   Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
   auto clean = motion_of(5, 500, 3);
-  add_torque(model, clean);
+  add_torque(model.chain(), clean);
   Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
   int held = 0, counted = 0;
   std::vector<Problem> problems;

@@ -1,0 +1,65 @@
+#include "engine/run/arm_keys.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/run/job_sections.hpp"
+
+namespace torquescope {
+
+std::vector<std::vector<std::string>> read_joint_friction(Job const& job, std::vector<std::string> const& usual,
+                                                          std::size_t joints) {
+  std::vector<std::vector<std::string>> friction(joints, usual);
+  std::vector<Problem> problems;
+  for (auto const& section : job.sections) {
+    auto const joint = joint_of_section(section.name);
+    if (!joint) continue;
+    if (*joint < 1 || *joint > joints) {
+      problems.push_back(problem_at(section, "", fmt::format("[{}], and the arm has {} joints", section.name, joints),
+                                    "joints are numbered from 1"));
+      continue;
+    }
+    JointModelOptions own{usual};
+    JointModelOptions::table().apply(section, own, problems);
+    friction[*joint - 1] = own.friction;
+  }
+  if (!problems.empty()) throw Error(std::move(problems));
+  return friction;
+}
+
+void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
+  if (Section const* model = job.find("model")) {
+    for (auto const* key : {"terms", "joint"})
+      if (model->find(key) != nullptr)
+        problems.push_back(problem_at(*model, key, std::string("model.") + key + " beside model.robot",
+                                      "the robot file says how its joints move; what each has beside the rigid arm is "
+                                      "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
+  }
+  if (purpose == Experiment::Purpose::diagnose)
+    problems.push_back(problem_at(*job.find("model"), "robot", "an arm cannot be diagnosed yet",
+                                  "`torquescope run` identifies it; for one joint write a job without robot, with "
+                                  "recording.simulated_torque = the column of your arm model's torque"));
+}
+
+void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {
+  auto const refuse = [&](Section const& section, std::string const& key, std::string const& what) {
+    problems.push_back(problem_at(section, key, what + " is of an arm: the job has no model.robot",
+                                  "name a robot file in [model], or remove it"));
+  };
+  for (auto const& section : job.sections)
+    if (joint_of_section(section.name)) refuse(section, "", "[" + section.name + "]");
+  auto const refuse_key = [&](char const* section, char const* key) {
+    Section const* there = job.find(section);
+    if (there != nullptr && there->find(key) != nullptr) refuse(*there, key, std::string(section) + "." + key);
+  };
+  refuse_key("model", "drive_gains");
+  for (auto const* key : {"payload_kg", "payload_first_moments_kgm", "validate_payload_kg"})
+    refuse_key("recording", key);
+  auto const sections = job.all("estimator");
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    if (plans[i].needs_instruments)
+      problems.push_back(problem_at(*sections[i], "name",
+                                    fmt::format("{} is for arms: the job has no model.robot", plans[i].kind),
+                                    "use ols or wls, or a robot file of one joint"));
+}
+
+}  // namespace torquescope

@@ -1,0 +1,24 @@
+#pragma once
+// Keys of a job that only an arm has, or only a joint.
+//
+// Errors     Problems (78)
+// Threads    free functions
+
+#include <string>
+#include <vector>
+
+#include "engine/run/experiment_parts.hpp"
+
+namespace torquescope {
+
+// of an arm's job: what only a job about one joint may have, and commands that do not work on arms yet
+void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems);
+
+// of a job about one joint: what only an arm has
+void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);
+
+// [N] of each joint: model.friction, or what its own section says. Throws
+std::vector<std::vector<std::string>> read_joint_friction(Job const& job, std::vector<std::string> const& usual,
+                                                          std::size_t joints);
+
+}  // namespace torquescope

@@ -1,0 +1,103 @@
+#include "engine/run/arm_payloads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/run/job_sections.hpp"
+
+namespace torquescope {
+
+namespace {
+
+void check_count(Section const& section, char const* key, std::vector<double> const& numbers, std::size_t each,
+                 std::size_t recordings, std::vector<Problem>& problems) {
+  if (numbers.empty() || numbers.size() == each * recordings) return;
+  problems.push_back(
+      problem_at(section, key, fmt::format("{} has {} numbers, for {} recordings", key, numbers.size(), recordings),
+                 each == 1 ? "write one number a recording; 0 where the arm carries nothing"
+                           : "write three numbers a recording: x, y, z; 0, 0, 0 where the arm carries nothing"));
+}
+
+void check_masses(Section const& section, char const* key, std::vector<double> const& masses,
+                  std::vector<Problem>& problems) {
+  if (std::all_of(masses.begin(), masses.end(), [](double mass) { return mass >= 0.0; })) return;
+  problems.push_back(problem_at(section, key, "a payload's mass is below 0", "write what the scales show, in kg"));
+}
+
+// those of the training recordings, each once
+void find_payloads(RecordingOptions const& options, PayloadPlan& plan) {
+  auto const& moments = options.payload_first_moments_kgm;
+  for (std::size_t k = 0; k < options.payload_kg.size(); ++k) {
+    Payload payload{options.payload_kg[k], {}};
+    if (payload.mass_kg == 0.0) continue;
+    if (!moments.empty())
+      payload.first_moments = Eigen::Vector3d(moments[3 * k], moments[3 * k + 1], moments[3 * k + 2]);
+    auto const same = std::find(plan.payloads.begin(), plan.payloads.end(), payload);
+    plan.train[k] = static_cast<std::size_t>(same - plan.payloads.begin());
+    if (same == plan.payloads.end()) plan.payloads.push_back(payload);
+  }
+}
+
+void find_validation_payloads(Section const& section, std::vector<double> const& masses, PayloadPlan& plan,
+                              std::vector<Problem>& problems) {
+  for (std::size_t k = 0; k < masses.size(); ++k) {
+    if (masses[k] == 0.0) continue;
+    auto const same = std::find_if(plan.payloads.begin(), plan.payloads.end(),
+                                   [&](Payload const& payload) { return payload.mass_kg == masses[k]; });
+    if (same == plan.payloads.end())
+      problems.push_back(problem_at(section, "validate_payload_kg",
+                                    fmt::format("no training recording carries {:g} kg", masses[k]),
+                                    "what is not known of a payload is found in training: carry it there too"));
+    else
+      plan.validate[k] = static_cast<std::size_t>(same - plan.payloads.begin());
+  }
+}
+
+bool are_different(CarriedPayloads const& carried) {
+  return std::any_of(carried.begin(), carried.end(), [&](auto const& one) { return one != carried.front(); });
+}
+
+}  // namespace
+
+PayloadPlan plan_payloads(Job const& job, RecordingOptions const& options, bool has_drive_gains,
+                          std::vector<Problem>& problems) {
+  Section const section = section_or_empty(job, "recording");
+  std::size_t const before = problems.size();
+  check_count(section, "payload_kg", options.payload_kg, 1, options.train.size(), problems);
+  check_count(section, "payload_first_moments_kgm", options.payload_first_moments_kgm, 3, options.payload_kg.size(),
+              problems);
+  check_count(section, "validate_payload_kg", options.validate_payload_kg, 1, options.validate.size(), problems);
+  check_masses(section, "payload_kg", options.payload_kg, problems);
+  check_masses(section, "validate_payload_kg", options.validate_payload_kg, problems);
+  PayloadPlan plan;
+  plan.train.resize(options.train.size());
+  plan.validate.resize(options.validate.size());
+  if (problems.size() > before) return plan;
+  find_payloads(options, plan);
+  find_validation_payloads(section, options.validate_payload_kg, plan, problems);
+  if (has_drive_gains && !are_different(plan.train))
+    problems.push_back(problem_at(
+        section_or_empty(job, "model"), "drive_gains", "drive_gains needs training recordings with different payloads",
+        "record once without and once with a weighed payload, and write payload_kg = [0, 5.0] "
+        "into [recording]"));
+  return plan;
+}
+
+void refuse_useless_payloads(Experiment::Parts const& parts, std::vector<Problem>& problems) {
+  if (parts.arm->model.gain_columns().empty()) return;
+  auto const& payloads = parts.arm->model.payloads();
+  if (!payloads.empty() &&
+      std::none_of(payloads.begin(), payloads.end(), [](auto const& payload) { return payload.tells_scale; }))
+    problems.push_back(problem_at(section_or_empty(parts.job, "model"), "drive_gains",
+                                  "no torque of this arm tells a payload's mass from its other numbers",
+                                  "state payload_first_moments_kgm as well, or leave drive_gains out"));
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < parts.estimators.size(); ++i)
+    if (parts.estimators[i].needs_instruments)
+      problems.push_back(problem_at(*sections[i], "name",
+                                    fmt::format("{} finds no drive gains", parts.estimators[i].kind),
+                                    "use tls, or leave drive_gains out"));
+}
+
+}  // namespace torquescope

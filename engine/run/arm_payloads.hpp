@@ -1,0 +1,32 @@
+#pragma once
+// Which payload an arm carries in which recording, as a job says it.
+//
+// Same       recordings of one mass and one set of first moments carry the same payload; what is not known of it is
+//            found once
+// Errors     Problems (78): not as many numbers as recordings, a mass below 0, a validation payload that no training
+//            recording carries; drive gains without two recordings of different payloads, or on an arm whose torques a
+//            mass cannot scale; iv beside drive gains
+// Threads    free functions
+
+#include <optional>
+#include <vector>
+
+#include "engine/run/experiment_parts.hpp"
+
+namespace torquescope {
+
+// of each recording, an index into PayloadPlan::payloads
+using CarriedPayloads = std::vector<std::optional<std::size_t>>;
+
+struct PayloadPlan {
+  std::vector<Payload> payloads{};
+  CarriedPayloads train{}, validate{};
+};
+
+PayloadPlan plan_payloads(Job const& job, RecordingOptions const& options, bool has_drive_gains,
+                          std::vector<Problem>& problems);
+
+// once the arm is known
+void refuse_useless_payloads(Experiment::Parts const& parts, std::vector<Problem>& problems);
+
+}  // namespace torquescope
