@@ -8,6 +8,7 @@
 #include "engine/pipeline/recording_checks.hpp"
 #include "engine/pipeline/shared_constants.hpp"
 #include "engine/pipeline/simulator_gap.hpp"
+#include "engine/pipeline/static_torque.hpp"
 #include "engine/words/name_list.hpp"
 
 namespace torquescope {
@@ -30,6 +31,7 @@ std::optional<Hopeless> FirstLook::look(Recording& recording) {
   auto why = verdict_of(Verdict::insufficient, [&] {
     ProcessedRecord const record = pipeline.process(recording);
     relerr_ = relative_error(record);
+    static_torque_ = check_static_torque(record, pipeline, limits_of(excitation_, relerr_));
     return check_sign(record);
   });
   limits_ = limits_of(excitation_, relerr_);

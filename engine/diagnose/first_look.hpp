@@ -46,6 +46,8 @@ class FirstLook {
   std::optional<Hopeless> blamed_for_silence() const {
     return torquescope::blamed_for_silence(limits_, excitation_, relerr_);
   }
+  // a torque without inertia and friction, where nothing else is missing
+  std::optional<Hopeless> const& static_torque() const { return static_torque_; }
   // what the simulator cannot say of an unseen recording, by the terms it has in training
   Recording less_simulator(Recording recording) const;
 
@@ -60,6 +62,7 @@ class FirstLook {
   double relerr_ = unknown, parameter_share_ = 0.0;
   Eigen::VectorXd simulator_parameters_{};  // of the terms; empty: no simulator
   std::vector<std::string> remarks_{};
+  std::optional<Hopeless> static_torque_{};
 };
 
 }  // namespace torquescope

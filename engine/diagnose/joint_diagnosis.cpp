@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
+#include "engine/diagnose/search_in_time.hpp"
+#include "engine/inference/kept_model.hpp"
+#include "engine/inference/verdict_table.hpp"
+#include "engine/locate/largest_parts.hpp"
 #include "engine/locate/mismatch_map.hpp"
 #include "engine/pipeline/motion_limits.hpp"
-#include "engine/search/abstention.hpp"
 #include "engine/search/blocked_mismatch.hpp"
 #include "engine/search/candidate_table.hpp"
 #include "engine/search/channel_timing.hpp"
-#include "engine/search/joint_search.hpp"
+#include "engine/search/detection_power.hpp"
 #include "engine/twin/echoed_reference.hpp"
-#include "engine/unseen/held_out_search.hpp"
-#include "engine/unseen/unseen_range.hpp"
 #include "engine/unseen/unseen_record.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
@@ -89,82 +91,82 @@ class JointWork {
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
     std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
+    unseen_.reserve(input_.validate.size());
+    for (auto const& given : input_.validate)
+      unseen_.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
     // its faults are known by now: what stops the search is a motion that cannot carry it
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      selection_ = search_in_time(setting, recording, selection, progress_, torque_late_s_);
+      search_ = search_in_time(setting, recording, unseen_, {selection, levels()}, torque_late_s_, progress_);
       return std::nullopt;
     });
     if (why) return hopeless(*why);
-    tell("verify", 0, selection_.accepted.size());
-    unseen_.reserve(input_.validate.size());
-    for (auto const& given : input_.validate) {
-      Recording one = first_look_.less_simulator(without_echoed_reference(given));
-      unseen_.push_back(torque_late_s_ == 0.0 ? std::move(one) : with_torque_earlier(std::move(one), torque_late_s_));
-    }
-    HeldOutSelection found = search_while_names_spoil(setting, selection, unseen_, std::move(selection_), progress_);
-    selection_ = std::move(found.selection);
-    kept_to_ = found.kept_to;
-    Remainder const remainder = std::move(found.remainder);
+    kept_ = keep_what_predicts(*search_, unseen_, levels());
+    selection_ = kept_.state.selection;
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
     joint_.timing_sentence = timing_sentence(torque_late_s_, input_.train.rate_hz);
     joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
-    if (selection_.is_gate_open) account_for_effects();
-    account_for_unseen(*found.setting, std::move(found.judgement));
-    budget(remainder);
-    decide(remainder);
+    if (!selection_.accepted.empty()) account_for_effects();
+    account_for_unseen();
+    budget();
+    decide();
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
+  }
+
+  DecisionLevels levels() const {
+    DecisionLevels levels;
+    levels.alpha = input_.selection.q;
+    return levels;
   }
 
   ModelStage const& final_stage() const { return *selection_.final; }
   ModelStage const& baseline() const { return *selection_.baseline; }
 
   void account_for_effects() {
-    ShapeSearch const search = shape_search(input_.selection.shape_optimiser, input_.seed);
-    NamedEffects named = name_effects(selection_, search, input_.threads);
+    NamedEffects named = name_effects(selection_, *kept_.state.evidence, input_.selection.candidates, levels().alpha,
+                                      {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
     joint_.effects = std::move(named.effects);
     joint_.augmented = std::move(named.parameters);
     place_ = std::move(named.place);
   }
 
-  void account_for_unseen(StageSetting const& setting, HeldOutJudgement judgement) {
+  void account_for_unseen() {
+    StageSetting const& setting = search_->setting;
+    HeldOut& held_out = kept_.held_out;
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
-    joint_.held_out = {judgement.gain.blocks == 0 ? ""
-                       : unseen_.empty()          ? "cross-validated"
-                                                  : "unseen",
-                       judgement.gain.blocks == 0 ? "" : word(judgement.gain.change), judgement.gain.t,
-                       judgement.gain.asked_for, judgement.gain.blocks};
+    joint_.held_out = {held_out.gain.blocks == 0 ? ""
+                       : unseen_.empty()         ? "cross-validated"
+                                                 : "unseen",
+                       held_out.gain.blocks == 0 ? "" : word(held_out.gain.change), held_out.gain.t,
+                       held_out.gain.asked_for, held_out.gain.blocks};
     double floor = 0.0;
     bool has_twins = false;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
-    for (auto& result : judgement.unseen) {
+    for (auto& result : held_out.unseen) {
       floor += result.floor * result.floor * result.torque_energy;
       has_twins = has_twins || std::isfinite(result.promised);
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       joint_.traces.push_back(std::move(result.trace));
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
+      unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
     }
-    is_refuted_ = !judgement.holds();
-    unseen_twins_ran_away_ = judgement.twins_ran_away;
-    if (!selection_.is_gate_open) joint_.unseen_beyond = judgement.beyond;
     if (input_.validate.empty()) {
       auto const& record = baseline().comparison.recording;
       joint_.traces.push_back(
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
       return;
     }
-    joint_.validation_left_out = told(judgement.left_out);
-    PredictionEnergies const& energies = judgement.energies.found;
-    joint_.validation_relerr = std::sqrt(energies.before / judgement.torque_energy);
-    joint_.augmented_validation_relerr = std::sqrt(energies.after / judgement.torque_energy);
-    if (has_twins) joint_.floor_relerr = std::sqrt(floor / judgement.torque_energy);
+    joint_.validation_left_out = told(held_out.left_out);
+    joint_.validation_relerr = std::sqrt(held_out.before / held_out.torque);
+    joint_.augmented_validation_relerr = std::sqrt(held_out.after / held_out.torque);
+    if (has_twins) joint_.floor_relerr = std::sqrt(floor / held_out.torque);
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
-      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / energies.before;
+      gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / held_out.before;
     }
   }
 
@@ -182,11 +184,13 @@ class JointWork {
     return left;
   }
 
-  void budget(Remainder const& remainder) {
+  void budget() {
     double const residual = selection_.first_energy.residual;
     double const excess = std::max(0.0, selection_.first_excess);
     double const mismatch = std::min(1.0, excess / residual);
-    double const left = selection_.is_gate_open ? std::min(1.0, remainder.share) : 1.0;
+    double const left = selection_.is_gate_open
+                            ? std::clamp(std::max(0.0, final_stage().energy.excess) / selection_.whole(), 0.0, 1.0)
+                            : 1.0;
     double const of_model = 1.0 - first_look_.parameter_share();
     // what no gate passed is noise as far as anybody can tell
     joint_.budget.parameter_error = first_look_.parameter_share();
@@ -196,48 +200,67 @@ class JointWork {
         1.0 - joint_.budget.parameter_error - joint_.budget.missing_physics - joint_.budget.unexplained;
   }
 
-  void decide(Remainder const& remainder) {
-    if (!selection_.is_gate_open) {
-      diagnosis_.verdict = Verdict::none;
-      if (!joint_.unseen_beyond.empty()) diagnosis_.verdict = Verdict::unexplained;
-      if (auto const why = first_look_.blamed_for_silence()) hopeless(*why);
+  VerdictFacts facts() const {
+    VerdictFacts facts;
+    facts.is_baseline_adequate = search_->states.front().adequacy.holds();
+    facts.laws = selection_.accepted.size();
+    facts.is_adequate = kept_.state.adequacy.holds();
+    facts.is_held_out_lower = kept_.is_held_out_lower;
+    facts.explains_most = kept_.explains_most;
+    facts.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
+                                  [](NamedEffect const& one) { return !one.equivalent.empty(); });
+    facts.all_on_channel =
+        !joint_.effects.empty() && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+    facts.is_motion_poor = blamed_for_silence().has_value();
+    facts.has_relation = !first_look_.limits().has_no_relation || selection_.is_gate_open;
+    return facts;
+  }
+
+  // a motion that could not have shown much, or a noise that hides what is not small
+  std::optional<Hopeless> blamed_for_silence() const {
+    if (auto why = first_look_.blamed_for_silence()) return why;
+    double const unseen = std::isfinite(joint_.floor_relerr) ? joint_.floor_relerr : 0.0;
+    double const visible = std::max(smallest_visible_share(baseline()), unseen);
+    if (visible < levels().tolerance) return std::nullopt;
+    return noise_hides(visible);
+  }
+
+  void decide() {
+    VerdictOf const decided = verdict_of(facts());
+    diagnosis_.verdict = decided.verdict;
+    joint_.verdict_reason = word(decided.reason);
+    if (decided.reason == VerdictReason::nothing_left) {
+      if (!joint_.effects.empty()) withdraw(decided.reason);
+      if (auto const why = first_look_.static_torque()) hopeless(*why);
       return;
     }
-    if (remainder.is_significant || remainder.is_unexplained) {
+    if (decided.reason == VerdictReason::motion_poor || decided.reason == VerdictReason::no_relation)
+      hopeless(*blamed_for_silence());
+    if (decided.reason == VerdictReason::motion_poor) return;
+    if (!kept_.state.adequacy.holds()) {
       auto const& final = final_stage();
       joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));
-    } else if (is_refuted_) {
+    } else if (!decided.keeps_names) {
       joint_.unexplained = largest_parts(joint_.map);
     }
-    if (remainder.is_unexplained || is_refuted_) {
-      diagnosis_.verdict = Verdict::unexplained;
-      if (kept_to_) hopeless(too_narrow(joint_, *kept_to_));
-      // nothing was found in a torque that has nothing to do with the motion
-      else if (first_look_.limits().has_no_relation)
-        hopeless(*first_look_.blamed_for_silence());
-      withdraw(remainder);
-      return;
-    }
+    if (!decided.keeps_names) return withdraw(decided.reason);
+    ExplainedShare const& explained = kept_.held_out.explained;
+    joint_.explained_share = explained.share;
+    joint_.explained_low = explained.low;
+    joint_.explained_high = explained.high;
     mark_equivalent(joint_.candidates, joint_.effects);
     for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
-    bool const is_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
-                                      [](NamedEffect const& one) { return !one.equivalent.empty(); });
-    bool const is_all_fault = std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
-    diagnosis_.verdict = is_all_fault ? Verdict::data_fault : is_class ? Verdict::one_of_class : Verdict::named;
-    if (is_all_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
+    if (decided.verdict == Verdict::data_fault) diagnosis_.way_out = way_out_of_a_fault(joint_);
     joint_.excitation = advice_for(joint_.effects);
   }
 
   // nothing that was named stands
-  void withdraw(Remainder const& remainder) {
-    std::string why = "it leaves too much that has a structure of its own";
-    if (kept_to_) {
-      why = "unseen data go beyond the training motion, and there it does not hold";
-    } else if (!remainder.is_unexplained) {
+  void withdraw(VerdictReason reason) {
+    std::string why = "does not make the error on rows it was not fitted to clearly lower";
+    if (reason == VerdictReason::not_held_out && !joint_.effects.empty())
       joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
-      why = "does not hold on rows it was not fitted to";
-    } else if (remainder.is_most_left) {
-      joint_.refutation = too_little_clause(joint_, 1.0 - std::min(1.0, remainder.share));
+    if (reason == VerdictReason::most_is_left) {
+      joint_.refutation = too_little_clause(joint_, 1.0 - kept_.held_out.gain.after / kept_.held_out.gain.before);
       why = "it explains less than half";
     }
     std::vector<std::string> closest;
@@ -258,13 +281,13 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  std::vector<Recording> unseen_;         // torque in time with that of the training recording
-  std::vector<std::size_t> place_;        // of each accepted effect among the named ones
-  bool has_reference_ = false;            // one that tells a loop
-  double torque_late_s_ = 0.0;            // taken out of all recordings (channel_timing.hpp)
-  bool is_refuted_ = false;               // what was named, by unseen recordings
-  std::optional<MotionRange> kept_to_{};  // by training, when they do so only beyond it
+  std::vector<Recording> unseen_;   // torque in time with that of the training recording
+  std::vector<std::size_t> place_;  // of each accepted effect among the named ones
+  bool has_reference_ = false;      // one that tells a loop
+  double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)
   bool unseen_twins_ran_away_ = false;
+  std::unique_ptr<StepwiseSearch const> search_{};
+  KeptModel kept_{};
 };
 
 }  // namespace

@@ -1,8 +1,7 @@
 #pragma once
 // The whole diagnosis of one joint: checks, search, adequacy, validation recordings, verdict.
 //
-// Verdict    METHOD.md, Verdict. Accepted effects are withdrawn by abstention.hpp, and by held_out_search.hpp where
-//            held-out rows do not confirm them
+// Verdict    engine/inference/THEORY.md, Verdict
 // Errors     Error 78 for a filter that does not suit the recording; what a recording is to blame for is a verdict
 // Threads    spreads work over `threads`; same bits for any number
 // Source     METHOD.md
@@ -11,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/search/forward_selection.hpp"
+#include "engine/search/selection.hpp"
 #include "engine/twin/twin_exchange.hpp"
 #include "engine/verdict/diagnosis.hpp"
 

@@ -75,7 +75,6 @@ void account_for_models(Selection const& selection, std::string const& timing, J
 
   // parameters and errors
   if (selection.final->pipeline->keeps_reversals()) joint.rows = "with reversals";
-  joint.differs_at_reversals = selection.differs_at_reversals;
   joint.shape_evaluations = selection.evaluations;
   joint.baseline = estimate_parameters(before).baseline;
   joint.train_relerr = relative_error(before.comparison.recording);

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "engine/search/forward_selection.hpp"
+#include "engine/search/selection.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {

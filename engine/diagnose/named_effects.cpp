@@ -7,24 +7,10 @@
 
 #include "engine/diagnose/effect_account.hpp"
 #include "engine/search/blocked_mismatch.hpp"
-#include "engine/search/equivalent_effects.hpp"
 #include "engine/search/parameter_intervals.hpp"
 
 namespace torquescope {
 namespace {
-
-// of the same families, or nearly as good when nothing was named yet
-std::vector<Effect const*> rivals_for(AcceptedEffect const& accepted, Selection const& selection) {
-  std::vector<Effect const*> rivals;
-  auto const& own = accepted.effect->families();
-  for (auto const& scan : selection.first_scan) {
-    if (!scan.is_testable || selection.has_accepted(scan.effect)) continue;
-    auto const& theirs = scan.effect->families();
-    bool const is_family = std::find_first_of(theirs.begin(), theirs.end(), own.begin(), own.end()) != theirs.end();
-    if (is_family || scan.gain > 0.5 * accepted.gain) rivals.push_back(scan.effect);
-  }
-  return rivals;
-}
 
 // blocked: energy that the baseline leaves on blocks it was not fitted to
 NamedEffect described(Selection const& selection, std::size_t i, double blocked) {
@@ -46,11 +32,17 @@ NamedEffect described(Selection const& selection, std::size_t i, double blocked)
   named.gain.cv = accepted.cv_gain / blocked;
   named.region = account.region;
   named.places = std::move(account.places);
-  named.region_gain = accepted.region_gain;
   named.curve = std::move(account.curve);
   named.rms = account.rms;
   named.peak = account.peak;
   return named;
+}
+
+// each name once
+void add_equivalent(std::vector<RivalLaw> const& rivals, std::vector<std::string>& names) {
+  for (auto const& rival : rivals)
+    if (std::find(names.begin(), names.end(), rival.effect->name()) == names.end())
+      names.push_back(rival.effect->name());
 }
 
 // a wave of the same effect once more: its parameters are told from those of the first by a number
@@ -62,7 +54,8 @@ std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameter
 
 }  // namespace
 
-NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads) {
+NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
+                          std::span<Effect const* const> catalogue, double alpha, RefinementSetting const& setting) {
   ModelEstimate const estimate = estimate_parameters(*selection.final);
   double const residual = selection.first_energy.residual, blocked = blocked_mismatch(*selection.baseline).energy;
   NamedEffects result;
@@ -75,11 +68,11 @@ NamedEffects name_effects(Selection const& selection, ShapeSearch const& search,
     if (same != result.effects.end()) {
       same->gain.train += accepted.gain / residual;
       same->gain.cv += accepted.cv_gain / blocked;
+      add_equivalent(confidence_set(evidence, i, catalogue, alpha, setting), same->equivalent);
       continue;
     }
     NamedEffect named = described(selection, i, blocked);
-    for (auto const& rival : rivals_of(*selection.final, i, rivals_for(accepted, selection), search, threads))
-      if (rival.is_equivalent) named.equivalent.push_back(rival.effect->name());
+    add_equivalent(confidence_set(evidence, i, catalogue, alpha, setting), named.equivalent);
     result.effects.push_back(std::move(named));
   }
   std::vector<std::size_t> waves(result.effects.size(), 0);

@@ -6,9 +6,11 @@
 // Threads    spreads the refinement of rivals over `threads`; same bits for any number
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "engine/search/forward_selection.hpp"
+#include "engine/inference/confidence_set.hpp"
+#include "engine/search/selection.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -19,6 +21,8 @@ struct NamedEffects {
   std::vector<std::size_t> place{};             // of each accepted effect among `effects`
 };
 
-NamedEffects name_effects(Selection const& selection, ShapeSearch const& search, int threads);
+// evidence: of the final stage; catalogue: laws that may be rivals of an accepted one (confidence_set.hpp)
+NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
+                          std::span<Effect const* const> catalogue, double alpha, RefinementSetting const& setting);
 
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 //            so that the model stays linear in its parameters and is the same for the recording and its replicates
 // Units      SI
 // Threads    const object, any number of threads
-// Source     METHOD.md, The search
+// Source     engine/inference/THEORY.md, The search
 
 #include <Eigen/Core>
 #include <cstddef>

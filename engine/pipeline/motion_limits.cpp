@@ -99,4 +99,10 @@ std::vector<bool> saturated_samples(Recording const& recording, double cutoff_hz
   return left_out;
 }
 
+Hopeless noise_hides(double share) {
+  return {Verdict::insufficient,
+          fmt::format("noise hides whatever is missing below {:.0f} % of the torque", 100.0 * share),
+          "record a longer motion with fewer reversals, or set filter.parallel_cutoff_hz and filter.cutoff_hz lower"};
+}
+
 }  // namespace torquescope

@@ -37,4 +37,7 @@ std::optional<Hopeless> blamed_for_silence(MotionLimits const& limits, Excitatio
 // them; none where they are fewer than a twentieth of the recording
 std::vector<bool> saturated_samples(Recording const& recording, double cutoff_hz);
 
+// of a recording whose noise hides every missing torque below this share of the whole
+Hopeless noise_hides(double share);
+
 }  // namespace torquescope

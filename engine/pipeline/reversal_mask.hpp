@@ -3,7 +3,7 @@
 //
 // Equation   still_k: |dq_k| < 0.005 max|dq|, or the sign of dq differs from that of sample k-1;
 //            dropped: every sample within 1.6 / cutoff_hz of a still one (cutoff_hz 0: nothing is widened)
-// Reversals  kept for friction_buildup.hpp: there only rests are dropped
+// Reversals  kept where a job weighs them: then only rests are dropped
 // Use        on the whole record before its edges are cut, on recording and replicates, each from its filtered velocity
 // Shapes     dq: n samples at the full rate; result: n, true where the sample is kept
 // Units      rad/s or m/s; Hz

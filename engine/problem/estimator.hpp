@@ -25,6 +25,9 @@ struct EstimatorChoice {
   // reads the options of an [[estimator]] section ("name" and other callers' keys in `ignored`), appending problems
   std::function<Estimate(Section const&, std::vector<std::string> const& ignored, std::vector<Problem>&)> prepare;
   bool needs_instruments = false;  // RegressionData::Arm::instruments
+  bool needs_gains = false;        // drive gains of an arm among the parameters
+
+  bool fits_any_rows() const { return !needs_instruments && !needs_gains; }
 };
 
 // every estimator that CMakeLists.txt lists, in that order

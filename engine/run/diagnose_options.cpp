@@ -70,8 +70,6 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,
         "ablation, not for use: false makes twins of the least-squares baseline, biased as the pipeline makes it"},
-       {"region_consistency", &DiagnoseOptions::region_consistency,
-        "ablation, not for use: false takes effects that do not help where they act"},
        {"twin_noise", &DiagnoseOptions::twin_noise, "1", 0.05, 20.0,
         "ablation, not for use: factor on all noise of the twins, as if it were stated wrongly"},
        {"whitening", &DiagnoseOptions::whitening,
@@ -87,7 +85,6 @@ std::vector<std::string> DiagnoseOptions::ablations() const {
   };
   note("null", null, whole.null);
   note("indirect_inference", indirect_inference, whole.indirect_inference);
-  note("region_consistency", region_consistency, whole.region_consistency);
   note("twin_noise", twin_noise, whole.twin_noise);
   note("whitening", whitening, whole.whitening);
   return found;

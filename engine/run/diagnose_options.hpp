@@ -22,7 +22,6 @@ struct DiagnoseOptions {
   // ablations (ablation.hpp)
   std::string null = "twins";
   bool indirect_inference = true;
-  bool region_consistency = true;
   double twin_noise = 1.0;
   bool whitening = true;
 

@@ -48,8 +48,8 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* ex
   input_.joint_name = position_column(parts.job);
   input_.exchange = exchange;
   input_.reversals = reversals_of(parts.diagnose.reversals);
-  input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.region_consistency,
-                     parts.diagnose.twin_noise, parts.diagnose.whitening};
+  input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.twin_noise,
+                     parts.diagnose.whitening};
 }
 
 }  // namespace torquescope

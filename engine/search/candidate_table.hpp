@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/search/forward_selection.hpp"
+#include "engine/search/selection.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {

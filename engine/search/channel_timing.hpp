@@ -15,8 +15,8 @@
 
 #include "engine/data/recording.hpp"
 #include "engine/pipeline/recorded_loop.hpp"
-#include "engine/search/forward_selection.hpp"
 #include "engine/search/late_torque.hpp"
+#include "engine/search/selection.hpp"
 
 namespace torquescope {
 

@@ -7,22 +7,34 @@
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
-#include "engine/search/forward_selection.hpp"
+#include "engine/search/selection.hpp"
 
 namespace torquescope {
+
+namespace {
+
+// energy beyond the replicates' mean that would be clear
+double clear_energy(MismatchRows const& rows) {
+  auto const m = static_cast<double>(rows.n_twins());
+  Eigen::VectorXd const energy = (rows.twins.colwise() - rows.twin_mean).colwise().squaredNorm().transpose();
+  double const std = std::sqrt((energy.array() - energy.mean()).square().sum() / (m - 1.0));
+  double const by_floor = smallest_mismatch_share * smallest_mismatch_share * rows.torque.squaredNorm();
+  return std::max(smallest_omnibus_z * std, by_floor);
+}
+
+}  // namespace
+
+double smallest_visible_share(ModelStage const& stage) {
+  auto const& rows = stage.comparison.rows;
+  return std::sqrt(clear_energy(rows) / rows.torque.squaredNorm());
+}
 
 std::string power_sentence(ModelStage const& stage) {
   auto const& rows = stage.comparison.rows;
   BaselineReference const reference = stage.reference();
   double const coulomb = reference.scales.coulomb();
   if (!(coulomb > 0.0)) return {};
-  // excess that opens both gates
-  auto const m = static_cast<double>(rows.n_twins());
-  Eigen::VectorXd const energy = (rows.twins.colwise() - rows.twin_mean).colwise().squaredNorm().transpose();
-  double const std = std::sqrt((energy.array() - energy.mean()).square().sum() / (m - 1.0));
-  double const by_floor = smallest_mismatch_share * smallest_mismatch_share * rows.torque.squaredNorm();
-  double const needed = std::max(smallest_omnibus_z * std, by_floor);
-
+  double const needed = clear_energy(rows);
   CandidateColumns const columns(*stage.pipeline, stage.comparison, reference, stage.parameters());
   std::array<double, 2> const shape{0.05 * reference.scales.peak_speed, 1.0};
   OrthonormalGroup const group = columns.group(*find_effect("stribeck"), shape);

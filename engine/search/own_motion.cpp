@@ -4,9 +4,9 @@
 
 namespace torquescope {
 
-BothMotions::BothMotions(ModelStage const& stage)
-    : twin(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters()),
-      recording(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), CandidateColumns::none,
+BothMotions::BothMotions(ModelStage const& stage, std::size_t without)
+    : twin(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), without),
+      recording(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), without,
                 DrivenBy::recording) {}
 
 OwnMotionShapes::OwnMotionShapes(CandidateColumns const& own, EffectScan const& scan, Eigen::VectorXd const& mismatch,

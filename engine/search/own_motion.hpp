@@ -16,7 +16,7 @@ namespace torquescope {
 
 struct BothMotions {
   CandidateColumns twin, recording;
-  explicit BothMotions(ModelStage const& stage);
+  explicit BothMotions(ModelStage const& stage, std::size_t without = CandidateColumns::none);
   CandidateColumns const& of(DrivenBy motion) const { return motion == DrivenBy::twin ? twin : recording; }
 };
 

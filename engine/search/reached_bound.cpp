@@ -10,7 +10,6 @@ namespace torquescope {
 namespace {
 
 constexpr double bound_rounding = 1e-3;  // of the range: the step of a shape's tangent
-constexpr double further_inside = 0.1;   // of the range
 
 // a size in units of the joint may be twice what its scale says (is_far_too_large())
 bool is_size_of_joint(EffectParameter const& parameter, Bound const& bound) {
@@ -36,27 +35,6 @@ std::optional<BoundSide> side_of(ParameterRange const& range, double value) {
   return std::nullopt;
 }
 
-double gain_of(CandidateColumns const& columns, Effect const& effect, std::span<double const> shape,
-               Eigen::VectorXd const& mismatch) {
-  OrthonormalGroup const group = columns.group(effect, shape);
-  auto const bounds = effect.linear_bounds(columns.scales());
-  Eigen::VectorXd least(static_cast<Eigen::Index>(bounds.size())), most(least.size());
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    least[static_cast<Eigen::Index>(k)] = bounds[k].lower;
-    most[static_cast<Eigen::Index>(k)] = bounds[k].upper;
-  }
-  return boxed_gain(group, group.q.transpose() * mismatch, least, most).gain;
-}
-
-// what chance gives one parameter more, at 95 %
-double by_chance(CandidateColumns const& columns) {
-  constexpr double chi_squared_95 = 3.841;
-  auto const& rows = columns.comparison().rows;
-  auto const m = static_cast<double>(rows.n_twins());
-  double const noise = (rows.twins.colwise() - rows.twin_mean).squaredNorm() / (m - 1.0);
-  return chi_squared_95 * noise / static_cast<double>(rows.size());
-}
-
 }  // namespace
 
 std::optional<ReachedBound> reached_bound(Effect const& effect, std::span<double const> shape,
@@ -73,31 +51,6 @@ std::optional<ReachedBound> reached_bound(Effect const& effect, std::span<double
     if (side && !is_spared(effect.parameters()[parameter], *side)) return ReachedBound{parameter, *side, shape[k]};
   }
   return std::nullopt;
-}
-
-std::optional<ReachedBound> fitted_to_bound(CandidateColumns const& columns, Effect const& effect,
-                                            std::span<double const> shape, Eigen::VectorXd const& linear,
-                                            Eigen::VectorXd const& mismatch) {
-  auto const bound = reached_bound(effect, shape, linear, columns.scales());
-  if (!bound || bound->parameter < effect.n_linear()) return bound;
-  std::size_t const k = bound->parameter - effect.n_linear();
-  std::vector<double> moved(shape.begin(), shape.end());
-  moved[k] = from_unit(effect.shape_bounds(columns.scales())[k],
-                       bound->side == BoundSide::lower ? further_inside : 1.0 - further_inside);
-  double const lost = gain_of(columns, effect, shape, mismatch) - gain_of(columns, effect, moved, mismatch);
-  return lost > by_chance(columns) ? bound : std::nullopt;
-}
-
-std::optional<ReachedBound> bound_of_last(ModelStage const& stage) {
-  auto const& effects = stage.model().effects();
-  if (effects.empty()) return std::nullopt;
-  std::size_t const last = effects.size() - 1;
-  auto const& [effect, shape] = effects[last];
-  CandidateColumns const beside(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters(), last);
-  Eigen::VectorXd const linear = stage.parameters().segment(
-      static_cast<Eigen::Index>(stage.model().first_parameter(last)), static_cast<Eigen::Index>(effect->n_linear()));
-  Eigen::VectorXd const signal = stage.mismatch() + beside.columns(*effect, shape) * linear;
-  return fitted_to_bound(beside, *effect, shape, linear, signal);
 }
 
 std::string bound_words(Effect const& effect, ReachedBound const& bound, JointKind joint) {

@@ -1,8 +1,7 @@
 #pragma once
 // A fitted parameter at the end of what is plausible: the best law lies beyond it, so that it is none of the catalogue.
 //
-// Rule       a shape within rounding of a bound, or a linear parameter with a bound of its own kind (a number, a time),
-//            where the law explains more there than a tenth of the range further inside, beyond chance
+// Rule       a shape within rounding of a bound, or a linear parameter with a bound of its own kind (a number, a time)
 // Spared     bounds that are laws or limits of physics themselves: 0 where a parameter cannot be negative, a bound that
 //            stands for a law without the parameter, and those that the catalogue calls so (EffectParameter)
 // Intervals  that touch a bound are no matter: only the estimate is asked
@@ -15,7 +14,6 @@
 #include <string>
 
 #include "engine/search/candidate_columns.hpp"
-#include "engine/search/model_stage.hpp"
 
 namespace torquescope {
 
@@ -30,14 +28,6 @@ struct ReachedBound {
 // the first parameter that stands at a bound, told by the numbers alone
 std::optional<ReachedBound> reached_bound(Effect const& effect, std::span<double const> shape,
                                           Eigen::VectorXd const& linear, JointScales const& scales);
-
-// the same where the data say so: what further inside explains less of the mismatch, beyond chance
-std::optional<ReachedBound> fitted_to_bound(CandidateColumns const& columns, Effect const& effect,
-                                            std::span<double const> shape, Eigen::VectorXd const& linear,
-                                            Eigen::VectorXd const& mismatch);
-
-// of the last effect of a stage, its shape corrected by twins: fitted_to_bound() beside the other effects
-std::optional<ReachedBound> bound_of_last(ModelStage const& stage);
 
 // "its presliding distance ends at the least it can be, 1.57e-05 rad"
 std::string bound_words(Effect const& effect, ReachedBound const& bound, JointKind joint);

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/optim/optimiser.hpp"
-#include "engine/search/candidate_scan.hpp"
+#include "engine/search/effect_scan.hpp"
 
 namespace torquescope {
 

@@ -16,7 +16,6 @@ namespace torquescope {
 struct Ablation {
   NullKind null = NullKind::twins;
   bool indirect_inference = true;  // false: twins of the least-squares baseline, bias and all
-  bool region_consistency = true;  // false: an effect need not help where it acts
   double twin_noise = 1.0;
   bool whitening = true;  // false: rows count alike, whatever their noise
 

@@ -116,9 +116,10 @@ InLoop in_loop_of(Recording recording, ProcessedRecord const& record, RecordPipe
 
 RecordedLoop loop_to_try(InLoop const& in_loop, TrackedJoint const& joint, FilterOptions const& filter,
                          RecordedLoop const* decided) {
-  if (decided != nullptr && !in_loop.has_channel_faults) return *decided;
+  // a loop of our own is made for the joint it leads
   if (decided != nullptr && decided->source == LoopSource::tracking)
     return tracking_loop(in_loop.recording, joint, filter);
+  if (decided != nullptr && !in_loop.has_channel_faults) return *decided;
   return recorded_loop(in_loop.recording, joint, filter, in_loop.needed_torque);
 }
 
@@ -174,7 +175,7 @@ BaselineTwin make_baseline_twin(Recording const& recording, RecordPipeline const
     return knowing.ran_away() ? led_by_error() : knowing;
   };
   Attempt made = attempt_in(loop_to_try(in_loop, joint, filter, options.loop.get()));
-  if (decides && made.ran_away() && made.loop.source == LoopSource::tracking) {
+  if (made.ran_away() && made.loop.source == LoopSource::tracking) {
     std::string const remark = made.loop.remark;
     made = led_by_error();
     made.loop.remark = remark;

@@ -6,7 +6,7 @@
 //            missing
 // z, p       of ||d||^2 among the same of each replicate against the others (leave-one-out, each with its own scaling)
 // Threads    free function
-// Source     METHOD.md, The null distribution
+// Source     engine/inference/THEORY.md, Null distribution
 
 #include "engine/twin/mismatch_rows.hpp"
 

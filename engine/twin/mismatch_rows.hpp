@@ -4,7 +4,7 @@
 // Common motion  of a replicate without noise and encoder: candidate columns and axes are computed from it, once, so
 // that no noise of a measured motion enters the statistic
 // Rows           kept samples at which the recording, the common motion and the pilot replicates all surely move one
-// way; with reversals (friction_buildup.hpp): all but rests
+// way; with reversals: all but rests
 // Residual       torque - own columns * own least squares, filtered and whitened alike. The plain ones are the same
 // before whitening, empty where nothing was whitened
 // Shapes         n rows in time order, M replicates: 8 n M bytes

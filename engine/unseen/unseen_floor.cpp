@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/unseen/unseen_transfer.hpp"
-
 namespace torquescope {
 namespace {
 
@@ -21,32 +19,18 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
 }
 
 struct TwinResidual {
-  Eigen::VectorXd left;            // empty: it ran away
-  double torque = 0.0;             // norm
-  PredictionEnergies predicted{};  // where no artefact is to be taken out, as well as
-  std::vector<double> transferred{};
+  Eigen::VectorXd left;  // empty: it ran away
+  double torque = 0.0;   // norm
 };
 
-PredictionEnergies prediction_of(ProcessedRecord const& twin, Eigen::VectorXd const& left,
-                                 Eigen::VectorXd const& baseline) {
-  Eigen::VectorXd const before = twin.torque - twin.columns.leftCols(baseline.size()) * baseline;
-  return {before.squaredNorm(), left.squaredNorm(), (before - left).squaredNorm()};
-}
-
 std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
-                                             ModelStage const& stage, RecordedLoop const& loop,
-                                             Eigen::VectorXd const& baseline, TwinRows const& rows) {
+                                             ModelStage const& stage, RecordedLoop const& loop, TwinRows const& rows) {
   std::vector<TwinResidual> twins(unseen_twins);
-  Eigen::MatrixXd const& fits = stage.comparison.twin_fits;
-  Eigen::MatrixXd const fit_errors = (fits.rowwise() - fits.colwise().mean()).transpose();
   for_each_unseen_twin(recording, setting, stage, loop, rows.only, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     TwinResidual& twin = twins[visited.index];
     twin.left = record.torque - record.columns * stage.parameters();
     twin.torque = record.torque.norm();
-    if (rows.without_artefact) return;
-    twin.predicted = prediction_of(record, twin.left, baseline);
-    twin.transferred = transfer_errors(record.columns, record.torque, twin.left, fit_errors);
   });
   return twins;
 }
@@ -77,8 +61,8 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
 }
 
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& baseline, TwinRows const& rows) {
-  auto twins = residuals_of_twins(recording, setting, stage, loop, baseline, rows);
+                              RecordedLoop const& loop, TwinRows const& rows) {
+  auto twins = residuals_of_twins(recording, setting, stage, loop, rows);
   auto const n = static_cast<double>(twins.size());
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd const artefact = rows.without_artefact ? mean_of(twins) : Eigen::VectorXd();
@@ -87,11 +71,7 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
   TwinErrors errors;
   for (TwinResidual& twin : twins) {
     if (twin.left.size() == 0) return {};
-    if (!rows.without_artefact)
-      errors.predicted.push_back(twin.predicted);
-    else
-      twin.left -= artefact;
-    errors.transferred.insert(errors.transferred.end(), twin.transferred.begin(), twin.transferred.end());
+    if (rows.without_artefact) twin.left -= artefact;
     double const relerr = nearer * twin.left.norm() / twin.torque;
     sum += relerr;
     least = std::min(least, relerr);
@@ -103,7 +83,7 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
 
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                                     RecordedLoop const& loop, std::vector<Eigen::Index> const& rows) {
-  return mean_of(residuals_of_twins(recording, setting, stage, loop, {}, {&rows, true}));
+  return mean_of(residuals_of_twins(recording, setting, stage, loop, {&rows, true}));
 }
 
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop) {

@@ -15,7 +15,6 @@
 
 #include "engine/pipeline/recorded_loop.hpp"
 #include "engine/search/model_stage.hpp"
-#include "engine/statistics/prediction_energies.hpp"
 #include "engine/twin/twin_batch.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
@@ -31,10 +30,6 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
 // relerr of twins; unknown where one ran away
 struct TwinErrors {
   double mean = unknown, least = unknown;
-  // one each; empty where an artefact was taken out, which is another for the baseline
-  std::vector<PredictionEnergies> predicted{};
-  // relerr of each with each fit of training's twins (unseen_transfer.hpp); empty as above
-  std::vector<double> transferred{};
 };
 
 // rows of twins: none: each twin's own
@@ -43,11 +38,10 @@ struct TwinRows {
   bool without_artefact = false;  // theirs is to be taken out
 };
 
-// the twins' own fits are not used: the parameters of `stage` predict them (for `transferred` moved as fits of
-// training's twins are), and those of the baseline, `baseline`, without its effects. loop: not tracking
+// the twins' own fits are not used: the parameters of `stage` predict them. loop: not tracking
 // Errors     as the pipeline
 TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                              RecordedLoop const& loop, Eigen::VectorXd const& baseline, TwinRows const& rows = {});
+                              RecordedLoop const& loop, TwinRows const& rows = {});
 
 // [rows]; empty where a twin ran away
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,

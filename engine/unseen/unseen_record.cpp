@@ -47,18 +47,15 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 }
 
 // what its twins leave, and whether that is a floor of it
-void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                       ModelStage const& stage, RecordedLoop const& loop, UnseenResult& result) {
+void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                       RecordedLoop const& loop, UnseenResult& result) {
   TwinRows rows;
-  if (!result.within.empty()) rows.only = &result.within;
   if (!result.rows.empty()) rows = {&result.rows, true};
   auto const errors_in = [&](RecordedLoop const& one) {
-    return unseen_twin_errors(recording, setting, stage, one, baseline.parameters(), rows);
+    return unseen_twin_errors(recording, setting, stage, one, rows);
   };
   TwinErrors const own = errors_in(loop);
   result.promised = own.mean;
-  result.twins = own.predicted;
-  result.transferred = own.transferred;
   result.twins_ran_away = !std::isfinite(own.mean);
   double const relerr = std::sqrt(result.energies.after / result.torque_energy);
   result.floor = floor_below(relerr, own);
@@ -129,20 +126,12 @@ LeftOutRows left_out_of(Recording const& recording, StageSetting const& setting,
 }
 
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                         ModelStage const& augmented, Artefact const& artefact, MotionRange const* within) {
+                         ModelStage const& augmented, Artefact const& artefact) {
   UnseenPrediction result;
   RecordPipeline plain = pipeline_for(setting, recording, baseline);
   RecordPipeline full = pipeline_for(setting, recording, augmented);
   ProcessedRecord before = plain.prepare(recording);
   check_rows(before, recording.name);
-  result.all_rows = result.n_rows = static_cast<Eigen::Index>(before.kept_rows.size());
-  if (within != nullptr) {
-    result.within = rows_within(*within, before, plain);
-    result.n_rows = static_cast<Eigen::Index>(result.within.size());
-    if (result.n_rows < fewest_rows) return result;
-    plain.restrict_to(result.within);
-    before = plain.prepare(recording);
-  }
   full.restrict_to(before.kept_rows);
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
@@ -175,7 +164,6 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   }
   result.torque_energy = before.torque.squaredNorm();
   result.energies = {left_before.squaredNorm(), left_after.squaredNorm(), (left_before - left_after).squaredNorm()};
-  result.blocks = added_torque(left_before, left_after);
   result.left_out = left_out_of(recording, setting, {baseline, baseline.parameters(), offset_before},
                                 {augmented, parameters, offset_after}, before.kept_rows);
   result.kept_rows = before.kept_rows;
@@ -236,34 +224,11 @@ LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& 
 
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented) {
-  return predict(from_zero(recording), setting, baseline, augmented, {}, nullptr);
-}
-
-std::vector<PredictionEnergies> twins_without(Recording const& given, StageSetting const& setting,
-                                              ModelStage const& augmented, std::size_t effect) {
-  Recording const recording = from_zero(given);
-  auto const loop = loop_of(recording, setting, augmented);
-  if (!loop) return {};
-  std::vector<PredictionEnergies> twins(unseen_twins);
-  std::vector<char> is_there(twins.size(), 0);
-  try {
-    for_each_unseen_twin(recording, setting, augmented, *loop, nullptr, [&](VisitedTwin const& visited) {
-      std::vector<std::string> unsaid;
-      Eigen::VectorXd parameters = transferable(augmented, unsaid);
-      refit_on_head(augmented, visited.record, parameters, unsaid);
-      Eigen::VectorXd const left = visited.record.torque - visited.record.columns * parameters;
-      twins[visited.index] = without_effect(augmented, effect, visited.record, left, {});
-      is_there[visited.index] = 1;
-    });
-  } catch (Error const&) {
-    return {};  // as in check_unseen()
-  }
-  bool const are_there = std::all_of(is_there.begin(), is_there.end(), [](char there) { return there == 1; });
-  return are_there ? twins : std::vector<PredictionEnergies>{};
+  return predict(from_zero(recording), setting, baseline, augmented, {});
 }
 
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented, MotionRange const* within) {
+                          ModelStage const& augmented) {
   Recording const recording = from_zero(given);
   auto const loop = loop_of(recording, setting, augmented);
   Artefact artefact;
@@ -275,31 +240,16 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
         return {};  // as below
       }
     };
-  UnseenResult result{predict(recording, setting, baseline, augmented, artefact, within)};
+  UnseenResult result{predict(recording, setting, baseline, augmented, artefact)};
   if (!(result.torque_energy > 0.0)) return result;
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
-    account_for_twins(recording, setting, baseline, augmented, *loop, result);
+    account_for_twins(recording, setting, augmented, *loop, result);
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }
   return result;
-}
-
-void UnseenSum::add(UnseenResult const& result) {
-  torque_energy_ += result.torque_energy;
-  sum_.found += result.energies;
-  // a law whose twins run away does not follow the reference: what it promises is not kept whatever it is
-  sum_.floor += result.twins_ran_away ? 0.0 : result.promised * result.promised * result.torque_energy;
-  sum_.blocks.insert(sum_.blocks.end(), result.blocks.begin(), result.blocks.end());
-  twins_.push_back(result.twins);
-}
-
-UnseenEnergies UnseenSum::energies() const {
-  UnseenEnergies energies = sum_;
-  energies.twins = over_recordings(twins_);
-  return energies;
 }
 
 }  // namespace torquescope

@@ -1,29 +1,25 @@
 #pragma once
-// Prediction of a validation recording by the baseline and by the final model (METHOD.md, Validation recordings).
+// Prediction of a validation recording by the baseline and by the final model.
 //
 // Parameters least squares of the training rows, for both models: measured columns are attenuated alike
-// Rows       those of the baseline's mask, for both models; of these the ones within a range, when one is given
+// Rows       those of the baseline's mask, for both models
 // Nuisances  offset, phase of a single wave and share of a warm-up are refitted on the first 5 % of the recording when
 //            beyond three standard errors, and reported. Events and drifts of a channel's zero are left out
 // Promised   relative error of 16 replicates of this recording under the final model; floor: unseen_floor.hpp
 // Units      SI
 // Threads    spreads replicates over `threads`; same bits for any number
-// Source     METHOD.md, Validation recordings
+// Source     engine/inference/THEORY.md, Rows and replicates
 
 #include "engine/pipeline/left_out_rows.hpp"
-#include "engine/pipeline/motion_range.hpp"
-#include "engine/search/forward_selection.hpp"
-#include "engine/unseen/unseen_refutation.hpp"
+#include "engine/search/selection.hpp"
+#include "engine/statistics/prediction_energies.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
 
 struct UnseenPrediction {
-  double torque_energy = 0.0;             // 0: fewer than 100 rows within the range, nothing is predicted
-  Eigen::Index n_rows = 0, all_rows = 0;  // without a range the same
-  std::vector<Eigen::Index> within{};     // the rows, where there is a range
-  PredictionEnergies energies{};          // of all effects together
-  std::vector<AddedTorque> blocks{};
+  double torque_energy = 0.0;
+  PredictionEnergies energies{};                // of all effects together
   std::vector<Eigen::Index> kept_rows{};        // of the residuals, among the kept samples
   Eigen::VectorXd left_before{}, left_after{};  // residuals
   LeftOutRows left_out{};                       // by the mask
@@ -39,8 +35,6 @@ struct UnseenPrediction {
 struct UnseenResult : UnseenPrediction {
   double promised = unknown, floor = unknown;  // relerr
   bool twins_ran_away = false;                 // of this recording, under the final model: no floor
-  std::vector<PredictionEnergies> twins{};     // one each
-  std::vector<double> transferred{};           // relerr of twins with fits of training's twins (unseen_transfer.hpp)
   ForwardSimulation forward{};
 };
 
@@ -48,27 +42,9 @@ struct UnseenResult : UnseenPrediction {
 UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
                                 ModelStage const& augmented);
 
-// Twins of the recording that have all effects, without and with that one in the prediction, what belongs to the
-// training recording left out in both; empty where the recording's loop is not known, or where one ran away
-std::vector<PredictionEnergies> twins_without(Recording const& recording, StageSetting const& setting,
-                                              ModelStage const& augmented, std::size_t effect);
-
 // the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented, MotionRange const* within = nullptr);
-
-// of all recordings, for speak_against()
-class UnseenSum {
- public:
-  void add(UnseenResult const& result);
-  double torque_energy() const { return torque_energy_; }
-  UnseenEnergies energies() const;
-
- private:
-  double torque_energy_ = 0.0;
-  UnseenEnergies sum_{};
-  std::vector<std::vector<PredictionEnergies>> twins_{};
-};
+                          ModelStage const& augmented);
 
 // closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows
 // the measured motion: unknown

@@ -6,7 +6,7 @@
 // relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all
 //            but rests where `rows` says so
 // Threads    plain records
-// Source     diagnose/METHOD.md, Verdict; as JSON: run/diagnosis_json.hpp; as HDF5: store/RESULT_FORMAT.md
+// Source     inference/THEORY.md, Verdict; as JSON: run/diagnosis_json.hpp; as HDF5: store/RESULT_FORMAT.md
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -115,7 +115,7 @@ struct NamedEffect {
   EffectGain gain{};
   AxisInterval region{};               // where it acts, as one interval (acting_region.hpp)
   std::vector<AxisInterval> places{};  // the same as one or two
-  double region_gain = unknown;        // share of its gain taken where it acts (region_consistency.hpp)
+  double region_gain = unknown;        // share of its gain taken where it acts; of results before 27 Nov 2026
   double rms = unknown,
          peak = unknown;  // torque beside the model's own terms; peak: where it acts (effect_account.hpp)
   std::vector<ParameterEstimate> parameters{};
@@ -156,13 +156,6 @@ struct ForwardSimulation {
   double encoder_step = 0.0;
 };
 
-// A validation recording predicted worse than any replicate of it, although its model explains the training recording
-// (unseen_transfer.hpp)
-struct UnseenBeyond {
-  std::string recording;
-  double relerr = unknown, usual = unknown, most = unknown;  // its own; of twins on average and at most
-};
-
 // what the mask leaves out of an error, and the error over all rows
 struct LeftOut {
   double time = unknown, energy = unknown;              // shares; energy: of the baseline's residual over all rows
@@ -196,17 +189,16 @@ struct JointDiagnosis {
   double explained_share = unknown, explained_low = unknown, explained_high = unknown;
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
-  std::string refutation{};  // why validation refuted the effects: a clause of the reason, not stored
-  std::vector<UnseenBeyond> unseen_beyond{};  // where training shows nothing; in the reason, not stored
+  std::string verdict_reason{};  // word of the row of the verdict table (inference/verdict_table.hpp); not stored
+  std::string refutation{};      // why validation refuted the effects: a clause of the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
   std::vector<std::string> nuisances{};  // what was refitted on the first 5 % of a validation recording
   std::vector<TorqueTrace> traces{};     // the validation recordings, else the training ones
   std::vector<ForwardSimulation> forward{};
   // how it was found
-  std::string rows = "moving one way";  // or "with reversals" (friction_buildup.hpp): what errors and pictures are of
+  std::string rows = "moving one way";  // or "with reversals": what errors and pictures are of
   std::vector<std::string> remarks{};   // what the motion closed or merged: sentences, in the reason, not stored
   std::string timing_sentence{};        // what was done to the torque channel's time; in the reason, not stored
-  bool differs_at_reversals = false;    // on rows that are left out; in the reason of none, not stored
   std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;
   double torque_noise = unknown, disturbance = unknown;
@@ -216,9 +208,9 @@ struct JointDiagnosis {
   std::size_t twins = 0;
   double omnibus_z = 0.0, omnibus_p = 1.0;  // of the whole mismatch, at the first step
   double mismatch_rms = 0.0;                // torque beyond the twins
-  double mismatch_share = unknown;    // the same over the torque's rms, rows weighed; in the reason, not stored
-  double left_rms = 0.0;              // the same with the accepted effects in the model
-  std::vector<double> twin_energy{};  // residual energy of each twin over that of the recording
+  double mismatch_share = unknown;          // the same over the torque's rms, rows weighed; in the reason, not stored
+  double left_rms = 0.0;                    // the same with the accepted effects in the model
+  std::vector<double> twin_energy{};        // residual energy of each twin over that of the recording
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };

@@ -7,7 +7,7 @@
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/effects/effect_traits.hpp"
-#include "engine/search/forward_selection.hpp"
+#include "engine/search/selection.hpp"
 
 namespace torquescope {
 namespace {
@@ -20,7 +20,7 @@ bool is_other_kind(double unseen, double train, double floor) {
 }
 
 // of the energy that a prediction at the floor would take away, where that is a quarter of it or more; the same as of
-// names that are refuted (unseen_refutation.hpp), which may stay where they move the prediction too little to be blamed
+// names that are refuted, which may stay where they move the prediction too little to be blamed
 bool keeps_little(double before, double after, double floor) {
   constexpr double quarter = 0.25;
   double const promised = before * before - floor * floor;
@@ -102,18 +102,6 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
   return fmt::format(
       "The unseen recording holds something that the training recording does not show: relerr {} there, {} here.",
       percent_text(unseen), percent_text(train));
-}
-
-std::string beyond_twins_sentence(JointDiagnosis const& joint) {
-  std::string text;
-  for (UnseenBeyond const& one : joint.unseen_beyond)
-    text += fmt::format("{}But {} is predicted with a relerr of {}, where twins of it have {}, {} at most.",
-                        text.empty() ? "" : " ", one.recording, percent_text(one.relerr), percent_text(one.usual),
-                        percent_text(one.most));
-  if (text.empty()) return text;
-  return text +
-         " Something is missing that the training motion does not show: give that recording as recording.train to see "
-         "what.";
 }
 
 std::string way_out_of_a_fault(JointDiagnosis const& joint) {

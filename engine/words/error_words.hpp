@@ -29,9 +29,6 @@ std::string gain_sentence(JointDiagnosis const& joint);
 // relerr 18.4 % there, 0.82 % here."; "" otherwise
 std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 
-// Of unseen recordings that are predicted worse than any twin of them while training shows nothing; "" without one
-std::string beyond_twins_sentence(JointDiagnosis const& joint);
-
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
 // recording agrees
 std::string way_out_of_a_fault(JointDiagnosis const& joint);

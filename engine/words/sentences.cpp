@@ -207,16 +207,10 @@ std::string none_reason(JointDiagnosis const& joint) {
   append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
   append(text, left_out_sentence("Unseen", joint.validation_relerr, joint.validation_left_out));
   append(text, joint.power_sentence);
-  if (joint.differs_at_reversals)
-    append(
-        text,
-        "With the rows round reversals, which are left out, it is not what twins have; no friction that builds up over "
-        "a distance explains it.");
   return text;
 }
 
 std::string unexplained_reason(JointDiagnosis const& joint) {
-  if (!joint.unseen_beyond.empty()) return likeness_sentence(joint) + " " + beyond_twins_sentence(joint);
   auto const tested = n_tested(joint);
   std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
                                    : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
@@ -288,7 +282,7 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     append(text, joint_reason(diagnosis.verdict, joint));
     append(text, joint.timing_sentence);
-    if (joint.unseen_beyond.empty()) append(text, unseen_is_other_sentence(joint));
+    append(text, unseen_is_other_sentence(joint));
   }
   return text;
 }

@@ -14,18 +14,6 @@ std::string too_little_clause(JointDiagnosis const& joint, double share) {
                      n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
 }
 
-std::string beyond_training_clause(JointDiagnosis const& joint, MotionRange const& trained) {
-  auto const names = names_of(joint);
-  bool const is_one = names.size() == 1;
-  return fmt::format(
-      "the training motion keeps to positions {} and speeds {}, and {} {} what is missing there; where unseen "
-      "recordings go beyond, {} their relerr from {} to {}: so narrow a motion cannot tell a law",
-      between_text(trained.least_position, trained.most_position, joint.unit_position),
-      between_text(trained.least_velocity, trained.most_velocity, joint.unit_position + "/s"), name_list(names, "and"),
-      is_one ? "explains" : "explain", is_one ? "it takes" : "they take", percent_text(joint.validation_relerr),
-      percent_text(joint.augmented_validation_relerr));
-}
-
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;

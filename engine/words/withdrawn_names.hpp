@@ -6,7 +6,6 @@
 
 #include <string>
 
-#include "engine/pipeline/motion_range.hpp"
 #include "engine/verdict/diagnosis.hpp"
 
 namespace torquescope {
@@ -15,10 +14,6 @@ namespace torquescope {
 // 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "and a joint simulated with it no longer follows the
 // reference"
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
-// because unseen recordings go beyond the training motion: "the training motion keeps to positions between -0.05 and
-// 0.05 rad and speeds between -0.3 and 0.3 rad/s, and spring explains what is missing there; where unseen recordings go
-// beyond, it takes their relerr from 1.5 % to 3.2 %: so narrow a motion cannot tell a law"
-std::string beyond_training_clause(JointDiagnosis const& joint, MotionRange const& trained);
 // because of what they leave: "backlash, the closest of 29 known effects, explains 37 % of what is missing". Share: 0
 // to 1
 std::string too_little_clause(JointDiagnosis const& joint, double share);

@@ -51,7 +51,6 @@ ABLATIONS = {
     "null_hac": with_key("null", '"hac"'),
     "null_surrogate": with_key("null", '"surrogate"'),
     "no_indirect_inference": with_key("indirect_inference", "false"),
-    "no_region_consistency": with_key("region_consistency", "false"),
     "controller_unknown": without_reference,
     "noise_half": with_key("twin_noise", "0.5"),
     "noise_double": with_key("twin_noise", "2"),

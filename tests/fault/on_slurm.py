@@ -28,12 +28,12 @@ MOST_SECONDS = 150
 
 
 class OnSlurm(study.FaultTest):
-    # a second and a half of work for each shard, and not much to store
+    # a few seconds of work for each shard, and not much to store
     JOB = (
         shimmed.JOB.replace("runs = 3", "runs = 40")
         .replace('name = "tiny"', 'name = "forty"')
         .replace("population = 10", 'population = 14\nfitness = "direct"')
-        .replace("generations = 20", "generations = 500")
+        .replace("generations = 20", "generations = 1000")
         .replace("duration_s = 1\n", "duration_s = 500\n")
         + "[output]\nsamples = false\n"
     )

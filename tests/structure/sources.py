@@ -22,7 +22,8 @@ METHOD = "engine/diagnose/METHOD.md"
 EXAMPLES = {"effects/effects/eddy_brake.cpp", "optim/optimisers/random_search.cpp", "data/readers/raw64.cpp"}
 
 DOCUMENT = re.compile(r"(?<![\w*{}$])(?:\.{1,2}/|[\w.-]+/)*[\w-]+\.md\b")
-SECTION = re.compile(r"\bMETHOD\.md, ([A-Z][\w ,'-]*)")
+SECTION = re.compile(r"\b(METHOD|THEORY)\.md, ([A-Z][\w ,'-]*)")
+THEORY = "engine/inference/THEORY.md"  # what is longer than a comment about a decision
 PRIVATE = re.compile(r"\b(?:LESSONS|PHYSICS|DESIGN|UX|FADE|STYLE|EVIDENCE)(?:\.md)? (?:items?|sections?) "
                      r"|\bour own prototype\b")
 FAILS = re.compile(r"^\s*(?://|#) fails:", re.MULTILINE)
@@ -80,14 +81,15 @@ def absent_sources(text, files):
 
 
 def unknown_sections(text, headings):
-    """Sections of METHOD.md that sources name and that it does not have."""
-    return [found for found in SECTION.findall(as_prose(text)) if not any(found.startswith(one) for one in headings)]
+    """Sections of the two pages that sources name and that none of them has."""
+    named = [found for _, found in SECTION.findall(as_prose(text))]
+    return [found for found in named if not any(found.startswith(one) for one in headings)]
 
 
 def complaints(name, text, documents, headings):
     """What is wrong with one source file of the tree."""
     found = [f"{name}: names {one}, which is not in the tree" for one in absent_documents(text, documents)]
-    found += [f"{name}: {METHOD} has no section \"{one}\"" for one in unknown_sections(text, headings)]
+    found += [f"{name}: {METHOD} and {THEORY} have no section \"{one}\"" for one in unknown_sections(text, headings)]
     found += [f"{name}: \"{one.strip()}\" is not in the tree" for one in PRIVATE.findall(as_prose(text))]
     if FAILS.search(text):
         found.append(f"{name}: \"fails:\" above a test that is enabled; say what holds")
@@ -129,8 +131,9 @@ def main(root):
     names = tracked(root)
     assert len(names) > 500, "too few files: is this the source tree?"
     documents = [name for name in names if name.endswith(".md")]
-    headings = re.findall(r"^#+ (.+)$", (root / METHOD).read_text(), re.MULTILINE)
-    for name in ("engine/README.md", METHOD):
+    headings = [one for page in (METHOD, THEORY)
+                for one in re.findall(r"^#+ (.+)$", (root / page).read_text(), re.MULTILINE)]
+    for name in ("engine/README.md", METHOD, THEORY):
         absent = set(absent_sources((root / name).read_text(), names)) - EXAMPLES
         found += [f"{name}: names {one}, which is not in the tree" for one in sorted(absent)]
     for name in names:

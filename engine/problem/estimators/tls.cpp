@@ -101,8 +101,13 @@ LeastSquaresFit fit_tls(RegressionData const& data, TlsOptions const& options) {
 }  // namespace
 
 EstimatorChoice tls() {
-  return {"tls", "total least squares with drive gains", "Gautier, Briot 2014", TlsOptions::table().describe(),
-          prepare_with<TlsOptions>(fit_tls)};
+  return {"tls",
+          "total least squares with drive gains",
+          "Gautier, Briot 2014",
+          TlsOptions::table().describe(),
+          prepare_with<TlsOptions>(fit_tls),
+          false,
+          true};
 }
 
 }  // namespace torquescope::estimators

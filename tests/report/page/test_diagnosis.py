@@ -4,17 +4,20 @@ import dataclasses
 import json
 import math
 import re
+import shutil
 import types
 import unittest
 
 import support
 import build
 import diagnosed
+import h5py
 import numpy as np
 import tables_of_diagnosis
 import words_of_diagnosis
 from figures import all_cases, diagnosed_trace, mismatch_map, parameters_before_after
 from read_result import Result, summary
+from study import Study
 from vary_diagnosis import HOSTILE_WORDS
 
 LEAST_P = 1 / 201

@@ -16,7 +16,7 @@
 namespace torquescope::test {
 
 inline std::vector<std::string> const friction{"viscous", "coulomb", "offset"};
-inline std::vector<double> const noise{0.4, 0.9, 0.3, 0.05, 0.02};  // N m
+inline std::vector<double> const joint_noise{0.4, 0.9, 0.3, 0.05, 0.02};  // N m
 
 inline SerialChain crs_chain() {
   return read_robot(std::filesystem::path(TORQUESCOPE_SOURCE_DIR) / "jobs/robots/crs_a465.toml");
@@ -78,7 +78,7 @@ inline void add_noise(std::vector<Motion>& motion, std::uint32_t draw, double co
       double const own =
           RandomStream({2, draw, RandomDomain::test}, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))
               .normal();
-      motion[j].torque[i] += noise[j] * (std::sqrt(common) * shared + std::sqrt(1.0 - common) * own);
+      motion[j].torque[i] += joint_noise[j] * (std::sqrt(common) * shared + std::sqrt(1.0 - common) * own);
     }
   }
 }

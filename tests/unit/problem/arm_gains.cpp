@@ -47,7 +47,7 @@ RegressionData recorded(ArmModel const& model, double noise_share, std::uint32_t
           (clean[j].torque + noise_share * (motion[j].torque - clean[j].torque)) / (1.0 + gain_errors[j]);
     recordings.push_back(rows_of(model, motion, is_loaded ? std::optional<std::size_t>(0) : std::nullopt));
   }
-  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(test::noise.data(), 5);
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(test::joint_noise.data(), 5);
   return stack_rows(recordings, ArmRowChoice::moving, model, scale, Section{"filter", {}, {}});
 }
 

@@ -111,7 +111,7 @@ TEST(FilteredGrams, GiveResidualsAndNoiseLevels) {
   auto const levels = noise_levels(grams, static_cast<Eigen::Index>(model.size()));
   EXPECT_TRUE(levels.converged);
   for (std::size_t j = 0; j < 5; ++j)
-    EXPECT_NEAR(levels.deviation[static_cast<Eigen::Index>(j)], noise[j], 0.05 * noise[j]);
+    EXPECT_NEAR(levels.deviation[static_cast<Eigen::Index>(j)], joint_noise[j], 0.05 * joint_noise[j]);
 
   auto const data = stacked(recordings, model, levels.deviation);
   Eigen::VectorXd const found = estimate("wls", data);
@@ -158,7 +158,7 @@ TEST(ArmRegression, StandardErrorsKnowThatJointsShareNoise) {
   auto const model = crs();
   auto clean = motion_of(5, 500, 3);
   add_torque(model.chain(), clean);
-  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(joint_noise.data(), 5);
   std::vector<Problem> problems;
   Section const white{"estimator", {}, {{"hac_lags", std::int64_t{0}}}};
   auto const fit_wls = find_estimator("wls")->prepare(white, {}, problems);
@@ -189,7 +189,7 @@ TEST(ArmRegression, IntervalsHold) {
   Eigen::VectorXd const base = model.base().from_standard(standard_parameters(model.chain(), DriveInertias::included));
   auto clean = motion_of(5, 500, 3);
   add_torque(model.chain(), clean);
-  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(noise.data(), 5);
+  Eigen::VectorXd const scale = Eigen::Map<Eigen::VectorXd const>(joint_noise.data(), 5);
   int held = 0, counted = 0;
   std::vector<Problem> problems;
   auto const fit_wls = find_estimator("wls")->prepare({}, {}, problems);

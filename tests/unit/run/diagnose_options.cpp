@@ -128,11 +128,9 @@ TEST(DiagnoseOptions, AnAblationIsReadAndWarnedAbout) {
   EXPECT_THAT(whole.parts().diagnose.ablations(), SizeIs(0));
   EXPECT_THAT(whole.warnings(), ::testing::Not(::testing::Contains(HasSubstr("ablation"))));
   Experiment const experiment =
-      load("[diagnose]\nnull = \"hac\"\nindirect_inference = false\nregion_consistency = false\ntwin_noise = 0.5\n",
-           Purpose::diagnose);
+      load("[diagnose]\nnull = \"hac\"\nindirect_inference = false\ntwin_noise = 0.5\n", Purpose::diagnose);
   EXPECT_EQ(experiment.parts().diagnose.ablations(),
-            (std::vector<std::string>{"null = \"hac\"", "indirect_inference = false", "region_consistency = false",
-                                      "twin_noise = 0.5"}));
+            (std::vector<std::string>{"null = \"hac\"", "indirect_inference = false", "twin_noise = 0.5"}));
   EXPECT_THAT(experiment.warnings(), ::testing::Contains(HasSubstr("an ablation (null = \"hac\"")));
   bool is_checked = false;
   for (auto const& line : experiment.check(1))

@@ -79,7 +79,13 @@ Recording recorded(Machine const& machine) {
 class OwnMotion : public testing::Test {
  protected:
   EffectScan scan_of(char const* effect) const {
-    return scan_candidates(columns.twin, {find_effect(effect)}, 2).front();
+    EffectScan scan;
+    scan.effect = find_effect(effect);
+    scan.grid = shape_grid(*scan.effect, columns.twin.scales());
+    scan.best_point = best_plausible_point(columns.twin, scan, stage.mismatch(), 2).value_or(0);
+    scan.shape = scan.grid.point(scan.best_point);
+    scan.is_testable = true;
+    return scan;
   }
 
   explicit OwnMotion(Machine const& machine = {}) : recording(recorded(machine)) {}

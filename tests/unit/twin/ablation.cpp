@@ -33,7 +33,7 @@ class AblationTest : public testing::Test {
 
 TEST_F(AblationTest, TheWholeMethodIsLeftAlone) {
   BaselineTwin const plain = make_baseline_twin(recording, pipeline, clean_filter(), {}, 2);
-  BaselineTwin const made = ablated({.null = NullKind::iid, .region_consistency = false});
+  BaselineTwin const made = ablated({.null = NullKind::iid});
   EXPECT_EQ(made.baseline.parameters, plain.baseline.parameters);
   EXPECT_EQ(made.twin.loop().torque_noise.std, plain.twin.loop().torque_noise.std);
   EXPECT_EQ(made.twin.joint().lanes.inertia, plain.twin.joint().lanes.inertia);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/search/forward_selection.hpp"
+#include "engine/inference/stepwise.hpp"
 #include "engine/twin/baseline_twin.hpp"
 #include "unit/twin/clean_records.hpp"
 
@@ -44,14 +44,14 @@ class FrictionWanders : public testing::Test {
     return recording;
   }
 
-  static Selection selected_from(Recording const& recording, std::vector<Effect const*> candidates,
-                                 std::size_t twins = 48) {
+  static SearchState found_in(Recording const& recording, std::vector<Effect const*> candidates,
+                              std::size_t twins = 48) {
     Section const no_section;
     FilterOptions const filter = clean_filter();
     SelectionOptions options;
     options.candidates = std::move(candidates);
     StageSetting const setting{recording, clean_regressor(), filter, no_section, twins, 1, 2};
-    return select_effects(setting, options, {});
+    return search_stepwise(setting, options, {}, {}, {}).end();
   }
 
   struct Clean {
@@ -131,22 +131,25 @@ TEST_F(FrictionWanders, NotAsAParabolaInAnyUnit) {
 
 TEST_F(FrictionWanders, AndIsNeitherADriftNorUnexplained) {
   for (std::size_t lane : {0U, 1U}) {
-    Selection const selection = selected_from(wandering_recording(0.003, lane),
-                                              {find_effect("friction_drift"), find_effect("thermal_friction")});
-    EXPECT_TRUE(selection.accepted.empty());
-    EXPECT_FALSE(selection.is_gate_open);
+    SearchState const found =
+        found_in(wandering_recording(0.003, lane), {find_effect("friction_drift"), find_effect("thermal_friction")});
+    EXPECT_TRUE(found.selection.accepted.empty());
+    EXPECT_TRUE(found.adequacy.holds());
   }
 }
 
 // a walk is no ramp and no step, and weighed rows spread it over all its frequencies; yet more than any joint does by
-// itself
-TEST_F(FrictionWanders, AndIsADriftWhereItIsThreeTimesWhatIsPlausible) {
+// itself: a drift, or something that no law explains, and never nothing
+TEST_F(FrictionWanders, AndIsSeenWhereItIsThreeTimesWhatIsPlausible) {
   for (std::size_t lane : {0U, 1U}) {
-    Selection const selection =
-        selected_from(wandering_recording(3.0 * most_wander_in_a_minute / std::sqrt(60.0), lane),
-                      {find_effect("friction_drift"), find_effect("stribeck")}, 200);
-    ASSERT_EQ(selection.accepted.size(), 1U) << lane;
-    EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
+    SearchState const found = found_in(wandering_recording(3.0 * most_wander_in_a_minute / std::sqrt(60.0), lane),
+                                       {find_effect("friction_drift"), find_effect("stribeck")}, 200);
+    bool const is_named = !found.selection.accepted.empty();
+    EXPECT_TRUE(is_named || found.adequacy.train.p < 0.02) << lane << ": p " << found.adequacy.train.p;
+    // it is let pass only where it is below the engineer's tolerance
+    bool const is_small = found.adequacy.train.excess_share < DecisionLevels{}.delta;
+    EXPECT_TRUE(is_named || is_small || !found.adequacy.holds()) << lane;
+    for (auto const& one : found.selection.accepted) EXPECT_EQ(one.effect->name(), "friction_drift");
   }
 }
 
@@ -157,9 +160,9 @@ TEST_F(FrictionWanders, NotSoMuchThatADriftIsHidden) {
   for (Eigen::Index k = 0; k < recording.torque.size(); ++k)
     recording.torque[k] += coulomb * std::tanh(dq[k] / 0.01) * 0.3 * recording.time_s[k] / duration_s;
   // beside friction that wanders a drift holds little weighed energy: the least p of few twins would not open the gate
-  Selection const selection = selected_from(recording, {find_effect("friction_drift"), find_effect("stribeck")}, 200);
-  ASSERT_EQ(selection.accepted.size(), 1U);
-  EXPECT_EQ(selection.accepted.front().effect->name(), "friction_drift");
+  SearchState const found = found_in(recording, {find_effect("friction_drift"), find_effect("stribeck")}, 200);
+  ASSERT_EQ(found.selection.accepted.size(), 1U);
+  EXPECT_EQ(found.selection.accepted.front().effect->name(), "friction_drift");
 }
 
 }  // namespace friction_wander_test

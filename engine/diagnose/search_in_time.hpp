@@ -1,0 +1,28 @@
+#pragma once
+// The search, begun again when it shows that the torque channel was read elsewhere within its sample.
+//
+// Rule       a delay of at most a sample is a convention of the log (channel_timing.hpp): it is taken out of all
+//            recordings and the search begins again, twice at most: the second for what other laws hid of it
+// Loop       a controller's law is one of the torque as its rows say it: put back in time the torque may not be what it
+//            answers. Then the loop that was found before stays
+// Errors     as search_stepwise
+// Threads    as the stages
+
+#include <memory>
+#include <vector>
+
+#include "engine/inference/stepwise.hpp"
+
+namespace torquescope {
+
+struct SearchRules {
+  SelectionOptions options{};
+  DecisionLevels levels{};
+};
+
+// recording: what the setting refers to; it, the unseen ones and late_s are changed when the torque is put in time
+std::unique_ptr<StepwiseSearch const> search_in_time(StageSetting& setting, Recording& recording,
+                                                     std::vector<Recording>& unseen, SearchRules const& rules,
+                                                     double& late_s, StageSink const& progress);
+
+}  // namespace torquescope

@@ -1,0 +1,81 @@
+#include "engine/inference/adequacy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/statistics/twin_null.hpp"
+
+namespace torquescope {
+
+AdequacyPart adequacy_part(Eigen::VectorXd const& left, double allowed, double torque, DecisionLevels const& levels) {
+  AdequacyPart part;
+  std::vector<double> const twins(left.data() + 1, left.data() + left.size());
+  double const mean = left.tail(left.size() - 1).mean();
+  double const excess = left[0] - allowed - mean;
+  part.p = empirical_p(left[0] - allowed, twins);
+  part.excess_share = torque > 0.0 ? std::sqrt(std::max(0.0, excess) / torque) : 0.0;
+  // few replicates cannot give a small p: then none of them reaches it
+  double const least = std::max(levels.alpha / questions_of_adequacy, least_p(twins.size()));
+  part.holds = part.p > least || part.excess_share < levels.delta;
+  return part;
+}
+
+namespace {
+
+// replicates of training as if they had as many rows
+AdequacyPart beside_training(Evidence const& evidence, UnseenResidual const& unseen, double allowed,
+                             DecisionLevels const& levels) {
+  double const rows = static_cast<double>(unseen.rows) / static_cast<double>(evidence.stage().comparison.rows.size());
+  Eigen::VectorXd left = rows * evidence.left_in_folds().colwise().sum().transpose();
+  left[0] = unseen.left;
+  return adequacy_part(left, rows * allowed, unseen.torque, levels);
+}
+
+// The same of the torque itself, before rows are weighed: weights make little of what friction that wanders could be,
+// whatever its size
+AdequacyPart in_torque_itself_part(Evidence const& evidence, double of_form, DecisionLevels const& levels) {
+  ModelStage const& stage = evidence.stage();
+  auto const& rows = stage.comparison.rows;
+  if (rows.plain_residual.size() == 0) return {};
+  double laws = 0.0;
+  auto const& effects = stage.model().effects();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
+    laws += (evidence.columns().plain_columns(*effects[i].effect, effects[i].shape) *
+             stage.parameters().segment(first, static_cast<Eigen::Index>(effects[i].effect->n_linear())))
+                .squaredNorm();
+  }
+  Eigen::VectorXd const left = exchangeable(rows.plain_residual, rows.plain_twins).colwise().squaredNorm().transpose();
+  return adequacy_part(left, of_form * laws, rows.torque.squaredNorm(), levels);
+}
+
+}  // namespace
+
+Adequacy adequacy_of(Evidence const& evidence, DecisionLevels const& levels) {
+  ModelStage const& stage = evidence.stage();
+  double const of_form = levels.tolerance * levels.tolerance;
+  double laws = 0.0;
+  for (std::size_t i = 0; i < stage.model().effects().size(); ++i)
+    laws += torque_of(stage, evidence.columns(), i).squaredNorm();
+  Adequacy result;
+  AdequacyPart const itself = in_torque_itself_part(evidence, of_form, levels);
+  result.train = adequacy_part(evidence.left_in_folds().colwise().sum().transpose(), of_form * laws,
+                               stage.comparison.rows.torque.squaredNorm(), levels);
+  result.train.holds = result.train.holds && itself.holds;
+  Eigen::VectorXd const& forms = evidence.by_forms();
+  double const of_chance = forms.tail(forms.size() - 1).maxCoeff();
+  if (forms[0] > of_chance + of_form * laws) result.train.holds = false;
+  if (evidence.n_unseen() > 0)
+    result.unseen = adequacy_part(evidence.left_unseen().colwise().sum().transpose(),
+                                  of_form * evidence.law_energy_unseen(), evidence.torque_energy_unseen(), levels);
+  for (UnseenResidual const& one : evidence.without_replicates()) {
+    if (one.rows == 0) continue;
+    AdequacyPart const part = beside_training(evidence, one, of_form * laws, levels);
+    if (part.holds) continue;
+    result.unseen = part;
+  }
+  return result;
+}
+
+}  // namespace torquescope

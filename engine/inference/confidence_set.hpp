@@ -1,0 +1,27 @@
+#pragma once
+// The laws that cannot be told from an accepted one on these recordings.
+//
+// Rival      any other law in its place, its shape refined, the other accepted laws beside it
+// Excluded   when the accepted law gains clearly more over folds and blocks of unseen rows (paired, one-sided, level
+//            5 %); a rival that is itself no clear gain, or stands at a bound, is none
+// Threads    spreads grid points over `threads`; same bits for any number
+// Source     engine/inference/THEORY.md, Confidence set; Cox 1962, doi:10.1111/j.2517-6161.1962.tb00468.x
+
+#include <span>
+#include <vector>
+
+#include "engine/inference/refined_candidates.hpp"
+
+namespace torquescope {
+
+struct RivalLaw {
+  Effect const* effect = nullptr;
+  std::vector<double> shape{};
+  double gain_ratio = 0.0;  // its gain over the accepted law's
+};
+
+// of effect i of the evidence's model, strongest first
+std::vector<RivalLaw> confidence_set(Evidence const& evidence, std::size_t i, std::span<Effect const* const> catalogue,
+                                     double alpha, RefinementSetting const& setting);
+
+}  // namespace torquescope

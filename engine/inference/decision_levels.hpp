@@ -1,0 +1,38 @@
+#pragma once
+// Every number between rows and verdict, with its meaning and source: there is no other.
+//
+// Options    the job sets alpha (diagnose.q), delta (diagnose.delta), tolerance (diagnose.tolerance), replicates
+//            (diagnose.twins) and steps (diagnose.max_effects); the rest are budgets and conventions
+// Threads    constants
+
+#include <Eigen/Core>
+#include <cstddef>
+
+namespace torquescope {
+
+struct DecisionLevels {
+  // of chance, over the whole catalogue (max-T: Westfall, Young 1993, ISBN 978-0-471-55761-6)
+  double alpha = 0.05;
+  // the engineer's tolerance: a model that leaves less beyond chance, as a share of the torque's rms, is adequate
+  double delta = 0.0025;
+  // how far the form of a law may be off, as a share of its own torque, and the model still be adequate
+  double tolerance = 0.1;
+  // share by which the held-out error must fall where replicates have no loop of the recording's, or the model is not
+  // adequate: less may be a difference of loops, and is of no use to anybody
+  double least_fall = 0.05;
+};
+
+// laws of a model that is not adequate are named when they explain more of the mismatch than they leave
+inline constexpr double most_of_it = 0.5;
+// of adequacy: training rows weighed, in the torque itself, and unseen (Bonferroni)
+inline constexpr double questions_of_adequacy = 3.0;
+// stretches of rows that are left out in turn (Burman, Chow, Nolan 1994, doi:10.1093/biomet/81.2.351)
+inline constexpr Eigen::Index n_folds = 10;
+// share of a column's energy outside a fold below which a fit cannot see it
+inline constexpr double left_out_ridge = 1e-4;
+// budget: candidates whose shape is refined at a step
+inline constexpr std::size_t n_refined = 6;
+// budget: of these, candidates that are simulated until one is taken
+inline constexpr std::size_t n_simulated = 3;
+
+}  // namespace torquescope

@@ -1,0 +1,238 @@
+#include "engine/inference/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
+
+#include "engine/inference/clock_bound.hpp"
+#include "engine/inference/decision_levels.hpp"
+#include "engine/inference/law_forms.hpp"
+#include "engine/statistics/equal_blocks.hpp"
+
+namespace torquescope {
+namespace {
+
+std::vector<bool> signs(Effect const& effect) {
+  std::vector<bool> non_negative(effect.n_linear());
+  for (std::size_t k = 0; k < non_negative.size(); ++k)
+    non_negative[k] = effect.parameters()[k].sign() == Sign::non_negative;
+  return non_negative;
+}
+
+// blocks of a recording's rows, as many as training has folds
+Eigen::MatrixXd block_sums(Eigen::MatrixXd const& per_row) {
+  Eigen::MatrixXd sums(n_folds, per_row.cols());
+  auto const blocks = equal_blocks(per_row.rows(), n_folds);
+  for (Eigen::Index b = 0; b < n_folds; ++b)
+    sums.row(b) =
+        per_row.middleRows(blocks[static_cast<std::size_t>(b)].from, blocks[static_cast<std::size_t>(b)].size())
+            .colwise()
+            .sum();
+  return sums;
+}
+
+// linear parameters within what the joint could have
+bool are_plausible(Effect const& effect, Eigen::VectorXd const& parameters, JointScales const& scales) {
+  auto const bounds = effect.linear_bounds(scales);
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    double const value = parameters[static_cast<Eigen::Index>(k)];
+    if (value < bounds[k].lower || value > bounds[k].upper) return false;
+  }
+  return true;
+}
+
+// a law of one parameter that physics gives a sign counts only with that sign
+void drop_wrong_signs(OrthonormalGroup const& group, Eigen::MatrixXd const& coefficients, Eigen::MatrixXd& gains) {
+  if (group.r.cols() != 1 || group.rank() != 1 || !group.non_negative[0]) return;
+  for (Eigen::Index t = 0; t < coefficients.cols(); ++t)
+    if (coefficients(0, t) * group.r(0, 0) <= 0.0) gains.col(t).setZero();
+}
+
+void add_blocks(Eigen::VectorXd const& left, Eigen::Index memory, BlocksLeft& to) {
+  auto const blocks = held_out_blocks(left, left, std::max<Eigen::Index>(1, memory));
+  to.blocks.insert(to.blocks.end(), blocks.begin(), blocks.end());
+}
+
+}  // namespace
+
+Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, std::span<Recording const> unseen)
+    : stage_(&stage), motions_(stage) {
+  fill_training(CandidateColumns::none);
+  std::uint32_t index = 1;
+  for (auto const& recording : unseen) {
+    auto one = unseen_evidence(setting, stage, columns(), recording, index++);
+    if (one)
+      add_unseen(std::move(*one));
+    else
+      without_replicates_.push_back(unseen_residual(setting, stage, recording));
+  }
+}
+
+Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_), motions_(*of.stage_, without) {
+  fill_training(without);
+  for (auto const& one : of.unseen_) add_unseen(without_effect(one, *stage_, columns(), without));
+}
+
+void Evidence::fill_training(std::size_t without) {
+  auto const& rows = stage_->comparison.rows;
+  Eigen::MatrixXd signals = exchangeable(rows.residual, rows.twins);
+  signals.col(0) += torque_of(*stage_, columns(), without);
+  Eigen::VectorXd const by_model = (columns().nuisance().transpose() * signals).colwise().squaredNorm().transpose();
+  if (Eigen::MatrixXd const forms = forms_of_laws(*stage_, without); forms.cols() > 0)
+    motions_.twin.add_nuisance(forms);
+  Eigen::MatrixXd const& basis = columns().nuisance();
+  by_forms_ = (basis.transpose() * signals).colwise().squaredNorm().transpose() - by_model;
+  basis_and_signals_.resize(rows.size(), basis.cols() + signals.cols());
+  basis_and_signals_ << basis, signals;
+  whole_ = in_folds(FoldKind::whole);
+  interleaved_ = in_folds(FoldKind::interleaved);
+  left_unseen_.resize(0, signals.cols());
+}
+
+void Evidence::add_unseen(UnseenEvidence one) {
+  unseen_left_.emplace_back(one.signals - one.nuisance * whole_.products.whole);
+  Eigen::MatrixXd const blocks = block_sums(unseen_left_.back().array().square().matrix());
+  left_unseen_.conservativeResize(left_unseen_.rows() + blocks.rows(), Eigen::NoChange);
+  left_unseen_.bottomRows(blocks.rows()) = blocks;
+  unseen_.push_back(std::move(one));
+}
+
+Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
+  Eigen::Index const n = basis_and_signals_.rows(), k = columns().nuisance().cols(), m = basis_and_signals_.cols() - k;
+  InFolds result;
+  result.folds = folds(n, guard_rows(*stage_->pipeline), kind);
+  FoldProducts const all = fold_products(result.folds, columns().nuisance(), basis_and_signals_);
+  result.gram = picked(all, 0, k, 0, k);
+  result.products = picked(all, 0, k, k, m);
+  result.less_own = left_inside_less_own(result.gram, result.products);
+  result.left = result.less_own + fold_energies(result.folds, basis_and_signals_.rightCols(m));
+  return result;
+}
+
+double Evidence::torque_energy_unseen() const {
+  double energy = 0.0;
+  for (auto const& one : unseen_) energy += one.comparison->rows.torque.squaredNorm();
+  return energy;
+}
+
+double Evidence::law_energy_unseen() const {
+  double energy = 0.0;
+  auto const& effects = stage_->model().effects();
+  for (auto const& one : unseen_)
+    for (std::size_t i = 0; i < effects.size(); ++i)
+      if (!is_clock_bound(*effects[i].effect)) energy += torque_of(*stage_, *one.columns, i).squaredNorm();
+  return energy;
+}
+
+std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vector<double>> const& shapes,
+                                     FoldKind kind, DrivenBy motion) const {
+  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+  auto const each = columns(motion).columns_of_each(effect, shapes);
+  std::vector<OrthonormalGroup> groups;
+  Eigen::Index width = 0;
+  for (auto const& one : each) {
+    groups.push_back(orthonormal_group(one, columns().nuisance(), signs(effect)));
+    width += groups.back().rank();
+  }
+  Eigen::MatrixXd q(basis_and_signals_.rows(), width);
+  Eigen::Index at = 0;
+  for (auto const& group : groups) {
+    q.middleCols(at, group.rank()) = group.q;
+    at += group.rank();
+  }
+  FoldProducts const all = fold_products(beside.folds, q, basis_and_signals_);
+  Eigen::Index const k = columns().nuisance().cols(), m = basis_and_signals_.cols() - k;
+  std::vector<LawGain> results;
+  at = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Eigen::Index const rank = groups[i].rank();
+    results.push_back(gain_of(
+        {&effect, &shapes[i], &groups[i], &each[i], picked(all, at, rank, 0, k), picked(all, at, rank, k, m)}, beside));
+    at += rank;
+  }
+  return results;
+}
+
+LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) const {
+  OrthonormalGroup const& group = *candidate.group;
+  LawGain result;
+  result.train = result.unseen = Eigen::VectorXd::Zero(beside.left.cols());
+  if (group.rank() == 0) return result;
+  result.is_testable = true;
+  Eigen::MatrixXd const& coefficients = candidate.products.whole;
+  BoundedGain const bounded = bounded_gain(group, coefficients.col(0));
+  result.parameters = bounded.parameters;
+  FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
+  Eigen::MatrixXd in_folds = beside.less_own - left_inside_less_own(gram, stacked(beside.products, candidate.products));
+  drop_wrong_signs(group, coefficients, in_folds);
+  result.train = in_folds.colwise().sum().transpose();
+  add_unseen(candidate, result);
+  // nothing with the signs that physics allows; replicates are not asked for theirs, which is on the safe side
+  if (!(bounded.gain > 0.0) || !are_plausible(*candidate.effect, bounded.parameters, columns().scales()))
+    result.train[0] = result.unseen[0] = 0.0;
+  return result;
+}
+
+Eigen::MatrixXd Evidence::change_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
+  OrthonormalGroup const& group = *candidate.group;
+  // coefficients of the orthonormal columns are combinations of parameters: r parameters = coefficients
+  Eigen::MatrixXd const to_parameters =
+      group.r.transpose() *
+      (group.r * group.r.transpose()).ldlt().solve(Eigen::MatrixXd::Identity(group.rank(), group.rank()));
+  Eigen::MatrixXd change = -one.nuisance * (columns().nuisance().transpose() * *candidate.columns);
+  if (!is_clock_bound(*candidate.effect))
+    change += one.without_offset(one.columns->columns(*candidate.effect, *candidate.shape));
+  return change * to_parameters;
+}
+
+void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
+  Eigen::MatrixXd const& coefficients = candidate.products.whole;
+  for (std::size_t i = 0; i < unseen_.size(); ++i) {
+    Eigen::MatrixXd const change = change_unseen(candidate, unseen_[i]);
+    Eigen::MatrixXd const products = inner_products(change, unseen_left_[i]), gram = change.transpose() * change;
+    Eigen::MatrixXd gains = (coefficients.array() * (2.0 * products - gram * coefficients).array()).colwise().sum();
+    drop_wrong_signs(*candidate.group, coefficients, gains);
+    gain.unseen += gains.transpose();
+  }
+}
+
+BlocksLeft Evidence::blocks_left(FoldKind kind) const {
+  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+  Eigen::Index const k = columns().nuisance().cols();
+  BlocksLeft left;
+  add_blocks(left_on_rows(beside.folds, columns().nuisance(), basis_and_signals_.col(k), beside.gram,
+                          picked(beside.products, 0, k, 0, 1)),
+             guard_rows(*stage_->pipeline), left);
+  for (std::size_t i = 0; i < unseen_.size(); ++i) add_blocks(unseen_left_[i].col(0), unseen_[i].memory_rows, left);
+  return left;
+}
+
+BlocksLeft Evidence::blocks_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
+                                 DrivenBy motion) const {
+  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+  Eigen::MatrixXd const law = columns(motion).columns(effect, shape);
+  OrthonormalGroup const group = orthonormal_group(law, columns().nuisance(), signs(effect));
+  Eigen::Index const k = columns().nuisance().cols();
+  FoldProducts const all = fold_products(beside.folds, group.q, basis_and_signals_.leftCols(k + 1));
+  Candidate const candidate{
+      &effect, &shape, &group, &law, picked(all, 0, group.rank(), 0, k), picked(all, 0, group.rank(), k, 1)};
+  FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
+  Eigen::MatrixXd both(group.q.rows(), k + group.rank());
+  both << columns().nuisance(), group.q;
+  BlocksLeft left;
+  add_blocks(left_on_rows(beside.folds, both, basis_and_signals_.col(k), gram,
+                          stacked(picked(beside.products, 0, k, 0, 1), candidate.products)),
+             guard_rows(*stage_->pipeline), left);
+  for (std::size_t i = 0; i < unseen_.size(); ++i)
+    add_blocks(unseen_left_[i].col(0) - change_unseen(candidate, unseen_[i]) * candidate.products.whole,
+               unseen_[i].memory_rows, left);
+  return left;
+}
+
+bool leaves_clearly_less(BlocksLeft const& other, BlocksLeft const& one) {
+  std::vector<HeldOutBlock> paired = other.blocks;
+  for (std::size_t i = 0; i < std::min(paired.size(), one.blocks.size()); ++i) paired[i].before = one.blocks[i].after;
+  return held_out_gain(paired).change == HeldOutChange::lower;
+}
+
+}  // namespace torquescope
