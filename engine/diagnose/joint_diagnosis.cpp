@@ -236,7 +236,10 @@ class JointWork {
     }
     if (decided.reason == VerdictReason::motion_poor || decided.reason == VerdictReason::no_relation)
       hopeless(*blamed_for_silence());
-    if (decided.reason == VerdictReason::motion_poor) return;
+    if (decided.reason == VerdictReason::motion_poor) {
+      if (!joint_.effects.empty()) withdraw(decided.reason);
+      return;
+    }
     if (!kept_.state.adequacy.holds()) {
       auto const& final = final_stage();
       joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));

@@ -149,8 +149,11 @@ class Search {
 
   void note_first(Selection& selection, CatalogueEvidence const& catalogue) const {
     if (!selection.accepted.empty()) return;
-    // laws of a clock are looked at after those of the motion, with the baseline where nothing was taken
+    // laws of a clock are looked at after those of the motion, which are asked once more beside them
     for (auto const& law : catalogue.laws) {
+      if (std::any_of(selection.first_scan.begin(), selection.first_scan.end(),
+                      [&](EffectScan const& one) { return one.effect == law.scan.effect; }))
+        continue;
       selection.first_scan.push_back(law.scan);
       selection.first_q.push_back(law.scan.p);
       selection.first_cv_gain.push_back(law.scan.is_testable ? law.train : std::numeric_limits<double>::quiet_NaN());
