@@ -1,6 +1,6 @@
 """A diagnosis of each kind that costs next to nothing ends in its verdict: a recording at fault, one that is too poor,
 and a sound one. (One effect named: structure/readme_commands.py; what no effect explains:
-concealed.three.)"""
+concealed.unexplained.)"""
 
 import csv
 import json
