@@ -46,7 +46,7 @@ PAGES = os.environ.get("TORQUESCOPE_PAGES")
 VERDICTS = (
     ("named", "class", "partly", "none", "unexplained", "insufficient", "data_fault") if EXAMPLE_WRITER else ()
 )
-VARIED = every_time(vary_diagnosis.KINDS, "minute", "two_joints") if EXAMPLE_WRITER else ()
+VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 needs_diagnoses = unittest.skipUnless(
     EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis"

@@ -297,6 +297,7 @@ class Verdict(unittest.TestCase):
         for kind in support.VERDICTS:
             self.assertEqual(re.findall(r"\bsignificant|\blikely|\bAI\b", read_by_a_person(kind)), [], kind)
 
+    @unittest.skipUnless(support.FULL, "a large page that no job makes yet: scripts/test --full")
     def test_two_joints_have_two_of_everything(self):
         text = support.page("two_joints").read_text(encoding="utf-8")
         self.assertEqual(text.count('id="mismatch_map_joint_'), 2)
