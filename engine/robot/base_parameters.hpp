@@ -4,7 +4,8 @@
 // Equation   Phi chi = Phi[:, columns] chi_base, chi_base_k = chi[column_k] + sum of factor * chi[column]
 // Rule       pinned by order, not by pivots: links from the tip to the base, of each zz, xy, xz, yz, mx, my, xx when
 //            independent of those kept before; then drive inertias; then mz, yy, m. Listed in the order of the columns.
-//            One that gathers others has an r in its name: xxr2 = xx2 - yy2 - 0.0929 (m3 + m4)
+//            One that gathers others has an r in its name: xxr2 = xx2 - yy2 - 0.0929 (m3 + m4). Angles that are almost
+//            right make columns that are almost sums: these stand last
 // Threads    immutable after the constructor
 // Source     Gautier and Khalil 1990, doi:10.1109/70.56655 (which columns stand); Gautier 1991,
 //            doi:10.1002/rob.4620080405 (numerical gathers)

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace torquescope {
 
 namespace {
 
 using Eigen::Index;
+
+// one that leaves less of a unit column is almost a sum: kept before others it lends them its rounding, and a dependent
+// one behind it looks independent
+constexpr double clear = 1e-4;
 
 // columns taken one after the other
 class GramSchmidt {
@@ -60,22 +65,28 @@ OrderedBasis ordered_basis(Eigen::MatrixXd const& columns, std::vector<Index> co
   OrderedBasis result;
   std::vector<Index> taken;  // in the order they were kept
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  for (Index const column : order) {
-    if (lengths[column] <= shortest) {
-      result.zero.push_back(column);
-      continue;
-    }
-    if (basis.project(columns.col(column) / lengths[column]) > tolerance) {
+  std::vector<Index> almost;  // a sum of the kept ones: they wait until the clear ones stand
+  auto const keep_or_sum = [&](Index column, double enough) {
+    double const rest = basis.project(columns.col(column) / lengths[column]);
+    if (rest > enough) {
       basis.keep();
       sums(static_cast<Index>(taken.size()), column) = 1.0;
       taken.push_back(column);
-      continue;
+    } else if (rest > tolerance) {
+      almost.push_back(column);
+    } else {
+      Eigen::VectorXd const factors = basis.sum();
+      for (Index k = 0; k < factors.size(); ++k)
+        if (std::abs(factors[k]) > tolerance)
+          sums(k, column) = factors[k] * lengths[column] / lengths[taken[static_cast<std::size_t>(k)]];
     }
-    Eigen::VectorXd const factors = basis.sum();
-    for (Index k = 0; k < factors.size(); ++k)
-      if (std::abs(factors[k]) > tolerance)
-        sums(k, column) = factors[k] * lengths[column] / lengths[taken[static_cast<std::size_t>(k)]];
-  }
+  };
+  for (Index const column : order)
+    if (lengths[column] <= shortest)
+      result.zero.push_back(column);
+    else
+      keep_or_sum(column, std::max(clear, tolerance));
+  for (Index const column : std::exchange(almost, {})) keep_or_sum(column, tolerance);
   // ascending, whatever the order
   result.kept = taken;
   std::sort(result.kept.begin(), result.kept.end());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "engine/base/random_stream.hpp"
 #include "engine/robot/gather_text.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "support/decompositions.hpp"
@@ -75,6 +76,18 @@ TEST(BaseParameters, AreAsManyAsTheRankOfFiveHundredRandomArms) {
     if (n < values.size()) {
       EXPECT_LT(values[n], columns.rounding) << number;
     }
+  }
+}
+
+// the first of two almost equal columns used to stand, and a third that is their sum then counted as independent
+TEST(BaseParameters, OfArmsWithoutQuiteRightAnglesAreAsManyAsTheRank) {
+  RandomStream random({21, 0, RandomDomain::test}, 0, 0);
+  for (std::uint32_t number = 0; number < 200; ++number) {
+    auto chain = test::random_arm(number, true).chain;
+    for (auto& joint : chain.joints) joint.alpha += std::pow(10.0, random.uniform(-4.0, -3.0));
+    auto const values = test::singular_values(sampled(chain, 24).scaled);
+    auto const n = (values.array() > 1e-12 * values[0]).count();
+    EXPECT_EQ(rank(chain, DriveInertias::included), n) << number;
   }
 }
 
