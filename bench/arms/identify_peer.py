@@ -70,26 +70,31 @@ def still_samples(speed, rate_hz, cutoff_hz):
     return np.convolve(still, np.ones(2 * reach + 1), mode="same") > 0.5
 
 
-def rows_of(part, model, offset, job):
+def pinocchio_columns(model, q, dq, ddq, job):
+    """Of each joint: columns of all links, and of its own friction and drive beside zeros."""
+    data, (n, joints) = model.createData(), q.shape
+    links = np.array([pinocchio.computeJointTorqueRegressor(model, data, *state).copy() for state in zip(q, dq, ddq)])
+    for j in range(joints):
+        own = [dq[:, j], np.sign(dq[:, j]), np.ones(n)] + ([ddq[:, j]] if job["model"]["drive_inertia"] else [])
+        beside = np.zeros((n, len(own) * joints))
+        beside[:, j * len(own): (j + 1) * len(own)] = np.column_stack(own)
+        yield np.hstack([links[:, j], beside])
+
+
+def rows_of(part, model, offset, job, columns_of=pinocchio_columns):
     """Of each joint: filtered columns and torque of the samples that move one way."""
     position, torque, rate_hz = part
     wanted = job["filter"]
     q = low_pass(position, wanted["cutoff_hz"], rate_hz)
     dq = np.gradient(q, 1 / rate_hz, axis=0)
     ddq = np.gradient(dq, 1 / rate_hz, axis=0)
-    data, (n, joints) = model.createData(), q.shape
-    links = np.array([pinocchio.computeJointTorqueRegressor(model, data, q[k] + offset, dq[k], ddq[k]).copy()
-                      for k in range(n)])
     step = round(rate_hz / wanted["decimate_to_hz"])
     cut = wanted["parallel_cutoff_hz"]
     edge = int(np.ceil(3 / cut * rate_hz))
-    kept = np.arange(edge, n - edge, step)
+    kept = np.arange(edge, len(q) - edge, step)
     rows = []
-    for j in range(joints):
-        own = [dq[:, j], np.sign(dq[:, j]), np.ones(n)] + ([ddq[:, j]] if job["model"]["drive_inertia"] else [])
-        beside = np.zeros((n, len(own) * joints))
-        beside[:, j * len(own): (j + 1) * len(own)] = np.column_stack(own)
-        columns = low_pass(np.hstack([links[:, j], beside]), cut, rate_hz)[kept]
+    for j, raw in enumerate(columns_of(model, q + offset, dq, ddq, job)):
+        columns = low_pass(raw, cut, rate_hz)[kept]
         moving = ~still_samples(dq[:, j], rate_hz, cut)[kept]
         rows.append((columns[moving], low_pass(torque[:, j], cut, rate_hz)[kept][moving]))
     return rows
@@ -122,7 +127,8 @@ def weighted(rows, turns=30):
     return found
 
 
-def peer(job, folder):
+def parts_of(job, folder):
+    """The robot's model, its offsets, and rows of each joint in training and unseen, by whatever makes the columns."""
     with open(JOBS / job["model"]["robot"], "rb") as file:
         model, offset = chain(tomllib.load(file))
     listed = lambda key: [value] if isinstance(value := job["recording"].get(key, []), str) else value
@@ -133,8 +139,14 @@ def peer(job, folder):
         ends = [round(share * len(part[0])) for part in found["train"]]
         found["validate"] = [cut(part, end, None) for part, end in zip(found["train"], ends)]
         found["train"] = [cut(part, 0, end) for part, end in zip(found["train"], ends)]
-    train, unseen = (joined([rows_of(part, model, offset, job) for part in found[key]])
-                     for key in ("train", "validate"))
+    make = lambda columns_of: [joined([rows_of(part, model, offset, job, columns_of) for part in found[key]])
+                               for key in ("train", "validate")]
+    return model, make
+
+
+def peer(job, folder):
+    _, make = parts_of(job, folder)
+    train, unseen = make(pinocchio_columns)
     return {name: (len(train), errors(train, x), errors(unseen, x))
             for name, x in (("ols", solve(train, np.ones(len(train)))), ("wls", weighted(train)))}
 
