@@ -59,7 +59,25 @@ SourcePlace place_of_message(RobotText const& text, std::string const& message) 
   return text.whole();
 }
 
-urdf::ModelInterfaceSharedPtr parse(RobotText const& text) {
+// Links own their children: those of a loop would keep one another for ever
+class ParsedModel {
+ public:
+  explicit ParsedModel(urdf::ModelInterfaceSharedPtr model) : model_(std::move(model)) {}
+  ~ParsedModel() {
+    for (auto const& [name, link] : model_->links_) {
+      link->child_links.clear();
+      link->child_joints.clear();
+    }
+  }
+  ParsedModel(ParsedModel const&) = delete;
+  ParsedModel& operator=(ParsedModel const&) = delete;
+  urdf::ModelInterface const& operator*() const { return *model_; }
+
+ private:
+  urdf::ModelInterfaceSharedPtr model_;
+};
+
+ParsedModel parse(RobotText const& text) {
   Listener listener;
   auto model = urdf::parseURDF(text.text);
   validate(model != nullptr, [&] {
@@ -71,7 +89,7 @@ urdf::ModelInterfaceSharedPtr parse(RobotText const& text) {
     problem.help = "mend it there; check_urdf (Debian: liburdfdom-tools) reads it the same way";
     return problem;
   });
-  return model;
+  return ParsedModel(std::move(model));
 }
 
 class TreeReader {
