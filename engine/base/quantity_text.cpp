@@ -83,7 +83,7 @@ std::string percent_text(double share) {
 
 std::string share_text(double share, double low, double high) {
   if (!std::isfinite(share)) return "";
-  std::string const text = two_digits(100.0 * share) + " %";
+  std::string text = two_digits(100.0 * share) + " %";
   if (!std::isfinite(low) || !std::isfinite(high)) return text;
   return fmt::format("{} ({} to {} %)", text, two_digits(100.0 * low), two_digits(100.0 * high));
 }

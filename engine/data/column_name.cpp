@@ -114,7 +114,7 @@ std::string take_unit_word(std::vector<std::string>& pieces) {
     if (!known_unit(word) || (word.size() == 1 && !is_last)) continue;
     if (word == "raw" || word == "enc") continue;  // words, and no better units than others in the name
     if (word == "m" && is_angle_word(lowered(pieces.front()))) continue;
-    std::string const unit = pieces[i];
+    std::string unit = pieces[i];
     pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
     return unit;
   }

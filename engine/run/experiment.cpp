@@ -154,7 +154,7 @@ std::string ablation_words(DiagnoseOptions const& options) {
 std::string Experiment::filter_warning() const {
   FilterOptions const& filter = parts_->filter;
   double const parallel_hz = parallel_cutoff_of(filter);
-  if (std::string const words = ruin_words(filter, parts_->motion_hz, parts_->noise_hz); !words.empty()) return words;
+  if (std::string words = ruin_words(filter, parts_->motion_hz, parts_->noise_hz); !words.empty()) return words;
   if (!(filter.cutoff_hz > 0.0) || parallel_hz <= filter.cutoff_hz) return {};
   return fmt::format(
       "parallel_cutoff_hz = {:g} is above cutoff_hz = {:g}: between the two the torque keeps what the motion has lost, "

@@ -83,7 +83,7 @@ NoiseWeights weights_of(NoiseWeights const& plain, Eigen::VectorXd const& varian
 
 NoiseWeights reversal_weights(BaselineTwin const& made, RecordPipeline& pipeline, RowWhitening const& rows,
                               TwinAddress const& address, std::size_t twins, TwinWorkers const& workers) {
-  NoiseWeights const plain(rows);
+  NoiseWeights plain(rows);
   std::vector<Eigen::Index> const moving = pipeline.own_rows(made.record.motion);
   pipeline.keep_reversals();
   pipeline.weigh_with(std::make_shared<NoiseWeights const>(plain));
@@ -100,7 +100,7 @@ NoiseWeights reversal_weights(BaselineTwin const& made, RecordPipeline& pipeline
                                      });
   pipeline.keep_reversals(false);
   if (ran_away) return plain;
-  NoiseWeights const result = weights_of(plain, pooled_variance(residuals, pooled_reach(pipeline)), moving);
+  NoiseWeights result = weights_of(plain, pooled_variance(residuals, pooled_reach(pipeline)), moving);
   pipeline.weigh_with(std::make_shared<NoiseWeights const>(result));
   return result;
 }

@@ -150,8 +150,8 @@ void put_colour(TorqueColour const& colour, double rate_hz, TwinLoop& loop) {
 }
 
 std::string colour_remark(TorqueColour const& colour, std::string const& unit) {
-  std::string const white = fmt::format("the noise of the torque is read from what the model leaves: {:.2g} {} white",
-                                        colour.white_std, unit);
+  std::string white = fmt::format("the noise of the torque is read from what the model leaves: {:.2g} {} white",
+                                  colour.white_std, unit);
   if (!(colour.slow_std > 0.0)) return white;
   return white + fmt::format(", {:.2g} {} below {:.2g} Hz", colour.slow_std, unit, colour.corner_hz);
 }

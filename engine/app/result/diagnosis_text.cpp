@@ -88,7 +88,7 @@ std::string next_text(JointDiagnosis const& joint) {
 // an interval that reaches much further to one side is said by its ends
 std::string interval_text(ParameterEstimate const& one) {
   constexpr double lopsided = 0.1;
-  std::string const value = short_number(one.value);
+  std::string value = short_number(one.value);
   if (!std::isfinite(one.lower) || !std::isfinite(one.upper)) return value;
   double const half = 0.5 * (one.upper - one.lower), middle = 0.5 * (one.upper + one.lower);
   if (std::abs(one.value - middle) > lopsided * half)
