@@ -11,8 +11,10 @@
 namespace torquescope {
 namespace {
 
+// terms of a joint, or what stands beside a rigid arm
 Problem problem_at_terms(Section const& model, std::string what) {
-  return problem_at(model, "terms", std::move(what), "");
+  char const* key = model.find("terms") == nullptr && model.find("friction") != nullptr ? "friction" : "terms";
+  return problem_at(model, key, std::move(what), "");
 }
 
 std::vector<std::string> effect_names() {

@@ -17,7 +17,8 @@ std::vector<std::optional<Regressor>> friction_of(SerialChain const& chain, ArmT
   std::vector<std::optional<Regressor>> friction(chain.joints.size());
   for (std::size_t j = 0; j < friction.size(); ++j) {
     auto const& own = terms.joint_friction.empty() ? terms.friction : terms.joint_friction[j];
-    if (!own.empty()) friction[j].emplace(own, chain.joints[j].kind, terms.velocity_deadband, model);
+    auto const& place = terms.joint_sections.empty() ? model : terms.joint_sections[j];
+    if (!own.empty()) friction[j].emplace(own, chain.joints[j].kind, terms.velocity_deadband, place);
   }
   return friction;
 }

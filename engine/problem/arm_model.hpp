@@ -28,6 +28,7 @@ namespace torquescope {
 struct ArmTerms {
   std::vector<std::string> friction{};                     // of every joint
   std::vector<std::vector<std::string>> joint_friction{};  // [N] of each, in place of it; empty: all are alike
+  std::vector<Section> joint_sections{};                   // [N] of the job, where each one's stands; empty: [model]
   DriveInertias drives = DriveInertias::included;
   double velocity_deadband = 0.0;
   std::vector<Payload> payloads{};

@@ -220,7 +220,7 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
   SerialChain chain = read_robot(job.resolve(options.robot));
   ArmTerms terms{options.friction};
-  terms.joint_friction = read_joint_friction(job, options.friction, chain.joints.size());
+  read_joint_friction(job, chain.joints.size(), terms);
   terms.drives = options.drive_inertia ? DriveInertias::included : DriveInertias::left_out;
   terms.velocity_deadband = options.velocity_deadband;
   terms.payloads = payloads;

@@ -6,9 +6,9 @@
 
 namespace torquescope {
 
-std::vector<std::vector<std::string>> read_joint_friction(Job const& job, std::vector<std::string> const& usual,
-                                                          std::size_t joints) {
-  std::vector<std::vector<std::string>> friction(joints, usual);
+void read_joint_friction(Job const& job, std::size_t joints, ArmTerms& terms) {
+  terms.joint_friction.assign(joints, terms.friction);
+  terms.joint_sections.assign(joints, section_or_empty(job, "model"));
   std::vector<Problem> problems;
   for (auto const& section : job.sections) {
     auto const joint = joint_of_section(section.name);
@@ -18,12 +18,12 @@ std::vector<std::vector<std::string>> read_joint_friction(Job const& job, std::v
                                     "joints are numbered from 1"));
       continue;
     }
-    JointModelOptions own{usual};
+    JointModelOptions own{terms.friction};
     JointModelOptions::table().apply(section, own, problems);
-    friction[*joint - 1] = own.friction;
+    terms.joint_friction[*joint - 1] = own.friction;
+    if (section.find("friction") != nullptr) terms.joint_sections[*joint - 1] = section;
   }
   if (!problems.empty()) throw Error(std::move(problems));
-  return friction;
 }
 
 void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {

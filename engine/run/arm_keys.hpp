@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/problem/arm_model.hpp"
 #include "engine/run/experiment_parts.hpp"
 
 namespace torquescope {
@@ -17,8 +18,7 @@ void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<
 // of a job about one joint: what only an arm has
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);
 
-// [N] of each joint: model.friction, or what its own section says. Throws
-std::vector<std::vector<std::string>> read_joint_friction(Job const& job, std::vector<std::string> const& usual,
-                                                          std::size_t joints);
+// of each joint: what stays in `terms` of model.friction, or what its own section says. Throws
+void read_joint_friction(Job const& job, std::size_t joints, ArmTerms& terms);
 
 }  // namespace torquescope

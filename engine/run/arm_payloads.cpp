@@ -13,8 +13,10 @@ namespace {
 void check_count(Section const& section, char const* key, std::vector<double> const& numbers, std::size_t each,
                  std::size_t recordings, std::vector<Problem>& problems) {
   if (numbers.empty() || numbers.size() == each * recordings) return;
+  auto const some = [](std::size_t n, char const* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   problems.push_back(
-      problem_at(section, key, fmt::format("{} has {} numbers, for {} recordings", key, numbers.size(), recordings),
+      problem_at(section, key,
+                 fmt::format("{} has {}, for {}", key, some(numbers.size(), "number"), some(recordings, "recording")),
                  each == 1 ? "write one number a recording; 0 where the arm carries nothing"
                            : "write three numbers a recording: x, y, z; 0, 0, 0 where the arm carries nothing"));
 }
@@ -23,6 +25,17 @@ void check_masses(Section const& section, char const* key, std::vector<double> c
                   std::vector<Problem>& problems) {
   if (std::all_of(masses.begin(), masses.end(), [](double mass) { return mass >= 0.0; })) return;
   problems.push_back(problem_at(section, key, "a payload's mass is below 0", "write what the scales show, in kg"));
+}
+
+// first moments say something of a mass that is stated
+void check_moments(Section const& section, RecordingOptions const& options, std::vector<Problem>& problems) {
+  auto const& moments = options.payload_first_moments_kgm;
+  for (std::size_t k = 0; 3 * k < moments.size(); ++k)
+    if (options.payload_kg[k] == 0.0 &&
+        (moments[3 * k] != 0.0 || moments[3 * k + 1] != 0.0 || moments[3 * k + 2] != 0.0))
+      problems.push_back(problem_at(section, "payload_first_moments_kgm",
+                                    fmt::format("recording {} carries nothing, and has first moments", k + 1),
+                                    "write its mass into payload_kg, or 0, 0, 0"));
 }
 
 // those of the training recordings, each once
@@ -65,14 +78,18 @@ PayloadPlan plan_payloads(Job const& job, RecordingOptions const& options, bool 
   Section const section = section_or_empty(job, "recording");
   std::size_t const before = problems.size();
   check_count(section, "payload_kg", options.payload_kg, 1, options.train.size(), problems);
-  check_count(section, "payload_first_moments_kgm", options.payload_first_moments_kgm, 3, options.payload_kg.size(),
+  check_count(section, "payload_first_moments_kgm", options.payload_first_moments_kgm, 3, options.train.size(),
               problems);
+  if (options.payload_kg.empty() && !options.payload_first_moments_kgm.empty())
+    problems.push_back(problem_at(section, "payload_first_moments_kgm", "payload_first_moments_kgm without payload_kg",
+                                  "write payload_kg as well: one mass a recording"));
   check_count(section, "validate_payload_kg", options.validate_payload_kg, 1, options.validate.size(), problems);
   check_masses(section, "payload_kg", options.payload_kg, problems);
   check_masses(section, "validate_payload_kg", options.validate_payload_kg, problems);
   PayloadPlan plan;
   plan.train.resize(options.train.size());
   plan.validate.resize(options.validate.size());
+  if (problems.size() == before) check_moments(section, options, problems);
   if (problems.size() > before) return plan;
   find_payloads(options, plan);
   find_validation_payloads(section, options.validate_payload_kg, plan, problems);
