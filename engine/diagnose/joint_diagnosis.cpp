@@ -23,6 +23,7 @@
 #include "engine/unseen/unseen_record.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
+#include "engine/words/name_list.hpp"
 #include "engine/words/sentences.hpp"
 #include "engine/words/withdrawn_names.hpp"
 
@@ -35,6 +36,13 @@ std::string without_reference_sentence(bool is_echo) {
   return why +
          ": twins follow the measured motion, and the torque's noise is read from what the model leaves, so that small "
          "effects hide; reversals are not looked at (reference = \"COLUMN\" in recording.columns: what was commanded).";
+}
+
+std::string several_recordings_sentence(DiagnosisInput const& input) {
+  std::vector<std::string> further;
+  for (std::size_t i = 0; i < input.further_training; ++i) further.push_back(input.validate[i].name);
+  return "Parameters are fitted to " + input.train.name + "; " + name_list(further, "and") +
+         (further.size() == 1 ? " has" : " have") + " to be predicted by them.";
 }
 
 LeftOut told(LeftOutRows const& rows) {
@@ -83,11 +91,12 @@ class JointWork {
     auto why = verdict_of(Verdict::data_fault, [&] { return first_look_.look(recording); });
     joint_.train_relerr = first_look_.relerr();
     joint_.remarks = first_look_.remarks();
+    if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(input_));
     if (why) return hopeless(*why);
     StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
                          input_.seed, input_.threads};
     setting.ablation = input_.ablation;
-    setting.reversals = input_.reversals;
+    if (input_.reversals == ReversalRows::weigh) setting.reversals = ReversalRows::weigh;
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
     std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
@@ -100,7 +109,8 @@ class JointWork {
       return std::nullopt;
     });
     if (why) return hopeless(*why);
-    kept_ = keep_what_predicts(*search_, unseen_, levels());
+    kept_ = keep_what_predicts(*search_, unseen_);
+    look_at_reversals(setting, recording, selection);
     selection_ = kept_.state.selection;
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
     account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
@@ -115,6 +125,31 @@ class JointWork {
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
+  static bool is_named(KeptModel const& kept) {
+    return !kept.state.selection.accepted.empty() && kept.is_held_out_lower && kept.state.adequacy.holds();
+  }
+
+  // Where the mask left nothing to explain, the rows that it hides are looked at by their weight
+  void look_at_reversals(StageSetting setting, Recording& recording, SelectionOptions selection) {
+    auto const& first = search_->states.front();
+    bool const is_led = first.selection.baseline->twin->loop.source != LoopSource::tracking;
+    if (input_.reversals != ReversalRows::both || !first.adequacy.holds() || is_named(kept_) || !is_led) return;
+    setting.reversals = ReversalRows::weigh;
+    selection.only_a_mismatch = true;
+    double late_s = torque_late_s_;
+    std::unique_ptr<StepwiseSearch const> again;
+    auto const failed = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
+      again = search_in_time(setting, recording, unseen_, {selection, levels()}, late_s, progress_);
+      return std::nullopt;
+    });
+    if (failed) return;
+    KeptModel kept = keep_what_predicts(*again, unseen_);
+    if (!is_named(kept)) return;
+    search_ = std::move(again);
+    kept_ = std::move(kept);
+    torque_late_s_ = late_s;
+  }
+
   DecisionLevels levels() const {
     DecisionLevels levels;
     levels.alpha = input_.selection.q;
@@ -125,7 +160,7 @@ class JointWork {
   ModelStage const& baseline() const { return *selection_.baseline; }
 
   void account_for_effects() {
-    NamedEffects named = name_effects(selection_, *kept_.state.evidence, input_.selection.candidates, levels().alpha,
+    NamedEffects named = name_effects(selection_, *kept_.state.evidence, input_.selection.candidates, levels(),
                                       {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
     joint_.effects = std::move(named.effects);
     joint_.augmented = std::move(named.parameters);

@@ -17,8 +17,8 @@
 namespace torquescope {
 
 struct DiagnosisInput {
-  Recording const& train;
-  std::vector<Recording> const& validate;
+  Recording const& train;                  // that parameters are fitted to
+  std::vector<Recording> const& validate;  // that they predict
   Regressor const& regressor;
   FilterOptions const& filter;
   Section const& filter_section;
@@ -27,8 +27,9 @@ struct DiagnosisInput {
   std::uint64_t seed = 0;
   int threads = 1;
   Ablation ablation{};
-  ReversalRows reversals = ReversalRows::mask;
+  ReversalRows reversals = ReversalRows::both;
   std::string joint_name{};          // for texts: of the position column
+  std::size_t further_training = 0;  // of those to predict, the first so many belong to training
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 

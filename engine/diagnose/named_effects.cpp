@@ -55,7 +55,8 @@ std::vector<ParameterEstimate> numbered(std::vector<ParameterEstimate> parameter
 }  // namespace
 
 NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
-                          std::span<Effect const* const> catalogue, double alpha, RefinementSetting const& setting) {
+                          std::span<Effect const* const> catalogue, DecisionLevels const& levels,
+                          RefinementSetting const& setting) {
   ModelEstimate const estimate = estimate_parameters(*selection.final);
   double const residual = selection.first_energy.residual, blocked = blocked_mismatch(*selection.baseline).energy;
   NamedEffects result;
@@ -68,11 +69,11 @@ NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
     if (same != result.effects.end()) {
       same->gain.train += accepted.gain / residual;
       same->gain.cv += accepted.cv_gain / blocked;
-      add_equivalent(confidence_set(evidence, i, catalogue, alpha, setting), same->equivalent);
+      add_equivalent(confidence_set(evidence, i, catalogue, levels, setting), same->equivalent);
       continue;
     }
     NamedEffect named = described(selection, i, blocked);
-    add_equivalent(confidence_set(evidence, i, catalogue, alpha, setting), named.equivalent);
+    add_equivalent(confidence_set(evidence, i, catalogue, levels, setting), named.equivalent);
     result.effects.push_back(std::move(named));
   }
   std::vector<std::size_t> waves(result.effects.size(), 0);

@@ -23,6 +23,7 @@ struct NamedEffects {
 
 // evidence: of the final stage; catalogue: laws that may be rivals of an accepted one (confidence_set.hpp)
 NamedEffects name_effects(Selection const& selection, Evidence const& evidence,
-                          std::span<Effect const* const> catalogue, double alpha, RefinementSetting const& setting);
+                          std::span<Effect const* const> catalogue, DecisionLevels const& levels,
+                          RefinementSetting const& setting);
 
 }  // namespace torquescope

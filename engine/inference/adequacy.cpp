@@ -8,6 +8,15 @@
 
 namespace torquescope {
 
+namespace {
+
+// few replicates cannot give a small p: then none of them reaches it
+double least_chance(DecisionLevels const& levels, std::size_t twins) {
+  return std::max(levels.alpha / questions_of_adequacy, least_p(twins));
+}
+
+}  // namespace
+
 AdequacyPart adequacy_part(Eigen::VectorXd const& left, double allowed, double torque, DecisionLevels const& levels) {
   AdequacyPart part;
   std::vector<double> const twins(left.data() + 1, left.data() + left.size());
@@ -15,9 +24,7 @@ AdequacyPart adequacy_part(Eigen::VectorXd const& left, double allowed, double t
   double const excess = left[0] - allowed - mean;
   part.p = empirical_p(left[0] - allowed, twins);
   part.excess_share = torque > 0.0 ? std::sqrt(std::max(0.0, excess) / torque) : 0.0;
-  // few replicates cannot give a small p: then none of them reaches it
-  double const least = std::max(levels.alpha / questions_of_adequacy, least_p(twins.size()));
-  part.holds = part.p > least || part.excess_share < levels.delta;
+  part.holds = part.p > least_chance(levels, twins.size()) || part.excess_share < levels.delta;
   return part;
 }
 
@@ -46,11 +53,23 @@ AdequacyPart in_torque_itself_part(Evidence const& evidence, double of_form, Dec
              stage.parameters().segment(first, static_cast<Eigen::Index>(effects[i].effect->n_linear())))
                 .squaredNorm();
   }
-  Eigen::VectorXd const left = exchangeable(rows.plain_residual, rows.plain_twins).colwise().squaredNorm().transpose();
+  Eigen::MatrixXd signals = exchangeable(rows.plain_residual, rows.plain_twins);
+  stage.pipeline->take_shares(signals, rows.kept_rows);
+  Eigen::VectorXd const left = signals.colwise().squaredNorm().transpose();
   return adequacy_part(left, of_form * laws, rows.torque.squaredNorm(), levels);
 }
 
 }  // namespace
+
+bool leaves_chance(Evidence const& evidence, LawGain const& law, FoldKind kind, DecisionLevels const& levels) {
+  auto const is_chance = [&](Eigen::VectorXd const& left) {
+    std::vector<double> const twins(left.data() + 1, left.data() + left.size());
+    return empirical_p(left[0], twins) > least_chance(levels, twins.size());
+  };
+  Eigen::VectorXd const train = evidence.left_in_folds(kind).colwise().sum().transpose() - law.train;
+  if (!is_chance(train)) return false;
+  return evidence.n_unseen() == 0 || is_chance(evidence.left_unseen().colwise().sum().transpose() - law.unseen);
+}
 
 Adequacy adequacy_of(Evidence const& evidence, DecisionLevels const& levels) {
   ModelStage const& stage = evidence.stage();

@@ -31,6 +31,10 @@ struct Adequacy {
 
 Adequacy adequacy_of(Evidence const& evidence, DecisionLevels const& levels);
 
+// whether what is left beside the model and that law lies among what replicates leave, the same taken from them: p as
+// above, whatever the size
+bool leaves_chance(Evidence const& evidence, LawGain const& law, FoldKind kind, DecisionLevels const& levels);
+
 // left: of recording, then replicates; allowed: energy more that the recording may leave; torque: its energy
 AdequacyPart adequacy_part(Eigen::VectorXd const& left, double allowed, double torque, DecisionLevels const& levels);
 

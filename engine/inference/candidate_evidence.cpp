@@ -19,9 +19,9 @@ struct Slice {
 
 // of a law over its grid so far
 struct Best {
-  Eigen::VectorXd gain{};    // 1 + M: of each signal at its own best shape
-  Eigen::VectorXd unseen{};  // there
-  LawGain recording{};       // at the recording's best shape
+  Eigen::VectorXd gain{};             // 1 + M: of each signal at its own best shape
+  Eigen::VectorXd train{}, unseen{};  // there
+  LawGain recording{};                // at the recording's best shape
   std::size_t point = 0;
   bool is_testable = false;
 };
@@ -30,13 +30,14 @@ void add(Best& best, LawGain&& gain, std::size_t point) {
   if (!gain.is_testable) return;
   Eigen::VectorXd const total = gain.total();
   if (!best.is_testable) {
-    best = {total, gain.unseen, std::move(gain), point, true};
+    best = {total, gain.train, gain.unseen, std::move(gain), point, true};
     return;
   }
   bool const is_better = total[0] > best.gain[0];
   for (Eigen::Index t = 0; t < total.size(); ++t)
     if (total[t] > best.gain[t]) {
       best.gain[t] = total[t];
+      best.train[t] = gain.train[t];
       best.unseen[t] = gain.unseen[t];
     }
   if (is_better) {
@@ -57,9 +58,10 @@ void finish(CandidateEvidence& law, Best const& best) {
   std::vector<double> const null(best.gain.data() + 1, best.gain.data() + best.gain.size());
   law.null_standard = standardised_twins(null);
   law.scan.z = twin_z(best.gain[0], null);
-  Eigen::VectorXd const of_twins = best.gain.tail(best.gain.size() - 1);
-  law.null_mean = of_twins.mean();
-  law.null_spread = std::sqrt((of_twins.array() - law.null_mean).square().sum() / static_cast<double>(null.size() - 1));
+  Eigen::VectorXd const of_twins = best.train.tail(best.train.size() - 1);
+  law.train_mean = of_twins.mean();
+  law.train_spread =
+      std::sqrt((of_twins.array() - law.train_mean).square().sum() / static_cast<double>(null.size() - 1));
   law.scan.gain = best.gain[0];
   law.scan.best_point = best.point;
   law.scan.shape = law.scan.grid.point(best.point);

@@ -20,10 +20,10 @@ namespace torquescope {
 struct CandidateEvidence {
   FoldKind folds = FoldKind::whole;  // that the gain is of
   EffectScan scan{};  // effect, grid, best point and shape; z: standardised gain; p: over the catalogue; gain: of both
-  double train = 0.0, unseen = 0.0;           // parts of the gain
-  double least_unseen = 0.0;                  // that replicates lose there by chance (5 %); 0 without unseen evidence
-  std::vector<double> null_standard{};        // of replicates
-  double null_mean = 0.0, null_spread = 0.0;  // of their gains
+  double train = 0.0, unseen = 0.0;             // parts of the gain
+  double least_unseen = 0.0;                    // that replicates lose there by chance (5 %); 0 without unseen evidence
+  std::vector<double> null_standard{};          // of replicates
+  double train_mean = 0.0, train_spread = 0.0;  // of what replicates gain in training
 };
 
 struct CatalogueEvidence {

@@ -20,18 +20,18 @@ std::vector<Effect const*> others(ModelStage const& stage, std::span<Effect cons
 }  // namespace
 
 std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::span<Effect const* const> catalogue,
-                                     double alpha, RefinementSetting const& setting) {
+                                     DecisionLevels const& levels, RefinementSetting const& setting) {
   Evidence const evidence(of, i);
   auto const& [effect, shape] = of.stage().model().effects()[i];
   FoldKind const kind = is_clock_bound(*effect) ? FoldKind::interleaved : FoldKind::whole;
   LawGain const own = evidence.gains(*effect, {shape}, kind).front();
   double const own_gain = own.total()[0];
-  BlocksLeft const own_left = evidence.blocks_left(*effect, shape, kind), without_any = evidence.blocks_left(kind);
+  RowsLeft const own_left = evidence.rows_left(*effect, shape, kind), without_any = evidence.rows_left(kind);
   auto const rivals = others(of.stage(), catalogue);
-  CatalogueEvidence const scanned = scan_catalogue(evidence, rivals, kind, alpha, setting.threads);
+  CatalogueEvidence const scanned = scan_catalogue(evidence, rivals, kind, levels.alpha, setting.threads);
   std::vector<CandidateEvidence const*> near;
   for (auto const& law : scanned.laws)
-    if (law.scan.is_testable && law.scan.p <= alpha && law.scan.gain > 0.0) near.push_back(&law);
+    if (law.scan.is_testable && law.scan.p <= levels.alpha && law.scan.gain > 0.0) near.push_back(&law);
   std::stable_sort(near.begin(), near.end(), [](auto const* a, auto const* b) { return a->scan.gain > b->scan.gain; });
   near.resize(std::min(near.size(), n_refined));
   std::vector<RivalLaw> set;
@@ -42,7 +42,7 @@ std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::spa
     if (!law->scan.effect->is_plausible(refined.shape, evidence.columns().scales())) continue;
     bool const is_a_law =
         refined.evidence.scan.gain > 0.0 && !refined.bound && leaves_clearly_less(refined.left, without_any);
-    if (!is_a_law || leaves_clearly_less(own_left, refined.left)) continue;
+    if (!is_a_law || leaves_clearly_more(refined.left, own_left, {without_any, levels.tolerance})) continue;
     set.push_back({law->scan.effect, refined.shape, own_gain > 0.0 ? refined.evidence.scan.gain / own_gain : 0.0});
   }
   std::stable_sort(set.begin(), set.end(), [](auto const& a, auto const& b) { return a.gain_ratio > b.gain_ratio; });

@@ -3,13 +3,15 @@
 //
 // Rival      any other law in its place, its shape refined, the other accepted laws beside it
 // Excluded   when the accepted law gains clearly more over folds and blocks of unseen rows (paired, one-sided, level
-//            5 %); a rival that is itself no clear gain, or stands at a bound, is none
+//            5 %), and more than a law's form may be off; a rival that is itself no clear gain, or stands at a bound,
+//            is none
 // Threads    spreads grid points over `threads`; same bits for any number
 // Source     engine/inference/THEORY.md, Confidence set; Cox 1962, doi:10.1111/j.2517-6161.1962.tb00468.x
 
 #include <span>
 #include <vector>
 
+#include "engine/inference/decision_levels.hpp"
 #include "engine/inference/refined_candidates.hpp"
 
 namespace torquescope {
@@ -22,6 +24,6 @@ struct RivalLaw {
 
 // of effect i of the evidence's model, strongest first
 std::vector<RivalLaw> confidence_set(Evidence const& evidence, std::size_t i, std::span<Effect const* const> catalogue,
-                                     double alpha, RefinementSetting const& setting);
+                                     DecisionLevels const& levels, RefinementSetting const& setting);
 
 }  // namespace torquescope

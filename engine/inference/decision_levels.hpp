@@ -17,9 +17,6 @@ struct DecisionLevels {
   double delta = 0.0025;
   // how far the form of a law may be off, as a share of its own torque, and the model still be adequate
   double tolerance = 0.1;
-  // share by which the held-out error must fall where replicates have no loop of the recording's, or the model is not
-  // adequate: less may be a difference of loops, and is of no use to anybody
-  double least_fall = 0.05;
 };
 
 // laws of a model that is not adequate are named when they explain more of the mismatch than they leave

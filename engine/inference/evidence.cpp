@@ -48,11 +48,6 @@ void drop_wrong_signs(OrthonormalGroup const& group, Eigen::MatrixXd const& coef
     if (coefficients(0, t) * group.r(0, 0) <= 0.0) gains.col(t).setZero();
 }
 
-void add_blocks(Eigen::VectorXd const& left, Eigen::Index memory, BlocksLeft& to) {
-  auto const blocks = held_out_blocks(left, left, std::max<Eigen::Index>(1, memory));
-  to.blocks.insert(to.blocks.end(), blocks.begin(), blocks.end());
-}
-
 }  // namespace
 
 Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, std::span<Recording const> unseen)
@@ -61,6 +56,7 @@ Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, std::sp
   std::uint32_t index = 1;
   for (auto const& recording : unseen) {
     auto one = unseen_evidence(setting, stage, columns(), recording, index++);
+    weights_unseen_.push_back(one ? one->pipeline->weights() : nullptr);
     if (one)
       add_unseen(std::move(*one));
     else
@@ -90,7 +86,8 @@ void Evidence::fill_training(std::size_t without) {
 }
 
 void Evidence::add_unseen(UnseenEvidence one) {
-  unseen_left_.emplace_back(one.signals - one.nuisance * whole_.products.whole);
+  unseen_left_.push_back(std::move(one.signals));
+  unseen_left_.back().noalias() -= one.nuisance * whole_.products.whole;
   Eigen::MatrixXd const blocks = block_sums(unseen_left_.back().array().square().matrix());
   left_unseen_.conservativeResize(left_unseen_.rows() + blocks.rows(), Eigen::NoChange);
   left_unseen_.bottomRows(blocks.rows()) = blocks;
@@ -126,7 +123,7 @@ double Evidence::law_energy_unseen() const {
 
 std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vector<double>> const& shapes,
                                      FoldKind kind, DrivenBy motion) const {
-  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+  InFolds const& beside = folds_of(kind);
   auto const each = columns(motion).columns_of_each(effect, shapes);
   std::vector<OrthonormalGroup> groups;
   Eigen::Index width = 0;
@@ -173,43 +170,64 @@ LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) con
   return result;
 }
 
-Eigen::MatrixXd Evidence::change_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
+Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
   OrthonormalGroup const& group = *candidate.group;
   // coefficients of the orthonormal columns are combinations of parameters: r parameters = coefficients
   Eigen::MatrixXd const to_parameters =
       group.r.transpose() *
       (group.r * group.r.transpose()).ldlt().solve(Eigen::MatrixXd::Identity(group.rank(), group.rank()));
-  Eigen::MatrixXd change = -one.nuisance * (columns().nuisance().transpose() * *candidate.columns);
-  if (!is_clock_bound(*candidate.effect))
-    change += one.without_offset(one.columns->columns(*candidate.effect, *candidate.shape));
-  return change * to_parameters;
+  Elsewhere const there = elsewhere(*candidate.effect);
+  UnseenChange change;
+  change.by_share = there == Elsewhere::a_share;
+  change.model = -one.nuisance * ((columns().nuisance().transpose() * *candidate.columns) * to_parameters);
+  if (there == Elsewhere::nothing)
+    change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
+  else
+    change.law = one.without_own(one.columns->columns(*candidate.effect, *candidate.shape)) * to_parameters;
+  return change;
+}
+
+// of each signal, what fits it best
+Eigen::RowVectorXd Evidence::UnseenChange::shares(Eigen::MatrixXd const& coefficients,
+                                                  Eigen::MatrixXd const& left) const {
+  if (!by_share) return Eigen::RowVectorXd::Ones(coefficients.cols());
+  Eigen::MatrixXd const products = law.transpose() * left, beside = law.transpose() * model,
+                        gram = law.transpose() * law;
+  Eigen::RowVectorXd const wanted = (coefficients.array() * (products - beside * coefficients).array()).colwise().sum();
+  Eigen::RowVectorXd const whole = (coefficients.array() * (gram * coefficients).array()).colwise().sum();
+  return wanted.binaryExpr(whole, [](double a, double b) { return b > 0.0 ? std::clamp(a / b, 0.0, 1.0) : 0.0; });
 }
 
 void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
   Eigen::MatrixXd const& coefficients = candidate.products.whole;
   for (std::size_t i = 0; i < unseen_.size(); ++i) {
-    Eigen::MatrixXd const change = change_unseen(candidate, unseen_[i]);
-    Eigen::MatrixXd const products = inner_products(change, unseen_left_[i]), gram = change.transpose() * change;
-    Eigen::MatrixXd gains = (coefficients.array() * (2.0 * products - gram * coefficients).array()).colwise().sum();
+    UnseenChange const change = change_unseen(candidate, unseen_[i]);
+    Eigen::MatrixXd both(change.model.rows(), 2 * change.model.cols());
+    both << change.model, change.law;
+    Eigen::MatrixXd steps(2 * coefficients.rows(), coefficients.cols());
+    steps << coefficients, coefficients * change.shares(coefficients, unseen_left_[i]).asDiagonal();
+    Eigen::MatrixXd const products = inner_products(both, unseen_left_[i]), gram = both.transpose() * both;
+    Eigen::MatrixXd gains = (steps.array() * (2.0 * products - gram * steps).array()).colwise().sum();
     drop_wrong_signs(*candidate.group, coefficients, gains);
     gain.unseen += gains.transpose();
   }
 }
 
-BlocksLeft Evidence::blocks_left(FoldKind kind) const {
-  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+RowsLeft Evidence::rows_left(FoldKind kind) const {
+  InFolds const& beside = folds_of(kind);
   Eigen::Index const k = columns().nuisance().cols();
-  BlocksLeft left;
-  add_blocks(left_on_rows(beside.folds, columns().nuisance(), basis_and_signals_.col(k), beside.gram,
-                          picked(beside.products, 0, k, 0, 1)),
-             guard_rows(*stage_->pipeline), left);
-  for (std::size_t i = 0; i < unseen_.size(); ++i) add_blocks(unseen_left_[i].col(0), unseen_[i].memory_rows, left);
+  RowsLeft left;
+  left.parts.push_back({left_on_rows(beside.folds, columns().nuisance(), basis_and_signals_.col(k), beside.gram,
+                                     picked(beside.products, 0, k, 0, 1)),
+                        guard_rows(*stage_->pipeline)});
+  for (std::size_t i = 0; i < unseen_.size(); ++i)
+    left.parts.push_back({unseen_left_[i].col(0), unseen_[i].memory_rows});
   return left;
 }
 
-BlocksLeft Evidence::blocks_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
-                                 DrivenBy motion) const {
-  InFolds const& beside = kind == FoldKind::whole ? whole_ : interleaved_;
+RowsLeft Evidence::rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
+                             DrivenBy motion) const {
+  InFolds const& beside = folds_of(kind);
   Eigen::MatrixXd const law = columns(motion).columns(effect, shape);
   OrthonormalGroup const group = orthonormal_group(law, columns().nuisance(), signs(effect));
   Eigen::Index const k = columns().nuisance().cols();
@@ -219,20 +237,49 @@ BlocksLeft Evidence::blocks_left(Effect const& effect, std::vector<double> const
   FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
   Eigen::MatrixXd both(group.q.rows(), k + group.rank());
   both << columns().nuisance(), group.q;
-  BlocksLeft left;
-  add_blocks(left_on_rows(beside.folds, both, basis_and_signals_.col(k), gram,
-                          stacked(picked(beside.products, 0, k, 0, 1), candidate.products)),
-             guard_rows(*stage_->pipeline), left);
-  for (std::size_t i = 0; i < unseen_.size(); ++i)
-    add_blocks(unseen_left_[i].col(0) - change_unseen(candidate, unseen_[i]) * candidate.products.whole,
-               unseen_[i].memory_rows, left);
+  RowsLeft left;
+  left.parts.push_back({left_on_rows(beside.folds, both, basis_and_signals_.col(k), gram,
+                                     stacked(picked(beside.products, 0, k, 0, 1), candidate.products)),
+                        guard_rows(*stage_->pipeline)});
+  for (std::size_t i = 0; i < unseen_.size(); ++i) {
+    UnseenChange const change = change_unseen(candidate, unseen_[i]);
+    Eigen::VectorXd const own = unseen_left_[i].col(0);
+    Eigen::MatrixXd const& step = candidate.products.whole;
+    left.parts.push_back(
+        {own - change.model * step - change.law * step * change.shares(step, own), unseen_[i].memory_rows});
+  }
   return left;
 }
 
-bool leaves_clearly_less(BlocksLeft const& other, BlocksLeft const& one) {
-  std::vector<HeldOutBlock> paired = other.blocks;
-  for (std::size_t i = 0; i < std::min(paired.size(), one.blocks.size()); ++i) paired[i].before = one.blocks[i].after;
-  return held_out_gain(paired).change == HeldOutChange::lower;
+namespace {
+
+std::vector<HeldOutBlock> paired_blocks(RowsLeft const& before, RowsLeft const& after) {
+  std::vector<HeldOutBlock> paired;
+  for (std::size_t i = 0; i < before.parts.size(); ++i) {
+    auto const blocks = held_out_blocks(before.parts[i].left, after.parts[i].left,
+                                        std::max<Eigen::Index>(1, before.parts[i].memory_rows));
+    paired.insert(paired.end(), blocks.begin(), blocks.end());
+  }
+  return paired;
+}
+
+}  // namespace
+
+double RowsLeft::energy() const {
+  double sum = 0.0;
+  for (Part const& part : parts) sum += part.left.squaredNorm();
+  return sum;
+}
+
+bool leaves_clearly_more(RowsLeft const& one, RowsLeft const& best, OfForm const& form) {
+  double const explained = std::max(0.0, form.without_any.energy() - best.energy());
+  bool const is_beyond_form = one.energy() - best.energy() > form.tolerance * form.tolerance * explained;
+  return is_beyond_form &&
+         held_out_gain(paired_blocks(one, best), Blocks::where_it_acts).change == HeldOutChange::lower;
+}
+
+bool leaves_clearly_less(RowsLeft const& other, RowsLeft const& one) {
+  return held_out_gain(paired_blocks(one, other)).change == HeldOutChange::lower;
 }
 
 }  // namespace torquescope

@@ -28,14 +28,26 @@ struct LawGain {
   Eigen::VectorXd total() const { return train + unseen; }
 };
 
-// of the recording: energies that are left in blocks as long as the filter's memory, training rows first, then those
-// of unseen recordings: what paired tests compare
-struct BlocksLeft {
-  std::vector<HeldOutBlock> blocks{};  // `after` is what is left, `before` is not used
+// of the recording: what is left on rows that were not fitted to, training first, then unseen recordings; whitened.
+// What paired tests compare, in blocks as long as the filter's memory
+struct RowsLeft {
+  struct Part {
+    Eigen::VectorXd left{};
+    Eigen::Index memory_rows = 1;
+  };
+  std::vector<Part> parts{};
+  double energy() const;
 };
 
 // whether `other` leaves clearly less than `one` (one-sided, level 5 %; held_out_gain.hpp)
-bool leaves_clearly_less(BlocksLeft const& other, BlocksLeft const& one);
+bool leaves_clearly_less(RowsLeft const& other, RowsLeft const& one);
+// whether a law leaves clearly more than the best where they differ, and by more than the form of a law may be off:
+// tolerance, a share of the torque that the best explains of what is left without any
+struct OfForm {
+  RowsLeft const& without_any;
+  double tolerance;
+};
+bool leaves_clearly_more(RowsLeft const& one, RowsLeft const& best, OfForm const& form);
 
 class Evidence {
  public:
@@ -46,9 +58,11 @@ class Evidence {
   ModelStage const& stage() const { return *stage_; }
   CandidateColumns const& columns(DrivenBy motion = DrivenBy::twin) const { return motions_.of(motion); }
   std::size_t n_unseen() const { return unseen_.size(); }
+  // one for each unseen recording; none where no replicates of it could be made
+  std::vector<std::shared_ptr<NoiseWeights const>> const& weights_unseen() const { return weights_unseen_; }
 
   // what the model leaves: folds and blocks of unseen rows x (1 + M)
-  Eigen::MatrixXd const& left_in_folds() const { return whole_.left; }
+  Eigen::MatrixXd const& left_in_folds(FoldKind kind = FoldKind::whole) const { return folds_of(kind).left; }
   Eigen::MatrixXd const& left_unseen() const { return left_unseen_; }
 
   // energy that other forms of the model's laws would explain (law_forms.hpp): nuisances of every question
@@ -63,9 +77,9 @@ class Evidence {
   std::vector<LawGain> gains(Effect const& effect, std::vector<std::vector<double>> const& shapes, FoldKind kind,
                              DrivenBy motion = DrivenBy::twin) const;
   // by the model alone, and with a law beside it
-  BlocksLeft blocks_left(FoldKind kind) const;
-  BlocksLeft blocks_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
-                         DrivenBy motion = DrivenBy::twin) const;
+  RowsLeft rows_left(FoldKind kind) const;
+  RowsLeft rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
+                     DrivenBy motion = DrivenBy::twin) const;
 
  private:
   // what the nuisance columns alone leave in folds of one kind
@@ -78,6 +92,7 @@ class Evidence {
   void fill_training(std::size_t without);
   void add_unseen(UnseenEvidence one);
   InFolds in_folds(FoldKind kind) const;
+  InFolds const& folds_of(FoldKind kind) const { return kind == FoldKind::whole ? whole_ : interleaved_; }
   struct Candidate {
     Effect const* effect;
     std::vector<double> const* shape;
@@ -86,8 +101,14 @@ class Evidence {
     FoldProducts cross, products;  // with the basis, with the signals
   };
   LawGain gain_of(Candidate const& candidate, InFolds const& beside) const;
-  // what a unit of the law's orthonormal columns changes on the rows of an unseen recording
-  Eigen::MatrixXd change_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
+  // what a unit of the law's orthonormal columns changes on the rows of an unseen recording: by the model's parameters,
+  // and by the law itself, a share of which may belong to the recording
+  struct UnseenChange {
+    Eigen::MatrixXd model{}, law{};
+    bool by_share = false;
+    Eigen::RowVectorXd shares(Eigen::MatrixXd const& coefficients, Eigen::MatrixXd const& left) const;
+  };
+  UnseenChange change_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
   void add_unseen(Candidate const& candidate, LawGain& gain) const;
 
   ModelStage const* stage_;
@@ -98,6 +119,7 @@ class Evidence {
   Eigen::MatrixXd left_unseen_{};  // blocks x (1 + M)
   std::vector<UnseenEvidence> unseen_{};
   std::vector<UnseenResidual> without_replicates_{};
+  std::vector<std::shared_ptr<NoiseWeights const>> weights_unseen_{};
   std::vector<Eigen::MatrixXd> unseen_left_{};  // of each: n x (1 + M), less the step of training's nuisance columns
 };
 

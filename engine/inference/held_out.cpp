@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/inference/clock_bound.hpp"
@@ -13,10 +14,32 @@ namespace {
 
 using Rows = std::vector<Eigen::Index>;
 
-// training rows of both models: torque and columns, before whitening
-struct TrainingRows {
+// one model on training rows: torque and columns, before whitening
+struct PlainRows {
   Eigen::VectorXd torque;
-  Eigen::MatrixXd before, after;
+  Eigen::MatrixXd columns;
+
+  // rows: of the stage's own, those that count
+  PlainRows(ModelStage const& stage, Rows const& rows) {
+    auto const& record = stage.comparison.recording;
+    torque = record.torque_itself()(rows);
+    columns = record.columns_themselves()(rows, Eigen::all);
+    if (!stage.pipeline->keeps_reversals()) return;
+    // there the filters leave something of a complete model too
+    auto const& twins = stage.comparison.rows.plain_twins;
+    if (twins.cols() > 0) torque -= twins.rowwise().mean()(rows);
+  }
+
+  // rows near reversals by their shares
+  void weigh(RecordPipeline const& pipeline, Rows const& kept_rows) {
+    pipeline.take_shares(torque, kept_rows);
+    pipeline.take_shares(columns, kept_rows);
+  }
+};
+
+// both models on the same training rows
+struct TrainingRows {
+  std::optional<PlainRows> before{}, after{};
   Eigen::Index memory_rows;
 
   explicit TrainingRows(Selection const& selection) : memory_rows(guard_rows(*selection.final->pipeline)) {
@@ -32,20 +55,28 @@ struct TrainingRows {
       if (one <= other) ++i;
       if (one >= other) ++k;
     }
-    torque = final.torque_itself()(in_other);
-    before = baseline.columns_themselves()(in_one, Eigen::all);
-    after = final.columns_themselves()(in_other, Eigen::all);
+    before.emplace(*selection.baseline, in_one);
+    after.emplace(*selection.final, in_other);
+    Rows rows;
+    for (auto const at : in_other) rows.push_back(final.kept_rows[static_cast<std::size_t>(at)]);
+    before->weigh(*selection.final->pipeline, rows);
+    after->weigh(*selection.final->pipeline, rows);
+  }
+
+  Eigen::VectorXd left(Eigen::VectorXd (*left_out)(Eigen::VectorXd const&, Eigen::MatrixXd const&, Eigen::Index),
+                       PlainRows const& rows) const {
+    return left_out(rows.torque, rows.columns, memory_rows);
   }
 };
 
 // the rows where the laws do something
 Rows acting_rows(TrainingRows const& rows, ModelStage const& stage) {
   constexpr double something = 0.01;  // of the most they do
-  Eigen::ArrayXd torque = Eigen::ArrayXd::Zero(rows.torque.size());
+  Eigen::ArrayXd torque = Eigen::ArrayXd::Zero(rows.after->torque.size());
   for (std::size_t i = 0; i < stage.model().effects().size(); ++i) {
     auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                width = static_cast<Eigen::Index>(stage.model().effects()[i].effect->n_linear());
-    torque += (rows.after.middleCols(first, width) * stage.parameters().segment(first, width)).array().abs();
+    torque += (rows.after->columns.middleCols(first, width) * stage.parameters().segment(first, width)).array().abs();
   }
   Rows acting;
   double const least = something * torque.maxCoeff();
@@ -57,15 +88,22 @@ Rows acting_rows(TrainingRows const& rows, ModelStage const& stage) {
 HeldOutGain gain_where_acting(TrainingRows const& rows, ModelStage const& stage) {
   Rows const acting = acting_rows(rows, stage);
   if (acting.empty()) return {};
-  Eigen::VectorXd const before = interleaved_residuals(rows.torque, rows.before, rows.memory_rows)(acting),
-                        after = interleaved_residuals(rows.torque, rows.after, rows.memory_rows)(acting);
+  Eigen::VectorXd const before = rows.left(interleaved_residuals, *rows.before)(acting),
+                        after = rows.left(interleaved_residuals, *rows.after)(acting);
   return held_out_gain(held_out_blocks(before, after, rows.memory_rows));
+}
+
+std::shared_ptr<NoiseWeights const> of_reversals(std::span<std::shared_ptr<NoiseWeights const> const> weights,
+                                                 std::size_t i) {
+  if (i >= weights.size() || !weights[i] || !weights[i]->weigh_reversals()) return {};
+  return std::make_shared<NoiseWeights const>(weights[i]->of_reversals_alone());
 }
 
 // of what a complete model leaves of the torque, the energy a row
 double noise_of(Selection const& selection) {
   auto const& rows = selection.final->comparison.rows;
-  auto const& twins = rows.plain_twins.size() > 0 ? rows.plain_twins : rows.twins;
+  Eigen::MatrixXd twins = rows.plain_twins.size() > 0 ? rows.plain_twins : rows.twins;
+  selection.final->pipeline->take_shares(twins, rows.kept_rows);
   return twins.squaredNorm() / static_cast<double>(twins.size());
 }
 
@@ -95,11 +133,13 @@ ExplainedShare explained_share(std::span<HeldOutBlock const> blocks, double nois
   return result;
 }
 
-HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection) {
+HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection,
+                        std::span<std::shared_ptr<NoiseWeights const> const> weights, Blocks which) {
   HeldOut result;
   std::vector<HeldOutBlock> blocks;
-  for (auto const& recording : unseen) {
-    UnseenResult one = check_unseen(recording, setting, *selection.baseline, *selection.final);
+  for (std::size_t i = 0; i < unseen.size(); ++i) {
+    UnseenResult one =
+        check_unseen(unseen[i], setting, *selection.baseline, *selection.final, of_reversals(weights, i));
     result.left_out += one.left_out;
     result.before += one.energies.before;
     result.after += one.energies.after;
@@ -107,15 +147,17 @@ HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> 
     if (one.left_before.size() > 0) {
       auto const own = held_out_blocks(one.left_before, one.left_after, one.memory_rows);
       blocks.insert(blocks.end(), own.begin(), own.end());
+      result.left.push_back({one.left_after, one.memory_rows});
     }
     result.unseen.push_back(std::move(one));
   }
   if (selection.accepted.empty()) return result;
   TrainingRows const rows(selection);
-  if (unseen.empty())
-    blocks = held_out_blocks(blocked_residuals(rows.torque, rows.before, rows.memory_rows),
-                             blocked_residuals(rows.torque, rows.after, rows.memory_rows), rows.memory_rows);
-  result.gain = held_out_gain(blocks);
+  if (unseen.empty()) {
+    result.left.push_back({rows.left(blocked_residuals, *rows.after), rows.memory_rows});
+    blocks = held_out_blocks(rows.left(blocked_residuals, *rows.before), result.left.front().left, rows.memory_rows);
+  }
+  result.gain = held_out_gain(blocks, which);
   result.explained = explained_share(blocks, noise_of(selection));
   bool const all_bound = std::all_of(selection.accepted.begin(), selection.accepted.end(),
                                      [](auto const& one) { return is_clock_bound(*one.effect); });

@@ -1,50 +1,58 @@
 #include "engine/inference/kept_model.hpp"
 
-#include <cmath>
-#include <optional>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace torquescope {
 namespace {
 
-// replicates in the recording's own loop, and a model that they bear out: however small, what is clear is there
-bool is_borne_out(SearchState const& state) {
-  return state.adequacy.holds() && state.selection.baseline->twin->loop.source == LoopSource::identified;
-}
-
-bool falls_enough(HeldOutGain const& gain, SearchState const& state, DecisionLevels const& levels) {
-  if (gain.change != HeldOutChange::lower) return false;
-  return is_borne_out(state) || std::sqrt(gain.after / gain.before) < 1.0 - levels.least_fall;
-}
-
-KeptModel judged(StepwiseSearch const& search, SearchState const& state, std::span<Recording const> unseen,
-                 DecisionLevels const& levels) {
-  KeptModel kept{state, held_out_errors(search.setting, unseen, state.selection)};
+KeptModel judged(StepwiseSearch const& search, SearchState const& state, std::span<Recording const> unseen) {
+  KeptModel kept{state, held_out_errors(search.setting, unseen, state.selection, state.evidence->weights_unseen(),
+                                        state.adequacy.holds() ? Blocks::where_it_acts : Blocks::alike)};
   HeldOut const& held_out = kept.held_out;
   if (held_out.acting.blocks > 0) {
     kept.is_held_out_lower =
-        falls_enough(held_out.acting, state, levels) && held_out.gain.is_not_worse() && state.adequacy.holds();
+        held_out.acting.change == HeldOutChange::lower && held_out.gain.is_not_worse() && state.adequacy.holds();
     return kept;
   }
-  kept.is_held_out_lower = falls_enough(held_out.gain, state, levels);
+  kept.is_held_out_lower = held_out.gain.change == HeldOutChange::lower;
   kept.explains_most = held_out.gain.after < most_of_it * held_out.gain.before;
   return kept;
 }
 
+bool stands(KeptModel const& kept) {
+  if (kept.state.selection.accepted.empty()) return true;
+  return kept.is_held_out_lower && (kept.state.adequacy.holds() || kept.explains_most);
+}
+
+// whether the last laws are of use: the longer part leaves clearly less of held-out rows
+bool predicts_less(KeptModel const& shorter, KeptModel const& longer) {
+  auto const& before = shorter.held_out.left;
+  auto const& after = longer.held_out.left;
+  std::vector<HeldOutBlock> blocks;
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    // another mask: rows cannot be paired
+    if (before[i].left.size() != after[i].left.size()) return longer.held_out.gain.after < shorter.held_out.gain.after;
+    auto const own = held_out_blocks(before[i].left, after[i].left, after[i].memory_rows);
+    blocks.insert(blocks.end(), own.begin(), own.end());
+  }
+  Blocks const which = longer.state.adequacy.holds() ? Blocks::where_it_acts : Blocks::alike;
+  return held_out_gain(blocks, which).change == HeldOutChange::lower;
+}
+
 }  // namespace
 
-KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen,
-                             DecisionLevels const& levels) {
-  std::optional<KeptModel> whole;
-  for (auto state = search.states.rbegin(); state != search.states.rend(); ++state) {
-    if (state->selection.accepted.empty() && whole) break;
-    KeptModel kept = judged(search, *state, unseen, levels);
-    bool const is_right_to_stop = state->selection.accepted.empty() ||
-                                  (kept.is_held_out_lower && (state->adequacy.holds() || kept.explains_most));
-    if (is_right_to_stop) return kept;
-    if (!whole) whole = std::move(kept);
+KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen) {
+  KeptModel const whole = judged(search, search.end(), unseen);
+  KeptModel longer = whole;
+  for (std::size_t i = search.states.size() - 1; i > 0; --i) {
+    if (search.states[i - 1].selection.accepted.empty()) return stands(longer) ? longer : whole;
+    KeptModel shorter = judged(search, search.states[i - 1], unseen);
+    if (stands(longer) && (!stands(shorter) || predicts_less(shorter, longer))) return longer;
+    longer = std::move(shorter);
   }
-  return std::move(*whole);
+  return whole;
 }
 
 }  // namespace torquescope

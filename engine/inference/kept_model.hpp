@@ -1,11 +1,12 @@
 #pragma once
 // The longest part of the search whose laws predict held-out rows better: the model that the verdict speaks of.
 //
-// Better     the held-out error falls clearly (paired test) and by DecisionLevels::least_fall, which is not asked of an
-//            adequate model whose replicates move in the recording's own loop; a model that is not adequate must
-//            explain more of the mismatch than it leaves
+// Better     the held-out error falls clearly (paired test: where the laws act, all over the recording for a model that
+//            is not adequate); a model that is not adequate must explain more of the
+//            mismatch than it leaves
 // Bound      laws that all belong to an instant or a clock predict nothing elsewhere: their error falls where they act,
 //            that of unseen recordings does not rise clearly, and the model is adequate with them
+// Shorter    where the part without the last step stands too, that step must lower the error clearly once more
 // None       where no part does: the whole search, whose names are withdrawn
 // Threads    as held_out_errors
 // Source     engine/inference/THEORY.md, Verdict
@@ -24,7 +25,6 @@ struct KeptModel {
   bool explains_most = false;
 };
 
-KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen,
-                             DecisionLevels const& levels);
+KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen);
 
 }  // namespace torquescope

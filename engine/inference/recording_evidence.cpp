@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/inference/clock_bound.hpp"
 #include "engine/pipeline/recorded_loop.hpp"
+#include "engine/search/weights_elsewhere.hpp"
 #include "engine/statistics/scaled_solution.hpp"
 
 namespace torquescope {
@@ -39,6 +40,7 @@ RecordedLoop loop_in(StageSetting const& setting, ModelStage const& stage, Recor
                           })
           : tracking_loop(recording, knows_joint ? tracked : TrackedJoint{tracked.inertia}, setting.filter);
   TwinLoop const& known = trained.loop;
+  loop.loop.sticking = known.sticking;
   for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
                                   &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
     loop.loop.*level = known.*level;
@@ -98,6 +100,24 @@ Eigen::VectorXd offset_direction(ModelStage const& stage, RecordPipeline const& 
   return length > 0.0 ? Eigen::VectorXd(ones.col(0) / length) : Eigen::VectorXd();
 }
 
+// the record's offset, and what laws that run down do here
+Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of, std::size_t without) {
+  Eigen::MatrixXd own(of.comparison->rows.size(), 0);
+  auto const add = [&](Eigen::VectorXd direction) {
+    constexpr double nothing_new = 1e-6;
+    double const length = direction.norm();
+    direction -= own * (own.transpose() * direction).eval();
+    if (!(direction.norm() > nothing_new * length)) return;
+    own.conservativeResize(Eigen::NoChange, own.cols() + 1);
+    own.rightCols(1) = direction.normalized();
+  };
+  if (of.offset.size() > 0) add(of.offset);
+  for (std::size_t i = 0; i < stage.model().effects().size(); ++i)
+    if (i != without && elsewhere(*stage.model().effects()[i].effect) == Elsewhere::a_share)
+      add(torque_of(stage, *of.columns, i));
+  return own;
+}
+
 // what depends on which of the model's effects are nuisances
 void fill_signals(ModelStage const& stage, CandidateColumns const& training, std::size_t without,
                   UnseenEvidence& result) {
@@ -105,27 +125,30 @@ void fill_signals(ModelStage const& stage, CandidateColumns const& training, std
   reference.gear_load = result.pipeline->model().reference().gear_load;
   result.columns = std::make_shared<CandidateColumns const>(*result.pipeline, *result.comparison, std::move(reference),
                                                             stage.parameters(), without);
+  result.own = own_nuisances(stage, result, without);
   // training's orthonormal columns are combinations of the plain ones: the same combinations here
   Eigen::MatrixXd const combination = solve_scaled(training.with_tangents(), training.nuisance());
-  result.nuisance = result.without_offset(transferable_columns(stage.model(), *result.columns, without) * combination);
+  result.nuisance = result.without_own(transferable_columns(stage.model(), *result.columns, without) * combination);
   Eigen::MatrixXd signals = predicted_signals(stage, *result.comparison);
   bool const is_asked = without < stage.model().effects().size();
   if (is_asked && !is_clock_bound(*stage.model().effects()[without].effect))
     signals.col(0) += torque_of(stage, *result.columns, without);
-  result.signals = result.without_offset(std::move(signals));
+  result.signals = result.without_own(std::move(signals));
 }
 
 UnseenEvidence made(StageSetting const& setting, ModelStage const& stage, CandidateColumns const& training,
                     Recording const& recording, std::uint32_t index, bool knows_joint) {
   auto pipeline = std::make_shared<RecordPipeline>(pipeline_for(setting, recording, stage));
-  if (stage.pipeline->weights()) pipeline->weigh_with(stage.pipeline->weights());
   RecordedLoop const loop = loop_in(setting, stage, *pipeline, recording, knows_joint);
   Eigen::VectorXd const parameters = transferred(stage.model(), stage.parameters().transpose()).row(0).transpose();
   CleanTwin const twin(pipeline->model().twin_joint(parameters), loop.loop, loop.track, stage.twin->twin.step_s());
+  weigh_elsewhere(setting, stage, recording, parameters, &loop, index, *pipeline);
   auto const n_twins = static_cast<std::size_t>(stage.comparison.rows.n_twins());
   UnseenEvidence result;
-  result.comparison = std::make_shared<TwinComparison const>(compare_with_twins(
-      recording, twin, *pipeline, {setting.seed, index, first_free_twin_set}, n_twins, setting.workers()));
+  TwinComparison here = compare_with_twins(recording, twin, *pipeline, {setting.seed, index, first_free_twin_set},
+                                           n_twins, setting.workers());
+  here.rows.plain_twins = {};  // as large as all of the rest, and nobody asks
+  result.comparison = std::make_shared<TwinComparison const>(std::move(here));
   result.pipeline = pipeline;
   if (result.comparison->ran_away) return result;
   result.offset = offset_direction(stage, *pipeline, *result.comparison);
@@ -154,8 +177,8 @@ Eigen::MatrixXd exchangeable(Eigen::VectorXd const& left, Eigen::MatrixXd const&
   return signals;
 }
 
-Eigen::MatrixXd UnseenEvidence::without_offset(Eigen::MatrixXd of) const {
-  if (offset.size() > 0) of -= offset * (offset.transpose() * of).eval();
+Eigen::MatrixXd UnseenEvidence::without_own(Eigen::MatrixXd of) const {
+  if (own.cols() > 0) of -= own * (own.transpose() * of).eval();
   return of;
 }
 
@@ -181,10 +204,8 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
       record.columns * transferred(stage.model(), stage.comparison.recording.parameters.transpose()).transpose();
   if (left.rows() == 0) return {};
   if (moves_both_ways(pipeline.picked(record.motion.dq, record))) left.array() -= left.mean();
-  if (stage.pipeline->weights()) {
-    pipeline.weigh_with(stage.pipeline->weights());
-    pipeline.whiten(left, record.kept_rows);
-  }
+  weigh_elsewhere(setting, stage, recording, stage.parameters(), nullptr, 0, pipeline);
+  pipeline.whiten(left, record.kept_rows);
   return {left.squaredNorm(), record.torque.squaredNorm(), left.rows()};
 }
 

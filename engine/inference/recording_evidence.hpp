@@ -5,7 +5,8 @@
 //            mean, scaled so that all columns have the same variance when the model is right
 // Training   residuals of the fit; nuisance columns (model and tangents of its shapes) are fitted with every candidate
 // Unseen     residuals of the prediction by the fit of training (a replicate's: by the fit of its training replicate),
-//            whitened as training is; a record's own offset is a nuisance of the record and is taken out of all signals
+//            whitened as training is; a record's own offset, and shares of laws that run down (clock_bound.hpp), are
+//            nuisances of the record and are taken out of all signals
 // Shapes     n rows, M replicates: n x (M + 1)
 // Errors     none: a recording whose replicates cannot be made gives no evidence; what is left of it is known all the
 //            same
@@ -33,11 +34,12 @@ struct UnseenEvidence {
   std::shared_ptr<RecordPipeline const> pipeline{};  // restricted to the common rows
   std::shared_ptr<TwinComparison const> comparison{};
   std::shared_ptr<CandidateColumns const> columns{};
-  Eigen::MatrixXd signals{};     // n x (M + 1)
+  Eigen::MatrixXd signals{};     // n x (M + 1); moved from by Evidence
   Eigen::MatrixXd nuisance{};    // n x k: what a step of training's orthonormal nuisance columns is here
   Eigen::VectorXd offset{};      // n: unit vector of the record's own offset; empty where the model has none
+  Eigen::MatrixXd own{};         // n x any, orthonormal: all nuisances of the record
   Eigen::Index memory_rows = 1;  // that repeat each other
-  Eigen::MatrixXd without_offset(Eigen::MatrixXd signals) const;
+  Eigen::MatrixXd without_own(Eigen::MatrixXd signals) const;
 };
 
 // training: columns of the stage on training; index: of the recording among all, 1 and up, for its random numbers

@@ -58,7 +58,7 @@ RefinedCandidate with_refined_shape(Evidence const& evidence, CandidateEvidence 
 void move_to(Evidence const& evidence, std::vector<double> shape, RefinedCandidate& law) {
   Effect const& effect = *law.evidence.scan.effect;
   LawGain const gain = evidence.gains(effect, {shape}, law.evidence.folds, law.driven_by).front();
-  law.left = evidence.blocks_left(effect, shape, law.evidence.folds, law.driven_by);
+  law.left = evidence.rows_left(effect, shape, law.evidence.folds, law.driven_by);
   law.shape = std::move(shape);
   law.parameters = gain.parameters;
   law.evidence.scan.gain = gain.total()[0];
@@ -78,7 +78,7 @@ void simplify(Evidence const& evidence, RefinedCandidate& law) {
     if (!effect.is_plausible(shape, evidence.columns().scales())) continue;
     LawGain const gain = evidence.gains(effect, {shape}, law.evidence.folds, law.driven_by).front();
     if (!gain.is_testable || !(gain.total()[0] > 0.0)) continue;
-    if (leaves_clearly_less(law.left, evidence.blocks_left(effect, shape, law.evidence.folds, law.driven_by))) continue;
+    if (leaves_clearly_less(law.left, evidence.rows_left(effect, shape, law.evidence.folds, law.driven_by))) continue;
     --law.n_parameters;
     move_to(evidence, std::move(shape), law);
   }
@@ -101,8 +101,8 @@ InsideBounds inside_bounds(Evidence const& evidence, Effect const& effect, std::
     moved[at] = from_unit(effect.shape_bounds(scales)[at],
                           bound->side == BoundSide::lower ? further_inside : 1.0 - further_inside);
     if (!effect.is_plausible(moved, scales)) return result;
-    BlocksLeft const there = evidence.blocks_left(effect, result.shape, folds, motion),
-                     inside = evidence.blocks_left(effect, moved, folds, motion);
+    RowsLeft const there = evidence.rows_left(effect, result.shape, folds, motion),
+                   inside = evidence.rows_left(effect, moved, folds, motion);
     if (leaves_clearly_less(there, inside)) return result;
     result = {std::move(moved), {}};
   }
@@ -112,7 +112,7 @@ InsideBounds inside_bounds(Evidence const& evidence, Effect const& effect, std::
 RefinedCandidate refined_candidate(Evidence const& evidence, CandidateEvidence const& law,
                                    RefinementSetting const& setting) {
   RefinedCandidate best = with_refined_shape(evidence, law, setting);
-  best.left = evidence.blocks_left(*law.scan.effect, best.shape, law.folds, best.driven_by);
+  best.left = evidence.rows_left(*law.scan.effect, best.shape, law.folds, best.driven_by);
   simplify(evidence, best);
   InsideBounds inside =
       inside_bounds(evidence, *law.scan.effect, best.shape, best.parameters, law.folds, best.driven_by);
@@ -123,13 +123,14 @@ RefinedCandidate refined_candidate(Evidence const& evidence, CandidateEvidence c
   return best;
 }
 
-std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates) {
+std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates, RowsLeft const& without_any,
+                                       double tolerance) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](auto const& a, auto const& b) { return a.evidence.scan.gain > b.evidence.scan.gain; });
   if (candidates.empty()) return candidates;
-  BlocksLeft const best = candidates.front().left;
+  RowsLeft const best = candidates.front().left;
   auto const tied = std::stable_partition(candidates.begin(), candidates.end(), [&](RefinedCandidate const& one) {
-    return !leaves_clearly_less(best, one.left);
+    return !leaves_clearly_more(one.left, best, {without_any, tolerance});
   });
   std::stable_sort(candidates.begin(), tied, [](auto const& a, auto const& b) {
     bool const a_once = is_clock_bound(*a.evidence.scan.effect), b_once = is_clock_bound(*b.evidence.scan.effect);

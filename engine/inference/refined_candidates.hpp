@@ -6,8 +6,8 @@
 // Variants   a law without one of its shapes (EffectParameter::none_at_lower) where that leaves no clearly more
 // Bounds     a shape at the end of what is plausible is moved a tenth of its range inside where that leaves no clearly
 //            more; else the best law lies beyond the bound, and it is none of the catalogue
-// Order      by gain; those that the best does not leave clearly less than (Evidence) come by their number of
-//            parameters, laws of the motion before those of a clock
+// Order      by gain; those that leave no clearly more than the best, a law's form apart (Evidence), come by their
+//            number of parameters, laws of the motion before those of a clock
 // Threads    spreads shapes over `threads`; same bits for any number
 // Source     engine/inference/THEORY.md, The search; Diebold, Mariano 1995, doi:10.1080/07350015.1995.10524599
 
@@ -23,7 +23,7 @@ namespace torquescope {
 
 struct RefinedCandidate {
   CandidateEvidence evidence{};  // of the grid; gain, train and unseen: at the refined shape
-  BlocksLeft left{};
+  RowsLeft left{};
   std::size_t n_parameters = 0;  // of the variant
   std::vector<double> shape{};
   Eigen::VectorXd parameters{};
@@ -51,6 +51,8 @@ struct RefinementSetting {
 RefinedCandidate refined_candidate(Evidence const& evidence, CandidateEvidence const& law,
                                    RefinementSetting const& setting);
 
-std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates);
+// without_any: of the model alone; tolerance: DecisionLevels
+std::vector<RefinedCandidate> in_order(std::vector<RefinedCandidate> candidates, RowsLeft const& without_any,
+                                       double tolerance);
 
 }  // namespace torquescope

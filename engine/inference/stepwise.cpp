@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/inference/adequacy.hpp"
 #include "engine/inference/clock_bound.hpp"
 #include "engine/inference/refined_candidates.hpp"
 #include "engine/inference/simulated_candidate.hpp"
@@ -36,9 +37,10 @@ class Search {
 
   StepwiseSearch run() && {
     begin();
+    if (options_.only_a_mismatch && result_.end().adequacy.holds()) return std::move(result_);
     while (!is_enough() && step(laws_of(options_.candidates, false), FoldKind::whole)) {
     }
-    if (!result_.end().adequacy.holds()) try_clock_bound();
+    if (!is_enough()) try_clock_bound();
     return std::move(result_);
   }
 
@@ -109,7 +111,7 @@ class Search {
     CatalogueEvidence const catalogue = scan_catalogue(evidence, laws, kind, levels_.alpha, setting().threads);
     note_first(state.selection, catalogue);
     std::vector<RefinedCandidate> candidates = refined(evidence, catalogue, kind);
-    candidates = in_order(std::move(candidates));
+    candidates = in_order(std::move(candidates), evidence.rows_left(kind), levels_.tolerance);
     tell("search", laws.size(), laws.size());
     if (candidates.size() > n_simulated) candidates.resize(n_simulated);
     for (RefinedCandidate const& candidate : candidates)
@@ -124,7 +126,7 @@ class Search {
   // where no other law explains most of what is left
   std::vector<RefinedCandidate> refined(Evidence const& evidence, CatalogueEvidence const& catalogue, FoldKind kind) {
     Selection& selection = result_.states.back().selection;
-    BlocksLeft const without_any = evidence.blocks_left(kind);
+    RowsLeft const without_any = evidence.rows_left(kind);
     double const excess =
         evidence.left_in_folds().col(0).sum() -
         evidence.left_in_folds().rightCols(evidence.left_in_folds().cols() - 1).rowwise().mean().sum();
@@ -137,7 +139,7 @@ class Search {
           evidence, *law, {options_.shape_optimiser, setting().seed, setting().threads, most < most_of_it * excess});
       selection.evaluations += refined.evaluations;
       if (!(refined.evidence.scan.gain > 0.0)) continue;
-      if (!leaves_clearly_less(refined.left, without_any)) {
+      if (!leaves_clearly_less(refined.left, without_any) && !replicates_decide(evidence, refined, kind)) {
         refuse(law->scan.effect, "does not predict rows clearly better that it was not fitted to");
         continue;
       }
@@ -145,6 +147,12 @@ class Search {
       candidates.push_back(std::move(refined));
     }
     return candidates;
+  }
+
+  // what is left beside it is what a complete model leaves: then replicates alone say whether its gain is chance
+  bool replicates_decide(Evidence const& evidence, RefinedCandidate const& candidate, FoldKind kind) const {
+    auto const gain = evidence.gains(*candidate.evidence.scan.effect, {candidate.shape}, kind, candidate.driven_by);
+    return leaves_chance(evidence, gain.front(), kind, levels_);
   }
 
   void note_first(Selection& selection, CatalogueEvidence const& catalogue) const {
@@ -196,8 +204,11 @@ class Search {
     Evidence const& evidence = *state.evidence;
     if (candidate.bound) return refuse(effect, bound_words(*effect, *candidate.bound, evidence.columns().joint()));
     auto const before = state.selection.final;
-    // what the simulated model takes away must be beyond chance, as the projection's gain was
-    double const least_taken = candidate.evidence.null_mean + catalogue.chance * candidate.evidence.null_spread;
+    // what the simulated model takes away must be beyond chance in training, where the projection's gain was
+    CandidateEvidence const& found = candidate.evidence;
+    double const by_chance = found.train_mean + catalogue.chance * found.train_spread;
+    // it may be beyond chance by unseen rows alone
+    double const least_taken = found.train > by_chance ? by_chance : found.train_mean;
     auto draft = simulated(setting(), evidence, candidate, least_taken);
     if (!draft) return refuse(effect, "replicates with it do not follow the reference");
     if (energy_about_true_mean(*before) - energy_about_true_mean(*draft) < least_taken)
@@ -269,7 +280,7 @@ class Search {
   void try_clock_bound() {
     std::size_t const before = result_.states.size();
     auto const weights = setting().weights;
-    while (!result_.end().adequacy.holds() && step(options_.candidates, FoldKind::interleaved)) {
+    while (!is_enough() && step(options_.candidates, FoldKind::interleaved)) {
     }
     auto const& accepted = result_.end().selection.accepted;
     bool const has_any =

@@ -23,7 +23,7 @@ struct VerdictFacts {
   bool is_baseline_adequate = false;  // in training and unseen
   std::size_t laws = 0;               // of the last model of the search
   bool is_adequate = false;           // that model, in training and unseen
-  bool is_held_out_lower = false;     // its held-out error: clearly, and by least_fall
+  bool is_held_out_lower = false;     // its held-out error: clearly
   bool explains_most = false;         // of the mismatch on held-out rows, more than it leaves
   bool has_class = false;             // some law cannot be told from others
   bool all_on_channel = false;        // all laws, and all that they cannot be told from, are faults of a channel

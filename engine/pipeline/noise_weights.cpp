@@ -15,6 +15,10 @@ NoiseWeights NoiseWeights::with_shares(Eigen::VectorXd shares) const {
   return result;
 }
 
+NoiseWeights NoiseWeights::of_reversals_alone() const {
+  return weigh_reversals() ? NoiseWeights().with_shares(shares_) : NoiseWeights();
+}
+
 NoiseWeights NoiseWeights::with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const {
   constexpr Eigen::Index n_modes = 16;  // all but 4 % of it
   NoiseWeights result = *this;

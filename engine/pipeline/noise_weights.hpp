@@ -34,6 +34,9 @@ class NoiseWeights {
   // the same with a friction random walk
   NoiseWeights with_wander(Eigen::VectorXd const& friction, double duration_s, double variance) const;
 
+  // what rows near reversals count for, and nothing else
+  NoiseWeights of_reversals_alone() const;
+
   bool are_equal() const { return rows_.is_identity() && !wanders() && !weigh_reversals(); }
   bool weigh_reversals() const { return shares_.size() > 0; }
   bool wanders() const { return modes_.size() > 0; }

@@ -4,10 +4,11 @@
 
 namespace torquescope {
 
-std::vector<std::string> reversal_words() { return {"mask", "weigh"}; }
+std::vector<std::string> reversal_words() { return {"mask", "weigh", "both"}; }
 
 ReversalRows reversals_of(std::string const& word) {
-  TORQUESCOPE_EXPECT(word == "mask" || word == "weigh");
+  TORQUESCOPE_EXPECT(word == "mask" || word == "weigh" || word == "both");
+  if (word == "both") return ReversalRows::both;
   return word == "weigh" ? ReversalRows::weigh : ReversalRows::mask;
 }
 

@@ -4,6 +4,7 @@
 // mask       reversal_mask.hpp
 // weigh      each row counts by what replicates with drawn sticking laws show there (twin/reversal_weights.hpp); rests
 //            alone are left out
+// both       mask; where nothing is missing beside it, weigh: what is named there counts
 // Threads    free functions
 
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace torquescope {
 
-enum class ReversalRows { mask, weigh };
+enum class ReversalRows { mask, weigh, both };
 
 std::vector<std::string> reversal_words();           // of a job file, in the order above
 ReversalRows reversals_of(std::string const& word);  // word is one of them

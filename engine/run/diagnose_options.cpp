@@ -65,7 +65,9 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
        {"shape_optimiser", &DiagnoseOptions::shape_optimiser, optimiser_names(),
         "what searches the shapes of an effect, its linear parameters solved inside (torquescope list optimisers)"},
        {"reversals", &DiagnoseOptions::reversals, reversal_words(),
-        "rows near reversals: left out, or weighed by what clean twins of unknown sticking laws show there"},
+        "rows near reversals: left out, or weighed by what clean twins of unknown sticking laws show there; both: "
+        "weighed "
+        "where nothing is missing without them"},
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,

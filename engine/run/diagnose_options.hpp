@@ -18,7 +18,7 @@ struct DiagnoseOptions {
   double q = 0.05;
   std::int64_t max_effects = 5;
   std::string shape_optimiser = "de";
-  std::string reversals = "mask";
+  std::string reversals = "both";
   // ablations (ablation.hpp)
   std::string null = "twins";
   bool indirect_inference = true;

@@ -14,8 +14,6 @@
 namespace torquescope {
 namespace {
 
-constexpr std::size_t twins_per_round = 2 * twin_lanes;  // two threads have something to do
-
 TwinAddress spectrum_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 1}; }
 
 TwinAddress reversal_set(StageSetting const& setting) { return {setting.seed, 0, first_free_twin_set + 2}; }
@@ -119,7 +117,6 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
   model.load_as_in(recording);
   RecordPipeline pipeline(std::move(model), setting.filter, recording.rate_hz, recording.position.size(),
                           setting.filter_section);
-  if (setting.keeps_reversals) pipeline.keep_reversals();
   if (setting.inertia_by_turns) pipeline.hold_inertia_by_turns();
   auto saturated = saturated_samples(recording, pipeline.cutoff_hz());
   if (std::find(saturated.begin(), saturated.end(), true) != saturated.end()) pipeline.leave_out(std::move(saturated));

@@ -34,7 +34,6 @@ struct StageSetting {
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
   bool reads_colour = false;     // noise as the model leaves it, whatever the law says (torque_colour.hpp)
-  bool keeps_reversals = false;  // rows at reversals count
   ReversalRows reversals = ReversalRows::mask;
   double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
   bool inertia_by_turns = false;     // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
@@ -42,6 +41,9 @@ struct StageSetting {
 
   TwinWorkers workers() const { return {threads, exchange}; }
 };
+
+// of a look at noise: two threads have something to do
+inline constexpr std::size_t twins_per_round = 2 * twin_lanes;
 
 // of a recording, with the setting's filter and rows
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model);

@@ -23,6 +23,7 @@ struct SelectionOptions {
   double q = 0.05;
   std::size_t max_effects = 5;
   std::string shape_optimiser = "de";
+  bool only_a_mismatch = false;  // nothing is asked of a model that is adequate as it is
 };
 
 struct AcceptedEffect {
@@ -45,10 +46,10 @@ struct Selection {
   std::vector<double> first_q{};         // of each
   std::vector<double> first_cv_gain{};   // of each that was refined, NaN else; energy
   MismatchEnergy first_energy{};
-  double first_excess = 0.0;          // of it, or what one candidate explains if that is more; energy
-  double energy_unit = 1.0;           // what a unit of energy of the first step is under the weights of the last
-  bool is_gate_open = false;          // something is missing
-  std::vector<AcceptedEffect> accepted{};               // in the order of the final stage's model
+  double first_excess = 0.0;               // of it, or what one candidate explains if that is more; energy
+  double energy_unit = 1.0;                // what a unit of energy of the first step is under the weights of the last
+  bool is_gate_open = false;               // something is missing
+  std::vector<AcceptedEffect> accepted{};  // in the order of the final stage's model
   std::vector<RejectedEffect> rejected{};
   std::shared_ptr<ModelStage const> baseline{};  // without effects
   std::shared_ptr<ModelStage const> final{};     // with all of them; the baseline when there are none

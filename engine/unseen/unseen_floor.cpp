@@ -15,6 +15,7 @@ TwinLoop with_levels_of(ModelStage const& stage, TwinLoop loop) {
   for (double TwinLoop::*level : {&TwinLoop::disturbance_std, &TwinLoop::disturbance_variance_error,
                                   &TwinLoop::friction_wander, &TwinLoop::friction_wander_variance_error})
     loop.*level = trained.*level;
+  loop.sticking = trained.sticking;
   return loop;
 }
 
@@ -26,7 +27,7 @@ struct TwinResidual {
 std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSetting const& setting,
                                              ModelStage const& stage, RecordedLoop const& loop, TwinRows const& rows) {
   std::vector<TwinResidual> twins(unseen_twins);
-  for_each_unseen_twin(recording, setting, stage, loop, rows.only, [&](VisitedTwin const& visited) {
+  for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     TwinResidual& twin = twins[visited.index];
     twin.left = record.torque - record.columns * stage.parameters();
@@ -48,10 +49,11 @@ Eigen::VectorXd mean_of(std::vector<TwinResidual> const& twins) {
 }  // namespace
 
 void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                          RecordedLoop const& loop, std::vector<Eigen::Index> const* rows,
+                          RecordedLoop const& loop, TwinRows const& rows,
                           std::function<void(VisitedTwin const&)> const& visit) {
   RecordPipeline pipeline = pipeline_for(setting, recording, stage);
-  if (rows != nullptr) pipeline.restrict_to(*rows);
+  pipeline.weigh_with(rows.weights);
+  if (rows.only != nullptr) pipeline.restrict_to(*rows.only);
   CleanTwin const twin(pipeline.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());
   for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, unseen_twins, setting.threads,
@@ -83,7 +85,7 @@ TwinErrors unseen_twin_errors(Recording const& recording, StageSetting const& se
 
 Eigen::VectorXd processing_artefact(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
                                     RecordedLoop const& loop, std::vector<Eigen::Index> const& rows) {
-  return mean_of(residuals_of_twins(recording, setting, stage, loop, {&rows, true}));
+  return mean_of(residuals_of_twins(recording, setting, stage, loop, {&rows, true, {}}));
 }
 
 RecordedLoop with_law_of(RecordedLoop const& trained, RecordedLoop loop) {

@@ -11,6 +11,7 @@
 // Threads    spreads replicates over `threads`; same bits for any number
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "engine/pipeline/recorded_loop.hpp"
@@ -22,11 +23,6 @@ namespace torquescope {
 
 inline constexpr std::size_t unseen_twins = twin_lanes;
 
-// each once, from any thread; not one that ran away. Records are prepared and not fitted; rows: as below
-void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                          RecordedLoop const& loop, std::vector<Eigen::Index> const* rows,
-                          std::function<void(VisitedTwin const&)> const& visit);
-
 // relerr of twins; unknown where one ran away
 struct TwinErrors {
   double mean = unknown, least = unknown;
@@ -35,8 +31,14 @@ struct TwinErrors {
 // rows of twins: none: each twin's own
 struct TwinRows {
   std::vector<Eigen::Index> const* only = nullptr;
-  bool without_artefact = false;  // theirs is to be taken out
+  bool without_artefact = false;                  // theirs is to be taken out
+  std::shared_ptr<NoiseWeights const> weights{};  // none: rows count alike
 };
+
+// each once, from any thread; not one that ran away
+void for_each_unseen_twin(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
+                          RecordedLoop const& loop, TwinRows const& rows,
+                          std::function<void(VisitedTwin const&)> const& visit);
 
 // the twins' own fits are not used: the parameters of `stage` predict them. loop: not tracking
 // Errors     as the pipeline

@@ -48,9 +48,10 @@ double position_error(Recording const& recording, RecordedLoop const& loop, Mode
 
 // what its twins leave, and whether that is a floor of it
 void account_for_twins(Recording const& recording, StageSetting const& setting, ModelStage const& stage,
-                       RecordedLoop const& loop, UnseenResult& result) {
+                       RecordedLoop const& loop, std::shared_ptr<NoiseWeights const> const& weights,
+                       UnseenResult& result) {
   TwinRows rows;
-  if (!result.rows.empty()) rows = {&result.rows, true};
+  if (!result.rows.empty()) rows = {&result.rows, true, weights};
   auto const errors_in = [&](RecordedLoop const& one) {
     return unseen_twin_errors(recording, setting, stage, one, rows);
   };
@@ -85,9 +86,20 @@ void take_out(Eigen::VectorXd const& artefact, Eigen::VectorXd& left) {
   if (artefact.size() > 0) left -= artefact;
 }
 
+// rows counting for as much as their shares say
+double weighed_energy(Eigen::VectorXd const& left, Eigen::VectorXd const& shares) {
+  return left.cwiseProduct(shares).squaredNorm();
+}
+
+PredictionEnergies energies_of(Eigen::VectorXd const& before, Eigen::VectorXd const& after,
+                               Eigen::VectorXd const& shares) {
+  return {weighed_energy(before, shares), weighed_energy(after, shares), weighed_energy(before - after, shares)};
+}
+
 // with the artefact of the final model, which that effect changes little
 PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effect, ProcessedRecord const& after,
-                                  Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact) {
+                                  Eigen::VectorXd const& left_with, Eigen::VectorXd const& artefact,
+                                  Eigen::VectorXd const& shares) {
   auto const first = static_cast<Eigen::Index>(augmented.model().first_parameter(effect));
   auto const width = static_cast<Eigen::Index>(augmented.model().effects()[effect].effect->n_linear());
   // what the other terms would have been fitted to without it: they take its torque up as far as they can
@@ -100,7 +112,7 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
   Eigen::VectorXd const refitted = parameters(others) + solve_scaled(trained(Eigen::all, others), torque);
   Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
   take_out(artefact, left);
-  return {left.squaredNorm(), left_with.squaredNorm(), (left - left_with).squaredNorm()};
+  return energies_of(left, left_with, shares);
 }
 
 struct Predictor {
@@ -126,10 +138,12 @@ LeftOutRows left_out_of(Recording const& recording, StageSetting const& setting,
 }
 
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                         ModelStage const& augmented, Artefact const& artefact) {
+                         ModelStage const& augmented, Artefact const& artefact,
+                         std::shared_ptr<NoiseWeights const> const& weights) {
   UnseenPrediction result;
   RecordPipeline plain = pipeline_for(setting, recording, baseline);
   RecordPipeline full = pipeline_for(setting, recording, augmented);
+  plain.weigh_with(weights);
   ProcessedRecord before = plain.prepare(recording);
   check_rows(before, recording.name);
   full.restrict_to(before.kept_rows);
@@ -162,17 +176,19 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
       offset_before = own;
     }
   }
-  result.torque_energy = before.torque.squaredNorm();
-  result.energies = {left_before.squaredNorm(), left_after.squaredNorm(), (left_before - left_after).squaredNorm()};
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(before.torque.size());
+  plain.take_shares(shares, before.kept_rows);
+  result.torque_energy = weighed_energy(before.torque, shares);
+  result.energies = energies_of(left_before, left_after, shares);
   result.left_out = left_out_of(recording, setting, {baseline, baseline.parameters(), offset_before},
                                 {augmented, parameters, offset_after}, before.kept_rows);
   result.kept_rows = before.kept_rows;
   result.memory_rows = guard_rows(plain);
   for (std::size_t i = 0; i < augmented.model().effects().size(); ++i)
-    result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after));
+    result.by_effect.push_back(without_effect(augmented, i, after, left_with, artefacts.after, shares));
   result.trace = torque_trace(recording, plain, before, left_before, left_after);
-  result.left_before = std::move(left_before);
-  result.left_after = std::move(left_after);
+  result.left_before = left_before.cwiseProduct(shares);
+  result.left_after = left_after.cwiseProduct(shares);
   return result;
 }
 
@@ -222,17 +238,13 @@ LeftOutRows left_out_in_training(StageSetting const& setting, ModelStage const& 
                      baseline.comparison.recording.kept_rows);
 }
 
-UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                                ModelStage const& augmented) {
-  return predict(from_zero(recording), setting, baseline, augmented, {});
-}
-
 UnseenResult check_unseen(Recording const& given, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented) {
+                          ModelStage const& augmented, std::shared_ptr<NoiseWeights const> weights) {
   Recording const recording = from_zero(given);
   auto const loop = loop_of(recording, setting, augmented);
   Artefact artefact;
-  if (loop && setting.keeps_reversals)
+  if (!weights || !weights->weigh_reversals()) weights = {};
+  if (loop && weights)
     artefact = [&](ModelStage const& model, std::vector<Eigen::Index> const& rows) -> Eigen::VectorXd {
       try {
         return processing_artefact(recording, setting, model, *loop, rows);
@@ -240,12 +252,12 @@ UnseenResult check_unseen(Recording const& given, StageSetting const& setting, M
         return {};  // as below
       }
     };
-  UnseenResult result{predict(recording, setting, baseline, augmented, artefact)};
+  UnseenResult result{predict(recording, setting, baseline, augmented, artefact, weights)};
   if (!(result.torque_energy > 0.0)) return result;
   result.forward = simulate_forward(recording, loop, baseline, augmented);
   if (!loop) return result;
   try {
-    account_for_twins(recording, setting, augmented, *loop, result);
+    account_for_twins(recording, setting, augmented, *loop, weights, result);
   } catch (Error const&) {
     // twins of this recording cannot be fitted: it does not excite an effect of the training recording; no floor then
   }

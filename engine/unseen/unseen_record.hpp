@@ -2,13 +2,16 @@
 // Prediction of a validation recording by the baseline and by the final model.
 //
 // Parameters least squares of the training rows, for both models: measured columns are attenuated alike
-// Rows       those of the baseline's mask, for both models
+// Rows       those of the baseline's mask, for both models; with weights of reversals these rows are in, each counting
+//            in every energy for as much as its weight says
 // Nuisances  offset, phase of a single wave and share of a warm-up are refitted on the first 5 % of the recording when
 //            beyond three standard errors, and reported. Events and drifts of a channel's zero are left out
 // Promised   relative error of 16 replicates of this recording under the final model; floor: unseen_floor.hpp
 // Units      SI
 // Threads    spreads replicates over `threads`; same bits for any number
 // Source     engine/inference/THEORY.md, Rows and replicates
+
+#include <memory>
 
 #include "engine/pipeline/left_out_rows.hpp"
 #include "engine/search/selection.hpp"
@@ -38,13 +41,10 @@ struct UnseenResult : UnseenPrediction {
   ForwardSimulation forward{};
 };
 
+// with floor and forward simulation. weights: of that recording's rows near reversals alone; none: they are masked
 // Errors     as the pipeline; Error 65 when fewer than 100 rows are left between reversals
-UnseenPrediction predict_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                                ModelStage const& augmented);
-
-// the same, and simulated: floor and forward
 UnseenResult check_unseen(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
-                          ModelStage const& augmented);
+                          ModelStage const& augmented, std::shared_ptr<NoiseWeights const> weights = {});
 
 // closed loop from the recording's reference, without noise, before and after; without a loop, or in one that follows
 // the measured motion: unknown

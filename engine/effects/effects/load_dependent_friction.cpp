@@ -6,6 +6,7 @@
 // Parameters load_dependent_friction mu >= 0 [1], up to 0.3; load_friction_inertia_share k [1]: share of the inertia J
 //            behind the gear (a rotor presses no teeth; 1 where inertia is all the load, since mu k is one number
 //            there); load_friction_preload p [N m; N]: as a torque of the load, up to the recording's rms; 0: mu |l|
+//            At the most it is a square of the load, and rows cannot tell more from it
 // Signature  load, odd in the velocity
 // Confused   position_dependent_friction when gravity is the load, directional_efficiency, torque_constant
 // Source     Hamon, Gautier, Garrec, Janot 2010, IEEE/RSJ IROS; model M3 of BAM (Rhoban, Better Actuator Models);
@@ -28,8 +29,8 @@ class LoadDependentFriction final : public InstantEffect {
              .parameters = {{"load_dependent_friction", "1", "1", {0.0}, {0.3}},
                             law_at_both(shape_parameter("load_friction_inertia_share", "1", "1",
                                                         {1.0, RelativeTo::bears_only_inertia}, {1.0}, Spacing::linear)),
-                            none_at_lower(shape_parameter("load_friction_preload", "N m", "N", {0.0},
-                                                          {1.0, RelativeTo::torque}, Spacing::linear))},
+                            law_at_upper(none_at_lower(shape_parameter("load_friction_preload", "N m", "N", {0.0},
+                                                                       {1.0, RelativeTo::torque}, Spacing::linear)))},
              .families = {EffectFamily::load},
              .signature = {SignatureAxis::load, SignatureAxis::velocity},
              .parity = Parity::odd,

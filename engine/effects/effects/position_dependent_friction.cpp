@@ -3,6 +3,7 @@
 // Equation   tau = s (a1 q + a_c cos(k q) + a_s sin(k q)); s = sign(dq) weighted by the Coulomb levels of the baseline
 // Parameters position_friction_slope a1 [N m/rad; N/m], position_friction_cos, _sin [N m; N], either sign
 //            position_friction_order k [1/rad; 1/m]: half a wave to eight waves over the travel
+//            The slope carries what longer waves do, so that half a wave is all that the travel can tell
 // Signature  position, odd in the velocity
 // Confused   load_dependent_friction under gravity; gravity when the Coulomb levels of the directions differ
 // Source     Bittencourt, Gunnarsson 2012 (dependence on the angle)
@@ -29,8 +30,9 @@ class PositionDependentFriction final : public InstantEffect {
                    {1.0, RelativeTo::coulomb_per_range}},
                   {"position_friction_cos", "N m", "N", {-0.5, RelativeTo::coulomb}, {0.5, RelativeTo::coulomb}},
                   {"position_friction_sin", "N m", "N", {-0.5, RelativeTo::coulomb}, {0.5, RelativeTo::coulomb}},
-                  shape_parameter("position_friction_order", "1/rad", "1/m", {0.5, RelativeTo::lowest_order},
-                                  {8.0, RelativeTo::lowest_order}, Spacing::logarithmic)},
+                  law_at_lower(shape_parameter("position_friction_order", "1/rad", "1/m",
+                                               {0.5, RelativeTo::lowest_order}, {8.0, RelativeTo::lowest_order},
+                                               Spacing::logarithmic))},
              .families = {EffectFamily::static_position, EffectFamily::load},
              .signature = {SignatureAxis::position, SignatureAxis::velocity},
              .parity = Parity::odd,

@@ -2,7 +2,7 @@
 //
 // Equation   tau = x (s c_c + c_v dq), x = exp(-(t - start) / tau_T); s = sign(dq) weighted by the Coulomb levels
 // Parameters thermal_coulomb c_c [N m; N], thermal_viscous c_v [N m s/rad; N s/m]: cold minus warm, either sign
-//            thermal_time tau_T [s]
+//            thermal_time tau_T [s]; twice the duration is nearly a line: all that the rows can tell
 // Signature  time, odd in the velocity: laps drift apart and settle
 // Confused   friction_drift; any friction law when slow and fast stretches are not interleaved in time
 // Source     Simoni, Beschi, Legnani, Visioli 2015; Bittencourt, Gunnarsson 2012
@@ -25,8 +25,8 @@ class ThermalFriction final : public InstantEffect {
              .parameters =
                  {{"thermal_coulomb", "N m", "N", {-1.0, RelativeTo::coulomb}, {1.0, RelativeTo::coulomb}},
                   {"thermal_viscous", "N m s/rad", "N s/m", {-1.0, RelativeTo::viscous}, {1.0, RelativeTo::viscous}},
-                  shape_parameter("thermal_time", "s", "s", {0.05, RelativeTo::duration}, {2.0, RelativeTo::duration},
-                                  Spacing::logarithmic)},
+                  law_at_upper(shape_parameter("thermal_time", "s", "s", {0.05, RelativeTo::duration},
+                                               {2.0, RelativeTo::duration}, Spacing::logarithmic))},
              .families = {EffectFamily::time},
              .signature = {SignatureAxis::time, SignatureAxis::velocity},
              .parity = Parity::odd,

@@ -13,7 +13,7 @@ namespace explained_share_test {
 
 TEST(ExplainedShare, IsBeyondTheNoise) {
   // 2 of 10 a block is noise: 6 of the other 8 are explained
-  std::vector<HeldOutBlock> const blocks(20, HeldOutBlock{10.0, 4.0, 4.0});
+  std::vector<HeldOutBlock> const blocks(20, HeldOutBlock{10.0, 4.0, 1.0, 4.0});
   ExplainedShare const found = explained_share(blocks, 0.5);
   EXPECT_NEAR(found.share, 0.75, 1e-12);
   EXPECT_NEAR(found.low, 0.75, 1e-9) << "blocks agree";
@@ -23,7 +23,7 @@ TEST(ExplainedShare, IsBeyondTheNoise) {
 // the jackknife of a ratio: against its closed form for two kinds of block
 TEST(ExplainedShare, HasAnIntervalFromTheSpreadOfBlocks) {
   std::vector<HeldOutBlock> blocks;
-  for (int k = 0; k < 20; ++k) blocks.push_back({10.0, k % 2 == 0 ? 2.0 : 6.0, 1.0});
+  for (int k = 0; k < 20; ++k) blocks.push_back({10.0, k % 2 == 0 ? 2.0 : 6.0, 1.0, 1.0});
   ExplainedShare const found = explained_share(blocks, 0.0);
   EXPECT_NEAR(found.share, 0.6, 1e-12);
   // leaving one out moves the share by 2 / 190 either way
@@ -33,8 +33,8 @@ TEST(ExplainedShare, HasAnIntervalFromTheSpreadOfBlocks) {
 }
 
 TEST(ExplainedShare, IsUnknownWithoutAMismatchOrBlocks) {
-  EXPECT_TRUE(std::isnan(explained_share(std::vector<HeldOutBlock>(20, HeldOutBlock{1.0, 1.0, 1.0}), 2.0).share));
-  EXPECT_TRUE(std::isnan(explained_share(std::vector<HeldOutBlock>(3, HeldOutBlock{1.0, 0.5, 1.0}), 0.0).share));
+  EXPECT_TRUE(std::isnan(explained_share(std::vector<HeldOutBlock>(20, HeldOutBlock{1.0, 1.0, 0.0, 1.0}), 2.0).share));
+  EXPECT_TRUE(std::isnan(explained_share(std::vector<HeldOutBlock>(3, HeldOutBlock{1.0, 0.5, 0.1, 1.0}), 0.0).share));
 }
 
 }  // namespace explained_share_test

@@ -44,8 +44,8 @@ TEST_F(UnseenFloor, IsWhatACleanRecordingLeaves) {
 
 // at a reversal the filtered velocity has the sign of friction a few rows early or late
 TEST_F(UnseenFloor, WithRowsAtReversalsIsWithoutWhatFiltersMakeOfThem) {
-  setting.keeps_reversals = true;
-  RecordPipeline const pipeline = pipeline_for(setting, unseen, stage.model());
+  RecordPipeline pipeline = pipeline_for(setting, unseen, stage.model());
+  pipeline.keep_reversals();
   ProcessedRecord const record = pipeline.prepare(unseen);
   Eigen::VectorXd const left = record.torque - record.columns * stage.parameters();
   Eigen::VectorXd const artefact = processing_artefact(unseen, setting, stage, loop, record.kept_rows);
@@ -53,7 +53,7 @@ TEST_F(UnseenFloor, WithRowsAtReversalsIsWithoutWhatFiltersMakeOfThem) {
   // the joint is complete: half and more of what is left is none of it
   EXPECT_LT((left - artefact).norm(), 0.7 * left.norm());
   double const relerr = (left - artefact).norm() / record.torque.norm();
-  TwinErrors const twins = unseen_twin_errors(unseen, setting, stage, loop, {&record.kept_rows, true});
+  TwinErrors const twins = unseen_twin_errors(unseen, setting, stage, loop, {&record.kept_rows, true, {}});
   EXPECT_NEAR(twins.mean / relerr, 1.0, 0.2);
 }
 
