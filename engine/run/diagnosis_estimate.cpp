@@ -46,12 +46,12 @@ std::string rough_count(double count) {
 DiagnosisSize diagnosis_size(Experiment::Parts const& parts) {
   DiagnosisSize size;
   auto const& filter = parts.filter;
-  size.samples = samples_in(parts.train);
+  size.samples = static_cast<double>(parts.train.n_samples.front());  // further ones are predicted, not fitted
   double const rate_hz = parts.train.recordings.front().rate_hz;
   double const kept_hz = filter.decimate_to_hz > 0.0 ? filter.decimate_to_hz : rate_hz;
   size.rows = size.samples * std::min(1.0, kept_hz / rate_hz);
   size.replicates = static_cast<double>(parts.diagnose.twins);
-  if (parts.validate) size.unseen_samples = samples_in(*parts.validate);
+  size.unseen_samples = samples_in(parts.train) - size.samples + (parts.validate ? samples_in(*parts.validate) : 0.0);
   return size;
 }
 
@@ -85,10 +85,10 @@ std::optional<std::string> decimation_proposal(Experiment::Parts const& parts, i
   size.rows *= proposed_hz / now_hz;
   DiagnosisEstimate const then = estimate_diagnosis(size, threads);
   std::string const cutoff = has_cutoff ? "" : fmt::format("parallel_cutoff_hz = {:g} and ", cutoff_hz);
-  return fmt::format("{}decimate_to_hz = {:g} in [filter] would keep {} of these rows, which is all that a cut-off of "
-                     "{:g} Hz leaves to see: about {} and {}",
-                     cutoff, proposed_hz, rough_count(size.rows), cutoff_hz, rough_seconds(then.seconds),
-                     rough_bytes(then.bytes));
+  return fmt::format(
+      "{}decimate_to_hz = {:g} in [filter] would keep {} of these rows, which is all that a cut-off of "
+      "{:g} Hz leaves to see: about {} and {}",
+      cutoff, proposed_hz, rough_count(size.rows), cutoff_hz, rough_seconds(then.seconds), rough_bytes(then.bytes));
 }
 
 }  // namespace torquescope

@@ -16,8 +16,8 @@
 namespace torquescope {
 
 struct DiagnosisSize {
-  double samples = 0.0;     // of training
-  double rows = 0.0;        // of training, kept
+  double samples = 0.0;  // of training
+  double rows = 0.0;     // of training, kept
   double replicates = 0.0;
   double unseen_samples = 0.0;
 };

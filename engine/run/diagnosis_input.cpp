@@ -10,16 +10,11 @@ namespace torquescope {
 
 namespace {
 
-// a diagnosis compares one recording with its twins; more of them are for `run`
-Recording const& training_recording(Experiment::Parts const& parts) {
-  auto const& recordings = parts.train.recordings;
-  validate(recordings.size() == 1, [&] {
-    Problem problem =
-        problem_at(section_or_empty(parts.job, "recording"), "train", "a diagnosis is made of one training recording",
-                   "name one in train, the others in validate");
-    return problem;
-  });
-  return recordings.front();
+// Every recording that the parameters are not fitted to: further ones of training, then those of validation
+std::vector<Recording> other_recordings(Experiment::Parts const& parts) {
+  std::vector<Recording> others(parts.train.recordings.begin() + 1, parts.train.recordings.end());
+  if (parts.validate) others.insert(others.end(), parts.validate->recordings.begin(), parts.validate->recordings.end());
+  return others;
 }
 
 // of the position, as the file calls it; a simulated recording has none
@@ -36,8 +31,8 @@ std::string position_column(Job const& job) {
 
 JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange)
     : filter_(section_or_empty(parts.job, "filter")),
-      input_{training_recording(parts), parts.validate ? parts.validate->recordings : none_, *parts.regressor,
-             parts.filter, filter_} {
+      others_(other_recordings(parts)),
+      input_{parts.train.recordings.front(), others_, *parts.regressor, parts.filter, filter_} {
   input_.selection.candidates = parts.effects;
   input_.selection.q = parts.diagnose.q;
   input_.selection.max_effects = static_cast<std::size_t>(parts.diagnose.max_effects);
@@ -46,6 +41,7 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* ex
   input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   input_.threads = threads;
   input_.joint_name = position_column(parts.job);
+  input_.further_training = parts.train.recordings.size() - 1;
   input_.exchange = exchange;
   input_.reversals = reversals_of(parts.diagnose.reversals);
   input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.twin_noise,

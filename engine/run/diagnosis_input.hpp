@@ -1,7 +1,8 @@
 #pragma once
 // What a loaded job asks a diagnosis for, in the words of the diagnose layer.
 //
-// Errors     Error 78 unless the job names one training recording
+// Training   parameters are fitted to the first recording; further ones are predicted, each in its own loop, like those
+//            of validation: a law must serve them all
 // Lives      looks into `parts`, which outlive it; stays where it is made
 
 #include <vector>
@@ -21,7 +22,7 @@ class JobInput {
 
  private:
   Section filter_;
-  std::vector<Recording> none_{};
+  std::vector<Recording> others_;
   DiagnosisInput input_;
 };
 

@@ -53,9 +53,16 @@ class Verdicts(unittest.TestCase):
         cls.folder = Path(cls.temporary.name)
         (cls.folder / "simulated.toml").write_text(SIMULATED)
         cls.run_program("simulate", "simulated.toml", "--out", "sound.csv")
-        with open(cls.folder / "sound.csv", encoding="utf-8") as file:
-            table = list(csv.reader(line for line in file if not line.startswith("#")))
-        cls.head, *cls.rows = (row[:4] for row in table)  # what a robot would have logged
+        cls.head, *cls.rows = cls.logged("sound.csv")
+        (cls.folder / "another.toml").write_text(SIMULATED.replace('name = "verdicts"', 'name = "another"\nseed = 2'))
+        cls.run_program("simulate", "another.toml", "--out", "another.csv")
+        cls.other_rows = cls.logged("another.csv")[1:]
+
+    @classmethod
+    def logged(cls, name):
+        """What a robot would have logged."""
+        with open(cls.folder / name, encoding="utf-8") as file:
+            return [row[:4] for row in csv.reader(line for line in file if not line.startswith("#"))]
 
     @classmethod
     def tearDownClass(cls):
@@ -67,16 +74,43 @@ class Verdicts(unittest.TestCase):
         assert ended.returncode == 0, ended.stderr
         return ended.stdout
 
-    def verdict_of(self, rows):
-        (self.folder / "job.toml").write_text(JOB)
-        with open(self.folder / "recorded.csv", "w", encoding="utf-8", newline="") as file:
+    def write(self, name, rows):
+        with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
+
+    def said_of(self, rows, further=None):
+        self.write("recorded.csv", rows)
+        job = JOB
+        if further:
+            self.write("further.csv", further)
+            job = JOB.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
+        (self.folder / "job.toml").write_text(job)
         (self.folder / "verdicts.h5").unlink(missing_ok=True)
-        said = self.run_program("diagnose", "job.toml", "--out", "verdicts.h5", "--json", "-", "--quiet")
-        return json.loads(said)["verdict"]
+        return json.loads(self.run_program("diagnose", "job.toml", "--out", "verdicts.h5", "--json", "-", "--quiet"))
+
+    def verdict_of(self, rows):
+        return self.said_of(rows)["verdict"]
+
+    @staticmethod
+    def with_spring(rows):
+        return [[time, reference, position, str(float(torque) + 0.5 * float(position))]
+                for time, reference, position, torque in rows]
 
     def test_a_sound_joint_misses_nothing(self):
         self.assertEqual(self.verdict_of(self.rows), "none")
+
+    def test_a_law_must_serve_every_training_recording(self):
+        both = self.said_of(self.with_spring(self.rows), self.with_spring(self.other_rows))
+        self.assertEqual(both["verdict"], "named", both["reason"])
+        self.assertEqual(both["joints"][0]["effects"][0]["name"], "spring")
+        self.assertIn("further.csv has to be predicted", both["reason"])
+        self.assertLess(both["joints"][0]["augmented"]["validation_relerr"],
+                        0.5 * both["joints"][0]["baseline"]["validation_relerr"])
+        for rows, further in ((self.with_spring(self.rows), self.other_rows),
+                              (self.rows, self.with_spring(self.other_rows))):
+            one = self.said_of(rows, further)
+            self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
+            self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
 
     def test_a_torque_of_the_other_sign_is_a_fault(self):
         turned = [[*motion, str(-float(torque))] for *motion, torque in self.rows]
