@@ -136,15 +136,22 @@ class JointWork {
     if (input_.reversals != ReversalRows::both || !first.adequacy.holds() || is_named(kept_) || !is_led) return;
     setting.reversals = ReversalRows::weigh;
     selection.only_a_mismatch = true;
+    // the search moves torque in time, and what it moved has to be put back when nothing comes of it
+    Recording const recording_before = recording;
+    std::vector<Recording> const unseen_before = unseen_;
     double late_s = torque_late_s_;
     std::unique_ptr<StepwiseSearch const> again;
     auto const failed = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       again = search_in_time(setting, recording, unseen_, {selection, levels()}, late_s, progress_);
       return std::nullopt;
     });
-    if (failed) return;
-    KeptModel kept = keep_what_predicts(*again, unseen_);
-    if (!is_named(kept)) return;
+    KeptModel kept;
+    if (!failed) kept = keep_what_predicts(*again, unseen_);
+    if (failed || !is_named(kept)) {
+      recording = recording_before;
+      unseen_ = unseen_before;
+      return;
+    }
     search_ = std::move(again);
     kept_ = std::move(kept);
     torque_late_s_ = late_s;

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/inference/clock_bound.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -26,8 +28,10 @@ bool stands(KeptModel const& kept) {
   return kept.is_held_out_lower && (kept.state.adequacy.holds() || kept.explains_most);
 }
 
-// whether the last laws are of use: the longer part leaves clearly less of held-out rows
+// whether the last law is of use: the longer part leaves clearly less of held-out rows. One of a clock says nothing of
+// them, and is there because the model is adequate with it
 bool predicts_less(KeptModel const& shorter, KeptModel const& longer) {
+  if (is_clock_bound(*longer.state.selection.accepted.back().effect)) return true;
   auto const& before = shorter.held_out.left;
   auto const& after = longer.held_out.left;
   std::vector<HeldOutBlock> blocks;

@@ -1,12 +1,12 @@
 #pragma once
 // The longest part of the search whose laws predict held-out rows better: the model that the verdict speaks of.
 //
-// Better     the held-out error falls clearly (paired test: where the laws act, all over the recording for a model that
-//            is not adequate); a model that is not adequate must explain more of the
-//            mismatch than it leaves
+// Better     the held-out error falls clearly (paired test): where the laws act, or all over the recording for a model
+//            that is not adequate; such a model must explain more of the mismatch than it leaves
+// Shorter    where the part without the last step stands too, that step must lower the error clearly once more, unless
+//            its law belongs to a clock
 // Bound      laws that all belong to an instant or a clock predict nothing elsewhere: their error falls where they act,
 //            that of unseen recordings does not rise clearly, and the model is adequate with them
-// Shorter    where the part without the last step stands too, that step must lower the error clearly once more
 // None       where no part does: the whole search, whose names are withdrawn
 // Threads    as held_out_errors
 // Source     engine/inference/THEORY.md, Verdict
