@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
 
 namespace torquescope {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/inference/law_forms.hpp"
 #include "engine/statistics/equal_blocks.hpp"
@@ -176,11 +176,11 @@ Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, Unsee
   Eigen::MatrixXd const to_parameters =
       group.r.transpose() *
       (group.r * group.r.transpose()).ldlt().solve(Eigen::MatrixXd::Identity(group.rank(), group.rank()));
-  Elsewhere const there = elsewhere(*candidate.effect);
+  CarryOver const over = carry_over(*candidate.effect);
   UnseenChange change;
-  change.by_share = there == Elsewhere::a_share;
+  change.by_share = over == CarryOver::in_part;
   change.model = -one.nuisance * ((columns().nuisance().transpose() * *candidate.columns) * to_parameters);
-  if (there == Elsewhere::nothing)
+  if (over == CarryOver::none)
     change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
   else
     change.law = one.without_own(one.columns->columns(*candidate.effect, *candidate.shape)) * to_parameters;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/statistics/blocked_cv.hpp"
 #include "engine/statistics/student_t.hpp"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 
 namespace torquescope {
 namespace {

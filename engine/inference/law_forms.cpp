@@ -1,6 +1,6 @@
 #include "engine/inference/law_forms.hpp"
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/locate/map_axes.hpp"
 #include "engine/statistics/hat_functions.hpp"
 

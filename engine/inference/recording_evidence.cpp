@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/pipeline/recorded_loop.hpp"
 #include "engine/search/weights_elsewhere.hpp"
 #include "engine/statistics/scaled_solution.hpp"
@@ -113,7 +113,7 @@ Eigen::MatrixXd own_nuisances(ModelStage const& stage, UnseenEvidence const& of,
   };
   if (of.offset.size() > 0) add(of.offset);
   for (std::size_t i = 0; i < stage.model().effects().size(); ++i)
-    if (i != without && elsewhere(*stage.model().effects()[i].effect) == Elsewhere::a_share)
+    if (i != without && carry_over(*stage.model().effects()[i].effect) == CarryOver::in_part)
       add(torque_of(stage, *of.columns, i));
   return own;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/search/own_motion.hpp"
 
 namespace torquescope {

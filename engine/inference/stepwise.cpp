@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/inference/adequacy.hpp"
-#include "engine/inference/clock_bound.hpp"
+#include "engine/effects/carry_over.hpp"
 #include "engine/inference/refined_candidates.hpp"
 #include "engine/inference/simulated_candidate.hpp"
 #include "engine/search/joint_refinement.hpp"

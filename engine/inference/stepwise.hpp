@@ -4,8 +4,8 @@
 // Step       of the laws beyond chance over the catalogue, above the tolerance and no worse on unseen rows, the one
 //            with the largest gain; of those that no paired test tells from it the one with fewest parameters
 // Then       laws whose removal does not raise D beyond chance are dropped
-// Phases     laws of the motion until none is left; laws of an instant or a clock (clock_bound.hpp) after them, and
-//            only while the model is not adequate; they stay only when it is adequate with them
+// Phases     laws of the motion until none is left; clock-bound laws (effects/carry_over.hpp) after them, and only
+//            while the model is not adequate; they stay only when it is adequate with them
 // Threads    as the stages
 // Source     engine/inference/THEORY.md, The search
 

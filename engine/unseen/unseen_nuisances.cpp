@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/effects/carry_over.hpp"
 #include "engine/simulate/autoregression.hpp"
 
 namespace torquescope {
@@ -32,8 +33,8 @@ bool gains_beyond_chance(Eigen::Ref<Eigen::VectorXd const> const& head, double l
   return head.squaredNorm() - least > beyond * variance;
 }
 
-// Where a counter begins to count is another place in each recording, and so is when a clock begins: a wave keeps its
-// size and order, or frequency, and may turn its phase: to the one that fits the head best, when that is beyond chance.
+// Where a counter begins to count is another place in each recording: a wave keeps its size and order and may turn its
+// phase, to the one that fits the head best, when that is beyond chance.
 bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen::Ref<Eigen::VectorXd> amplitudes) {
   constexpr int directions = 360;
   Eigen::Index const n = head_rows(left.size());
@@ -55,23 +56,17 @@ bool turn_phase(Eigen::MatrixXd const& wave, Eigen::VectorXd const& left, Eigen:
   return true;
 }
 
-// a cosine and a sine, and nothing else
-bool is_plain_wave(Effect const& effect) { return effect.n_linear() == 2 && effect.n_shape() == 1 && effect.is_wave(); }
-
 void turn_waves(ModelStage const& stage, ProcessedRecord const& record, Eigen::VectorXd& parameters,
                 std::vector<std::string>& nuisances) {
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_plain_wave(*effects[i].effect)) continue;
+    if (carry_over(*effects[i].effect) != CarryOver::with_another_phase) continue;
     auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
     Eigen::VectorXd const left = record.torque - record.columns * parameters;
     if (turn_phase(record.columns.middleCols(first, 2), left, parameters.segment(first, 2)))
       nuisances.push_back("phase of " + effects[i].effect->name() + " refitted on the first 5 %");
   }
 }
-
-// it runs down from the beginning of a recording, and nobody says how far it had when another one began
-bool is_of_the_clock(Effect const& effect) { return effect.family() == EffectFamily::time && !effect.is_event(); }
 
 // How cold the joint still was is a share of what it was in training: the one that fits the head best, when that is
 // beyond chance
@@ -91,7 +86,7 @@ void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen:
                   std::vector<std::string>& nuisances) {
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    if (!is_of_the_clock(*effects[i].effect)) continue;
+    if (carry_over(*effects[i].effect) != CarryOver::in_part) continue;
     auto const first = static_cast<Eigen::Index>(stage.model().first_parameter(i));
     auto const width = static_cast<Eigen::Index>(effects[i].effect->n_linear());
     Eigen::VectorXd const left = record.torque - record.columns * parameters;
@@ -100,26 +95,25 @@ void scale_clocks(ModelStage const& stage, ProcessedRecord const& record, Eigen:
   }
 }
 
-}  // namespace
-
-bool predicts_elsewhere(Effect const& effect) {
-  bool const is_of_channel = is_of_the_clock(effect) && effect.acts_on() == ActsOn::recorded_torque;
-  return !effect.is_event() && !is_of_channel;
+char const* why_left_out(Effect const& effect) {
+  if (effect.is_event()) return " left out: its instant belongs to the training recording";
+  if (effect.is_wave()) return " left out: its phase belongs to the clock of the training recording";
+  return " left out: where a channel's zero goes is another in each recording";
 }
+
+}  // namespace
 
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
   Eigen::VectorXd parameters = stage.parameters();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     Effect const& effect = *effects[i].effect;
-    if (predicts_elsewhere(effect)) continue;
+    if (carry_over(effect) != CarryOver::none) continue;
     parameters
         .segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
                  static_cast<Eigen::Index>(effect.n_linear()))
         .setZero();
-    nuisances.push_back(effect.name() + (effect.is_event()
-                                             ? " left out: its instant belongs to the training recording"
-                                             : " left out: where a channel's zero goes is another in each recording"));
+    nuisances.push_back(effect.name() + why_left_out(effect));
   }
   return parameters;
 }

@@ -14,12 +14,8 @@
 
 namespace torquescope {
 
-// whether a law says something of another recording too: not an event, whose instant belongs to one recording, nor
-// where the zero of a channel goes with time
-bool predicts_elsewhere(Effect const& effect);
-
-// the parameters a prediction begins with: those of events and of a channel that drifts are zero, and what was done is
-// said in `nuisances`
+// the parameters a prediction begins with: those of laws that say nothing of another recording (CarryOver::none) are
+// zero, and what was done is said in `nuisances`
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances);
 
 // phases of waves, and how far what runs with the clock had gone; record: of validation, for that model

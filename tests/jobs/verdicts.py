@@ -78,12 +78,12 @@ class Verdicts(unittest.TestCase):
         with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
 
-    def said_of(self, rows, further=None):
+    def said_of(self, rows, further=None, effects='["spring"]'):
         self.write("recorded.csv", rows)
-        job = JOB
+        job = JOB.replace('["spring"]', effects)
         if further:
             self.write("further.csv", further)
-            job = JOB.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
+            job = job.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
         (self.folder / "job.toml").write_text(job)
         (self.folder / "verdicts.h5").unlink(missing_ok=True)
         return json.loads(self.run_program("diagnose", "job.toml", "--out", "verdicts.h5", "--json", "-", "--quiet"))
@@ -111,6 +111,16 @@ class Verdicts(unittest.TestCase):
             one = self.said_of(rows, further)
             self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
             self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
+
+    def test_a_wave_of_the_clock_is_not_carried_to_another_recording(self):
+        """Its phase belongs to the clock of the training recording: there it is kept, elsewhere it says nothing."""
+        sprung = self.with_spring(self.rows)
+        waved = [[*motion, str(float(torque) + 0.4 * math.sin(2 * math.pi * 1.7 * float(motion[0])))]
+                 for *motion, torque in sprung]
+        said = self.said_of(waved, self.with_spring(self.other_rows), '["spring", "periodic_disturbance"]')
+        joint = said["joints"][0]
+        self.assertEqual([effect["name"] for effect in joint["effects"]], ["spring", "periodic_disturbance"])
+        self.assertLess(joint["augmented"]["validation_relerr"], 0.3 * joint["baseline"]["validation_relerr"])
 
     def test_a_torque_of_the_other_sign_is_a_fault(self):
         turned = [[*motion, str(-float(torque))] for *motion, torque in self.rows]

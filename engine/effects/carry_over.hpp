@@ -1,0 +1,36 @@
+#pragma once
+// What a law found in one recording says of another recording of the same joint.
+//
+// Clock-bound  laws of an instant or a clock: what begins at an instant, waves per second, everything of the family
+//              time. They are tried after all laws of the motion and named only with an adequate model
+// In part      friction that goes with time since the start runs down there as well, but nobody says how far it had
+//              gone: a share of it, 0 to 1, is a nuisance of that recording
+// Phase        a wave over a counter keeps size and order; where the counter begins is another place in each recording
+// Threads      free functions
+// Source       engine/inference/THEORY.md, Laws of a clock
+
+#include <algorithm>
+
+#include "engine/effects/effect.hpp"
+
+namespace torquescope {
+
+enum class CarryOver { whole, with_another_phase, in_part, none };
+
+inline CarryOver carry_over(Effect const& effect) {
+  auto const& parameters = effect.parameters();
+  bool const is_per_second =
+      std::any_of(parameters.begin(), parameters.end(), [](auto const& one) { return one.is_frequency(); });
+  bool const is_of_joint = effect.acts_on() == ActsOn::joint;
+  if (effect.is_event() || (effect.is_wave() && is_per_second)) return CarryOver::none;
+  if (effect.family() == EffectFamily::time) return is_of_joint ? CarryOver::in_part : CarryOver::none;
+  bool const is_plain_wave = effect.is_wave() && effect.n_linear() == 2 && effect.n_shape() == 1;
+  return is_plain_wave ? CarryOver::with_another_phase : CarryOver::whole;
+}
+
+inline bool is_clock_bound(Effect const& effect) {
+  CarryOver const over = carry_over(effect);
+  return over == CarryOver::in_part || over == CarryOver::none;
+}
+
+}  // namespace torquescope
