@@ -25,7 +25,8 @@ from file_seal import FOOTER  # noqa: E402
 
 PROGRAM = os.environ["TORQUESCOPE"]
 SEED = int(os.environ.get("FAULT_SEED", time.time_ns() % 1_000_000))
-SECONDS = 60  # far beyond what any of these commands needs
+# far beyond what any of these commands needs; presets with a sanitizer say how many times as long
+SECONDS = 60 * int(os.environ.get("TORQUESCOPE_TIMES_AS_LONG", "1"))
 
 JOB = simulated_job.job(
     [{"name": "ols"}, {"name": "de", "population": 14, "generations": 250, "fitness": "direct"},

@@ -9,7 +9,9 @@ import subprocess
 import time
 
 PROGRAM = os.environ.get("TORQUESCOPE", "torquescope")
-SECONDS = 60  # far beyond what any of these commands needs: a hang is a failure, not a slow machine
+# far beyond what any of these commands needs: a hang is a failure, not a slow machine; presets with a sanitizer say
+# how many times as long
+SECONDS = 60 * int(os.environ.get("TORQUESCOPE_TIMES_AS_LONG", "1"))
 
 
 @dataclasses.dataclass
