@@ -132,6 +132,7 @@ struct EffectDescription {
   bool is_partly_dry = false;    // a part of it does so, beside one that asks for an acceleration
   bool is_level_free =
       false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
+  bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
 };
 
@@ -157,6 +158,7 @@ class Effect {
   bool is_dry_friction() const { return description_.is_dry_friction; }
   bool is_partly_dry() const { return description_.is_partly_dry; }
   bool is_level_free() const { return description_.is_level_free; }
+  bool is_rigid_body() const { return description_.is_rigid_body; }
   std::string const& plain_equation() const { return description_.plain_equation; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;

@@ -12,12 +12,24 @@
 namespace torquescope {
 namespace {
 
+// the rigid arm has masses and weights of its own
+void refuse_rigid_bodies(std::vector<std::string> const& friction, Section const& place) {
+  for (auto const& name : friction) {
+    auto const* effect = find_effect(name);
+    if (effect == nullptr || !effect->is_rigid_body()) continue;
+    throw Error(problem_at(place, "friction", fmt::format("\"{}\" is part of the rigid arm already", name),
+                           "remove it: friction = [\"viscous\", \"coulomb\", \"offset\"]; inertias of drives are "
+                           "drive_inertia = true"));
+  }
+}
+
 std::vector<std::optional<Regressor>> friction_of(SerialChain const& chain, ArmTerms const& terms,
                                                   Section const& model) {
   std::vector<std::optional<Regressor>> friction(chain.joints.size());
   for (std::size_t j = 0; j < friction.size(); ++j) {
     auto const& own = terms.joint_friction.empty() ? terms.friction : terms.joint_friction[j];
     auto const& place = terms.joint_sections.empty() ? model : terms.joint_sections[j];
+    refuse_rigid_bodies(own, place);
     if (!own.empty()) friction[j].emplace(own, chain.joints[j].kind, terms.velocity_deadband, place);
   }
   return friction;

@@ -28,9 +28,13 @@ class Listener final : public console_bridge::OutputHandler {
   Listener(Listener const&) = delete;
   Listener& operator=(Listener const&) = delete;
   void log(std::string const& text, console_bridge::LogLevel level, char const*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_error.empty()) first_error = text;
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (first_error.empty()) first_error = text;
+    // urdfdom reads on without it: a typing error would become a link without a mass
+    if (inertial_error.empty() && text.find("nertia") != std::string::npos) inertial_error = text;
   }
   std::string first_error;
+  std::string inertial_error;
 };
 
 Eigen::Vector3d vector_of(urdf::Vector3 const& v) { return {v.x, v.y, v.z}; }
@@ -80,10 +84,10 @@ class ParsedModel {
 ParsedModel parse(RobotText const& text) {
   Listener listener;
   auto model = urdf::parseURDF(text.text);
-  validate(model != nullptr, [&] {
+  validate(model != nullptr && listener.inertial_error.empty(), [&] {
     Problem problem;
     problem.code = ExitCode::bad_data;
-    std::string const& said = listener.first_error;
+    std::string const& said = model == nullptr ? listener.first_error : listener.inertial_error;
     problem.what = "this is no URDF" + (said.empty() ? "" : ": " + said);
     problem.place = place_of_message(text, said);
     problem.help = "mend it there; check_urdf (Debian: liburdfdom-tools) reads it the same way";

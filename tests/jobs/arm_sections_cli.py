@@ -65,6 +65,8 @@ class Sections(arm_cli.Arm):
         self.refused(section(key + "]"), key, "listed twice", "help: remove one")
         key = 'friction = ["stribeck"'
         self.refused(section(key + "]"), key, "cannot be a term of the model", "help: remove it")
+        key = 'friction = ["gravity"'
+        self.refused(section(key + "]"), key, '"gravity" is part of the rigid arm already', "help: remove it")
         self.refused(section('frictoin = ["viscous"]'), "frictoin", 'unknown key "frictoin"',
                      'did you mean "friction"?')
         key = 'friction = ["viscous", "coulomb", "offzet"'

@@ -21,7 +21,8 @@ class Gravity final : public InstantEffect {
                        .parameters = {{"gravity_sin", "N m", ""}, {"gravity_cos", "N m", ""}},
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},
-                       .parity = Parity::even}) {}
+                       .parity = Parity::even,
+                       .is_rigid_body = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

@@ -17,7 +17,8 @@ class Inertia final : public InstantEffect {
                        .source = "seed eq. 3, x1",
                        .parameters = {{"inertia", "kg m2", "kg"}},
                        .signature = {SignatureAxis::acceleration},
-                       .parity = Parity::even}) {}
+                       .parity = Parity::even,
+                       .is_rigid_body = true}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

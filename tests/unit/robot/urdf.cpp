@@ -202,6 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"type='prismatic'", "type='floating'", "floats", "make it fixed", "'j4'"},
         Wrong{"type='prismatic'", "type='screw'", "no known type", "check_urdf", "'j4'"},
         Wrong{"<mass value='0.800000'/>", "<mass value='-1'/>", "link \"e\"", "mass in kg", "name='e'"},
+        Wrong{"<mass value='0.800000'/>", "<mass value='0,8'/>", "mass", "check_urdf", "0,8"},
         Wrong{"<link name='c'>" + inertial(2.0, "0 0.04 0.1"), "<link name='c'>", "behind joint \"j3\" has a mass",
               "for no link", "'j3'"},
         Wrong{"</robot>", joint("loop", "fixed", "tool", "c", "0 0 0", "0 0 0") + "</robot>", "a loop",
