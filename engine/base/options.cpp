@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace torquescope {
 
@@ -83,9 +84,11 @@ std::optional<OptionValue> converted(OptionValue const& given, OptionValue const
 
 std::string range_text(double least, double most, std::vector<std::string> const& words) {
   if (!words.empty()) return fmt::format("{}", fmt::join(words, " | "));
-  if (std::isinf(least) && std::isinf(most)) return "";
-  if (std::isinf(most)) return fmt::format("at least {}", least);
-  if (std::isinf(least)) return fmt::format("at most {}", most);
+  constexpr double largest = std::numeric_limits<double>::max();
+  bool const any_least = least <= -largest, any_most = most >= largest;
+  if (any_least && any_most) return "";
+  if (any_most) return fmt::format("at least {}", least);
+  if (any_least) return fmt::format("at most {}", most);
   return fmt::format("{} to {}", least, most);
 }
 

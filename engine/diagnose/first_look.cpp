@@ -48,7 +48,9 @@ std::optional<Hopeless> FirstLook::look(Recording& recording) {
 
 // of the model without effects
 RecordPipeline FirstLook::plain_pipeline(Recording const& recording) const {
-  return {regressor(), input_.filter, recording.rate_hz, recording.position.size(), input_.filter_section};
+  JointModel model(regressor());
+  model.load_as_in(recording);
+  return {std::move(model), input_.filter, recording.rate_hz, recording.position.size(), input_.filter_section};
 }
 
 void FirstLook::merge_constants(Recording const& recording) {

@@ -1,11 +1,14 @@
 #include "engine/diagnose/joint_diagnosis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "engine/base/quantity_text.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
@@ -20,6 +23,7 @@
 #include "engine/search/channel_timing.hpp"
 #include "engine/search/detection_power.hpp"
 #include "engine/twin/echoed_reference.hpp"
+#include "engine/unseen/unseen_nuisances.hpp"
 #include "engine/unseen/unseen_record.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
@@ -57,20 +61,22 @@ class JointWork {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = revolute ? "N m" : "N";
+    joint_.joint = input.joint;
     joint_.name = input.joint_name;
     diagnosis_.seed = input.seed;
     diagnosis_.q = input.selection.q;
   }
 
-  Diagnosis run() {
+  JointOutcome run() {
     diagnose();
+    joint_.verdict = diagnosis_.verdict;
     diagnosis_.joints.push_back(std::move(joint_));
     diagnosis_.reason = reason_sentence(diagnosis_);
     if (diagnosis_.finding.empty())
       for (auto const& remark : diagnosis_.joints.front().remarks) diagnosis_.reason += " " + remark;
     if (selection_.baseline && !has_reference_)
       diagnosis_.reason += " " + without_reference_sentence(input_.train.reference.size() > 0);
-    return std::move(diagnosis_);
+    return {std::move(diagnosis_), std::move(laws_)};
   }
 
  private:
@@ -122,6 +128,7 @@ class JointWork {
     account_for_unseen();
     budget();
     decide();
+    if (!joint_.effects.empty()) laws_ = law_torques();
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
@@ -158,7 +165,7 @@ class JointWork {
   }
 
   DecisionLevels levels() const {
-    DecisionLevels levels;
+    DecisionLevels levels = input_.levels;
     levels.alpha = input_.selection.q;
     return levels;
   }
@@ -203,6 +210,7 @@ class JointWork {
       return;
     }
     joint_.validation_left_out = told(held_out.left_out);
+    joint_.validation_torque_energy = held_out.torque;
     joint_.validation_relerr = std::sqrt(held_out.before / held_out.torque);
     joint_.augmented_validation_relerr = std::sqrt(held_out.after / held_out.torque);
     if (has_twins) joint_.floor_relerr = std::sqrt(floor / held_out.torque);
@@ -210,6 +218,21 @@ class JointWork {
       double& gain = joint_.effects[place_[i]].gain.validation;
       gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / held_out.before;
     }
+  }
+
+  std::vector<Eigen::VectorXd> law_torques() const {
+    StageSetting const& setting = search_->setting;
+    auto const torque_in = [&](Recording const& recording, Eigen::VectorXd const& parameters) -> Eigen::VectorXd {
+      RecordPipeline const pipeline = pipeline_for(setting, recording, final_stage());
+      ProcessedRecord const record = pipeline.prepare(recording);
+      auto const laws = parameters.size() - static_cast<Eigen::Index>(final_stage().model().regressor().size());
+      return pipeline.model().columns(record.motion, record.drive).rightCols(laws) * parameters.tail(laws);
+    };
+    std::vector<std::string> unsaid;
+    Eigen::VectorXd const elsewhere = transferable(final_stage(), unsaid);
+    std::vector<Eigen::VectorXd> torques{torque_in(setting.recording, final_stage().parameters())};
+    for (auto const& recording : unseen_) torques.push_back(torque_in(recording, elsewhere));
+    return torques;
   }
 
   // of the final model, on the rows of the baseline: NaN where it keeps none
@@ -248,6 +271,7 @@ class JointWork {
     facts.laws = selection_.accepted.size();
     facts.is_adequate = kept_.state.adequacy.holds();
     facts.is_held_out_lower = kept_.is_held_out_lower;
+    facts.is_worth_naming = kept_.fall >= levels().least_fall;
     facts.explains_most = kept_.explains_most;
     facts.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                   [](NamedEffect const& one) { return !one.equivalent.empty(); });
@@ -276,6 +300,7 @@ class JointWork {
       if (auto const why = first_look_.static_torque()) hopeless(*why);
       return;
     }
+    if (decided.reason == VerdictReason::too_small) return withdraw(decided.reason);
     if (decided.reason == VerdictReason::motion_poor || decided.reason == VerdictReason::no_relation)
       hopeless(*blamed_for_silence());
     if (decided.reason == VerdictReason::motion_poor) {
@@ -304,6 +329,11 @@ class JointWork {
     std::string why = "does not make the error on rows it was not fitted to clearly lower";
     if (reason == VerdictReason::not_held_out && !joint_.effects.empty())
       joint_.refutation = refutation_clause(joint_, unseen_twins_ran_away_);
+    if (reason == VerdictReason::too_small) {
+      joint_.refutation = too_small_clause(joint_);
+      why = fmt::format("the error on rows it was not fitted to falls by less than {}",
+                        percent_text(levels().least_fall));
+    }
     if (reason == VerdictReason::most_is_left) {
       joint_.refutation = too_little_clause(joint_, 1.0 - kept_.held_out.gain.after / kept_.held_out.gain.before);
       why = "it explains less than half";
@@ -326,7 +356,8 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  std::vector<Recording> unseen_;   // torque in time with that of the training recording
+  std::vector<Recording> unseen_;  // torque in time with that of the training recording
+  std::vector<Eigen::VectorXd> laws_;
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop
   double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)
@@ -337,7 +368,7 @@ class JointWork {
 
 }  // namespace
 
-Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress) {
+JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress) {
   return JointWork(input, progress).run();
 }
 

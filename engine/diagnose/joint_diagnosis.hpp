@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/inference/decision_levels.hpp"
 #include "engine/search/selection.hpp"
 #include "engine/twin/twin_exchange.hpp"
 #include "engine/verdict/diagnosis.hpp"
@@ -23,16 +24,24 @@ struct DiagnosisInput {
   FilterOptions const& filter;
   Section const& filter_section;
   SelectionOptions selection{};
+  DecisionLevels levels{};
   std::size_t twins = 200;
   std::uint64_t seed = 0;
   int threads = 1;
   Ablation ablation{};
   ReversalRows reversals = ReversalRows::both;
+  int joint = 1;                     // its number
   std::string joint_name{};          // for texts: of the position column
   std::size_t further_training = 0;  // of those to predict, the first so many belong to training
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
-Diagnosis diagnose_joint(DiagnosisInput const& input, StageSink const& progress);
+struct JointOutcome {
+  Diagnosis diagnosis;
+  // torque of what was named, per sample: of the training recording, then of each one to predict; empty: no name
+  std::vector<Eigen::VectorXd> laws{};
+};
+
+JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress);
 
 }  // namespace torquescope

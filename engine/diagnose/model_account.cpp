@@ -40,13 +40,13 @@ double cv_relerr(ModelStage const& stage) {
   auto const& record = stage.comparison.recording;
   Eigen::VectorXd const& torque = record.torque_itself();
   return std::sqrt(blocked_residual_energy(torque, record.columns_themselves(), guard_rows(*stage.pipeline)) /
-                   torque.squaredNorm());
+                   record.whole_torque().squaredNorm());
 }
 
 }  // namespace
 
 double relative_error(ProcessedRecord const& record) {
-  return record.residual_itself().norm() / record.torque_itself().norm();
+  return record.residual_itself().norm() / record.whole_torque().norm();
 }
 
 void account_for_models(Selection const& selection, std::string const& timing, JointDiagnosis& joint) {

@@ -1,7 +1,7 @@
 #pragma once
 // Every number between rows and verdict, with its meaning and source: there is no other.
 //
-// Options    the job sets alpha (diagnose.q), delta (diagnose.delta), tolerance (diagnose.tolerance), replicates
+// Options    the job sets alpha (diagnose.q), delta, tolerance, least_fall (diagnose.delta and so on), replicates
 //            (diagnose.twins) and steps (diagnose.max_effects); the rest are budgets and conventions
 // Threads    constants
 
@@ -17,6 +17,9 @@ struct DecisionLevels {
   double delta = 0.0025;
   // how far the form of a law may be off, as a share of its own torque, and the model still be adequate
   double tolerance = 0.1;
+  // the least fall of the held-out error that a verdict names, as a share of it: the smallest effect of interest
+  // (Lakens 2017, doi:10.1177/1948550617697177)
+  double least_fall = 0.05;
 };
 
 // laws of a model that is not adequate are named when they explain more of the mismatch than they leave

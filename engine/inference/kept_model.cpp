@@ -1,6 +1,7 @@
 #include "engine/inference/kept_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@ KeptModel judged(StepwiseSearch const& search, SearchState const& state, std::sp
   KeptModel kept{state, held_out_errors(search.setting, unseen, state.selection, state.evidence->weights_unseen(),
                                         state.adequacy.holds() ? Blocks::where_it_acts : Blocks::alike)};
   HeldOut const& held_out = kept.held_out;
+  auto const& deciding = held_out.acting.blocks > 0 ? held_out.acting : held_out.gain;
+  if (deciding.before > 0.0) kept.fall = 1.0 - std::sqrt(deciding.after / deciding.before);
   if (held_out.acting.blocks > 0) {
     kept.is_held_out_lower =
         held_out.acting.change == HeldOutChange::lower && held_out.gain.is_not_worse() && state.adequacy.holds();

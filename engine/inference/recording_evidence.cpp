@@ -206,7 +206,7 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
   if (moves_both_ways(pipeline.picked(record.motion.dq, record))) left.array() -= left.mean();
   weigh_elsewhere(setting, stage, recording, stage.parameters(), nullptr, 0, pipeline);
   pipeline.whiten(left, record.kept_rows);
-  return {left.squaredNorm(), record.torque.squaredNorm(), left.rows()};
+  return {left.squaredNorm(), record.whole_torque().squaredNorm(), left.rows()};
 }
 
 UnseenEvidence without_effect(UnseenEvidence of, ModelStage const& stage, CandidateColumns const& training,

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/inference/adequacy.hpp"
 #include "engine/effects/carry_over.hpp"
+#include "engine/inference/adequacy.hpp"
 #include "engine/inference/refined_candidates.hpp"
 #include "engine/inference/simulated_candidate.hpp"
 #include "engine/search/joint_refinement.hpp"

@@ -29,6 +29,8 @@ std::string word(VerdictReason reason) {
       return "no_relation";
     case VerdictReason::not_held_out:
       return "not_held_out";
+    case VerdictReason::too_small:
+      return "too_small";
     case VerdictReason::most_is_left:
       return "most_is_left";
     case VerdictReason::explained:
@@ -44,6 +46,7 @@ VerdictOf verdict_of(VerdictFacts const& facts) {
   // nothing is left beyond chance, and what was found in it is of no use for other rows
   if (!facts.is_held_out_lower && facts.is_baseline_adequate) return without_laws(facts);
   if (!facts.is_held_out_lower) return {Verdict::unexplained, VerdictReason::not_held_out};
+  if (facts.is_adequate && !facts.is_worth_naming) return {Verdict::none, VerdictReason::too_small};
   if (facts.is_adequate) return {names(facts), VerdictReason::explained, true};
   if (facts.explains_most) return {Verdict::partly, VerdictReason::partly_explained, true};
   return {Verdict::unexplained, VerdictReason::most_is_left};

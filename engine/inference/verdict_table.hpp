@@ -4,7 +4,8 @@
 // Rows       baseline adequate | laws kept | adequate with them | held-out error clearly lower | explain most of it
 //            yes | none | -   | -   | -   -> none (what the motion cannot tell: insufficient)
 //            no  | none | -   | -   | -   -> unexplained (no relation with the motion at all: data fault)
-//            -   | some | yes | yes | -   -> named, one of a class, or a data fault when all act on a channel
+//            -   | some | yes | yes | -   -> named, one of a class, or a data fault when all act on a channel; none
+//                                           where the error falls by less than DecisionLevels::least_fall
 //            -   | some | no  | yes | yes -> partly explained
 //            -   | some | no  | yes | no  -> unexplained
 //            no  | some | -   | no  | -   -> unexplained
@@ -24,6 +25,7 @@ struct VerdictFacts {
   std::size_t laws = 0;               // of the last model of the search
   bool is_adequate = false;           // that model, in training and unseen
   bool is_held_out_lower = false;     // its held-out error: clearly
+  bool is_worth_naming = true;        // it falls by as much as a verdict names
   bool explains_most = false;         // of the mismatch on held-out rows, more than it leaves
   bool has_class = false;             // some law cannot be told from others
   bool all_on_channel = false;        // all laws, and all that they cannot be told from, are faults of a channel
@@ -37,6 +39,7 @@ enum class VerdictReason {
   nothing_fits,     // something is left, and no law of the catalogue predicts it
   no_relation,      // the torque has nothing to do with the motion
   not_held_out,     // laws fit the training rows and do not predict others better
+  too_small,        // laws make the model adequate, and the error hardly falls by them
   most_is_left,     // laws predict better and leave more than they explain
   explained,        // laws make the model adequate
   partly_explained  // laws explain most of it, and the rest has a structure of its own

@@ -176,6 +176,7 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
   }
   record.columns = record.columns_themselves()(places, Eigen::all).eval();
   record.torque = record.torque_itself()(places).eval();
+  if (record.beside.size() > 0) record.beside = record.beside(places).eval();
   record.kept_rows = kept_rows;
   fit(record, name);
   return record;
@@ -206,6 +207,7 @@ ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {
   record.torque = signals.col(last);
   signals.conservativeResize(Eigen::NoChange, last);
   record.columns = std::move(signals);
+  if (auto const& load = model_.reference().gear_load) record.beside = filtered(*load, record);
   return record;
 }
 

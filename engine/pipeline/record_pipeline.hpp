@@ -35,11 +35,17 @@ struct ProcessedRecord {
   // before whitening, in torque units throughout; empty where nothing was whitened
   Eigen::MatrixXd plain_columns{};
   Eigen::VectorXd plain_torque{};
+  // of the gear load that the recording's torque is without; empty: none
+  Eigen::VectorXd beside{};
   Motion drive{};  // the same with a wider band, for parts that have an inertia; empty in a twin whose model has none
   std::string held{};  // "inertia" or "dry friction" where its fit is at a bound (joint_fit.hpp)
 
   double energy() const { return residual.squaredNorm(); }
   bool is_whitened() const { return plain_torque.size() > 0; }
+  // what errors are relative to
+  Eigen::VectorXd whole_torque() const {
+    return beside.size() > 0 ? Eigen::VectorXd(torque_itself() + beside) : torque_itself();
+  }
   Eigen::VectorXd const& torque_itself() const { return is_whitened() ? plain_torque : torque; }
   Eigen::MatrixXd const& columns_themselves() const { return is_whitened() ? plain_columns : columns; }
   // what the same parameters leave of the torque itself

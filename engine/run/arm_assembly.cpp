@@ -15,6 +15,7 @@
 #include "engine/health/make_arm_recording.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
+#include "engine/problem/recorded_arm.hpp"
 #include "engine/problem/recorded_rows.hpp"
 #include "engine/robot/robot_registry.hpp"
 #include "engine/run/arm_instruments.hpp"
@@ -28,11 +29,7 @@ namespace torquescope {
 namespace {
 
 using Joints = std::vector<Recording>;  // of one arm recording
-struct File {
-  Joints joints;
-  std::optional<std::size_t> payload{};  // which one the arm carries
-};
-using Files = std::vector<File>;
+using Files = std::vector<RecordedArm>;
 
 // everything that decides the columns of a regressor, and what a result keeps of the robot beside it
 std::string digest_of(SerialChain const& chain) {
@@ -133,7 +130,7 @@ void choose_filter(Experiment::Parts& parts, Files const& train, Files const& un
 
 // one recording of the arm: its rows, and into `set` what is to be said about it; into `track`, if there is one, what
 // its instruments are made from
-RecordedRows prepare_recording(File&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track) {
+RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track) {
   auto& joints = file.joints;
   Section const filter = section_or_empty(parts.job, "filter");
   auto const& model = parts.arm->model;
@@ -199,6 +196,10 @@ void stack(std::vector<RecordedRows> const& rows, Experiment::Parts const& parts
 }
 
 void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
+  if (parts.arm->keeps_channels) {
+    parts.arm->train = train;
+    parts.arm->validate = unseen;
+  }
   std::vector<ArmTrack> tracks;
   bool const is_instrumental = instrumental_section(parts) != nullptr;
   if (is_instrumental) require_references(parts, train);
@@ -226,7 +227,8 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   terms.payloads = payloads;
   terms.drive_gains = options.drive_gains;
   std::string const sha256 = digest_of(chain);
-  return {ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
+  ArmParts arm{ArmModel(std::move(chain), terms, section_or_empty(job, "model")), options.robot, sha256};
+  return arm;
 }
 
 void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads) {

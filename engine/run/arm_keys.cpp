@@ -26,7 +26,23 @@ void read_joint_friction(Job const& job, std::size_t joints, ArmTerms& terms) {
   if (!problems.empty()) throw Error(std::move(problems));
 }
 
-void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
+void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems) {
+  auto const& model = parts.arm->model;
+  for (std::size_t j = 0; j < model.joints(); ++j) {
+    std::vector<std::string> has;
+    for (Effect const* effect : effect_choices())
+      if (effect->is_rigid_body()) has.push_back(effect->name());
+    if (auto const& friction = model.friction()[j])
+      for (Effect const* effect : friction->terms()) has.push_back(effect->name());
+    std::vector<Problem> own;
+    parts.arm->effects.push_back(chosen_effects(parts.diagnose, model.chain().joints[j].kind, has,
+                                                section_or_empty(parts.job, "diagnose"), own));
+    if (j == 0) problems.insert(problems.end(), own.begin(), own.end());
+  }
+  parts.effects = parts.arm->effects.front();
+}
+
+void refuse_joint_keys(Job const& job, std::vector<Problem>& problems) {
   if (Section const* model = job.find("model")) {
     for (auto const* key : {"terms", "joint"})
       if (model->find(key) != nullptr)
@@ -34,10 +50,6 @@ void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<
                                       "the robot file says how its joints move; what each has beside the rigid arm is "
                                       "friction = [\"viscous\", \"coulomb\", \"offset\"]"));
   }
-  if (purpose == Experiment::Purpose::diagnose)
-    problems.push_back(problem_at(*job.find("model"), "robot", "an arm cannot be diagnosed yet",
-                                  "`torquescope run` identifies it; for one joint write a job without robot, with "
-                                  "recording.simulated_torque = the column of your arm model's torque"));
 }
 
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems) {

@@ -12,8 +12,11 @@
 
 namespace torquescope {
 
-// of an arm's job: what only a job about one joint may have, and commands that do not work on arms yet
-void refuse_joint_keys(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems);
+// of an arm's job: what only a job about one joint may have
+void refuse_joint_keys(Job const& job, std::vector<Problem>& problems);
+
+// what a diagnosis looks for at each joint: what neither its friction nor the rigid arm has already
+void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems);
 
 // of a job about one joint: what only an arm has
 void refuse_arm_keys(Job const& job, std::vector<EstimatorPlan> const& plans, std::vector<Problem>& problems);

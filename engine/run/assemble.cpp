@@ -271,10 +271,12 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   PayloadPlan payloads;
   try {
     if (is_arm) {
-      refuse_joint_keys(job, purpose, problems);
+      refuse_joint_keys(job, problems);
       payloads = plan_payloads(job, recording, model.drive_gains, problems);
       parts->arm = read_arm(job, model, payloads.payloads);
       refuse_useless_payloads(*parts, problems);
+      parts->arm->keeps_channels = purpose == Purpose::diagnose;
+      choose_arm_effects(*parts, problems);
     } else {
       parts->regressor = make_regressor(model, section_or_empty(job, "model"));
       parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,

@@ -74,6 +74,9 @@ void write_candidate(ResultWriter& writer, std::string const& group, ShapedCandi
 ColumnsReport write_candidate_columns(Experiment const& experiment, DiagnoseRequest const& request) {
   Beginning const beginning;
   auto const& parts = experiment.parts();
+  if (parts.arm)
+    throw Error(problem_at(*parts.job.find("model"), "robot", "--columns writes those of one joint, and this is an arm",
+                           "leave --columns out, or write a job for one joint"));
   ResultWriter writer(request.output, {.gzip = parts.output.compression == "gzip"});
   write_study(writer, experiment);
   JobInput const job(parts, request.threads.count);

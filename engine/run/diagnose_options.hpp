@@ -17,6 +17,9 @@ struct DiagnoseOptions {
   std::int64_t twins = 200;
   double q = 0.05;
   std::int64_t max_effects = 5;
+  double delta = 0.0025;
+  double tolerance = 0.1;
+  double least_fall = 0.05;
   std::string shape_optimiser = "de";
   std::string reversals = "both";
   // ablations (ablation.hpp)

@@ -12,6 +12,7 @@
 #include "engine/run/diagnosis_result.hpp"
 #include "engine/run/diagnosis_standing.hpp"
 #include "engine/run/disk_room.hpp"
+#include "engine/run/job_sections.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/twin_folder.hpp"
 #include "engine/store/shard_lock.hpp"
@@ -125,22 +126,33 @@ Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts)
   diagnosis.verdict = Verdict::data_fault;
   diagnosis.finding = fmt::format("{}: {}", fault.recording, sentence_of(fault));
   diagnosis.way_out = cure_of(fault);
-  JointDiagnosis joint;
-  bool const revolute = parts.regressor->joint() == JointKind::revolute;
-  joint.unit_position = revolute ? "rad" : "m";
-  joint.unit_torque = revolute ? "N m" : "N";
-  diagnosis.joints.push_back(std::move(joint));
+  for (std::size_t j = 0; j < parts.joints(); ++j) {
+    bool const revolute =
+        (parts.arm ? parts.arm->model.chain().joints[j].kind : parts.regressor->joint()) == JointKind::revolute;
+    JointDiagnosis joint;
+    joint.joint = static_cast<int>(j) + 1;
+    joint.verdict = Verdict::data_fault;
+    joint.unit_position = revolute ? "rad" : "m";
+    joint.unit_torque = revolute ? "N m" : "N";
+    diagnosis.joints.push_back(std::move(joint));
+  }
   diagnosis.seed = static_cast<std::uint64_t>(parts.experiment.seed);
   diagnosis.q = parts.diagnose.q;
   diagnosis.reason = reason_sentence(diagnosis);
   return diagnosis;
 }
 
-Diagnosis diagnose_examined(Experiment const& experiment, DiagnosisInput const& input, StageSink const& sink) {
+Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchange* exchange, StageSink const& sink) {
+  if (!parts.arm) return diagnose_joint(JobInput(parts, threads, exchange).input(), sink).diagnosis;
+  Section const filter = section_or_empty(parts.job, "filter");
+  return diagnose_arm(arm_input(parts, filter, threads, exchange), sink);
+}
+
+Diagnosis diagnose_examined(Experiment const& experiment, int threads, TwinExchange* exchange, StageSink const& sink) {
   auto const findings = experiment.findings();
   auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
-  Diagnosis diagnosis =
-      fault != findings.end() ? verdict_of_fault(*fault, experiment.parts()) : diagnose_joint(input, sink);
+  Diagnosis diagnosis = fault != findings.end() ? verdict_of_fault(*fault, experiment.parts())
+                                                : diagnose_parts(experiment.parts(), threads, exchange, sink);
   diagnosis.findings = findings;
   return diagnosis;
 }
@@ -153,15 +165,15 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   std::optional<Shard> shard;
   if (request.shard.count > 1) shard.emplace(experiment, request, existed);
   check_room(request, diagnosis_bytes(experiment.parts()));
-  JobInput const job(experiment.parts(), request.threads.count, shard ? &shard->twins() : nullptr);
+  TwinExchange* const exchange = shard ? &shard->twins() : nullptr;
   Stages stages(progress, request, experiment, lock);
   StageSink const sink = [&](std::string const& stage, std::size_t done, std::size_t total) {
     if (shard && shard->is_finished()) throw TwinsAbandoned();
     stages(stage, done, total);
   };
   try {
-    Diagnosis const diagnosis =
-        diagnose_into_file(experiment, request, [&] { return diagnose_examined(experiment, job.input(), sink); });
+    Diagnosis const diagnosis = diagnose_into_file(
+        experiment, request, [&] { return diagnose_examined(experiment, request.threads.count, exchange, sink); });
     if (shard && request.tell) request.tell("shard", shard->twins().account());
     // also what killed shards left, when one process made it all in the end
     for (auto const& warning : remove_segments(request.output, experiment.inputs_sha256()))

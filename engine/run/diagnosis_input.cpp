@@ -27,25 +27,42 @@ std::string position_column(Job const& job) {
   return names && position != names->end() ? position->second : std::string();
 }
 
+// what a job asks of one joint and of an arm alike
+template <class Input>
+void ask(Experiment::Parts const& parts, int threads, TwinExchange* exchange, Input& input) {
+  auto const& options = parts.diagnose;
+  input.selection.q = options.q;
+  input.selection.max_effects = static_cast<std::size_t>(options.max_effects);
+  input.selection.shape_optimiser = options.shape_optimiser;
+  input.levels.delta = options.delta;
+  input.levels.tolerance = options.tolerance;
+  input.levels.least_fall = options.least_fall;
+  input.twins = static_cast<std::size_t>(options.twins);
+  input.seed = static_cast<std::uint64_t>(parts.experiment.seed);
+  input.threads = threads;
+  input.exchange = exchange;
+  input.reversals = reversals_of(options.reversals);
+  input.ablation = {null_of(options.null), options.indirect_inference, options.twin_noise, options.whitening};
+}
+
 }  // namespace
 
 JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* exchange)
     : filter_(section_or_empty(parts.job, "filter")),
       others_(other_recordings(parts)),
       input_{parts.train.recordings.front(), others_, *parts.regressor, parts.filter, filter_} {
+  ask(parts, threads, exchange, input_);
   input_.selection.candidates = parts.effects;
-  input_.selection.q = parts.diagnose.q;
-  input_.selection.max_effects = static_cast<std::size_t>(parts.diagnose.max_effects);
-  input_.selection.shape_optimiser = parts.diagnose.shape_optimiser;
-  input_.twins = static_cast<std::size_t>(parts.diagnose.twins);
-  input_.seed = static_cast<std::uint64_t>(parts.experiment.seed);
-  input_.threads = threads;
   input_.joint_name = position_column(parts.job);
   input_.further_training = parts.train.recordings.size() - 1;
-  input_.exchange = exchange;
-  input_.reversals = reversals_of(parts.diagnose.reversals);
-  input_.ablation = {null_of(parts.diagnose.null), parts.diagnose.indirect_inference, parts.diagnose.twin_noise,
-                     parts.diagnose.whitening};
+}
+
+ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads,
+                            TwinExchange* exchange) {
+  auto const& arm = *parts.arm;
+  ArmDiagnosisInput input{arm.model, arm.train, arm.validate, arm.effects, parts.filter, filter};
+  ask(parts, threads, exchange, input);
+  return input;
 }
 
 }  // namespace torquescope

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "engine/diagnose/joint_diagnosis.hpp"
+#include "engine/diagnose/arm_diagnosis.hpp"
 #include "engine/run/experiment_parts.hpp"
 
 namespace torquescope {
@@ -25,5 +25,9 @@ class JobInput {
   std::vector<Recording> others_;
   DiagnosisInput input_;
 };
+
+// the same of an arm; looks into `parts` alone
+ArmDiagnosisInput arm_input(Experiment::Parts const& parts, Section const& filter, int threads,
+                            TwinExchange* exchange = nullptr);
 
 }  // namespace torquescope

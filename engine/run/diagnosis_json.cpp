@@ -113,34 +113,37 @@ Json joint_json(JointDiagnosis const& joint) {
     for (auto const& region : axis.regions) mismatch.push_back(region_json(region));
   auto const effect = [&](NamedEffect const& one) { return effect_json(one, joint.twins); };
   auto const candidate = [&](Candidate const& one) { return candidate_json(one, joint.twins); };
-  return {{"joint", joint.joint},
-          {"name", joint.name},
-          {"twins", joint.twins},
-          {"baseline",
-           {{"parameters", list(joint.baseline, parameter_json)},
-            {"train_relerr", number(joint.train_relerr)},
-            {"validation_relerr", number(joint.validation_relerr)},
-            {"cv_relerr", number(joint.cv_relerr)}}},
-          {"mismatch", mismatch},
-          {"effects", list(joint.effects, effect)},
-          {"candidates", list(joint.candidates, candidate)},
-          {"augmented",
-           {{"train_relerr", number(joint.augmented_train_relerr)},
-            {"validation_relerr", number(joint.augmented_validation_relerr)},
-            {"cv_relerr", number(joint.augmented_cv_relerr)},
-            {"floor_relerr", number(joint.floor_relerr)},
-            {"parameters", list(joint.augmented, parameter_json)}}},
-          {"left_out",
-           {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
-          {"held_out", held_out_json(joint.held_out)},
-          {"explained", explained_json(joint)},
-          {"budget",
-           {{"parameter_error", number(joint.budget.parameter_error)},
-            {"missing_physics", number(joint.budget.missing_physics)},
-            {"unexplained", number(joint.budget.unexplained)},
-            {"noise", number(joint.budget.noise)}}},
-          {"unexplained", list(joint.unexplained, unexplained_json)},
-          {"excitation", list(joint.excitation, advice_json)}};
+  Json made = {{"joint", joint.joint}, {"name", joint.name}};
+  // of an arm, whose joints have verdicts of their own
+  if (!joint.reason.empty()) made.update({{"verdict", word(joint.verdict)}, {"reason", joint.reason}});
+  made.update(
+      {{"twins", joint.twins},
+       {"baseline",
+        {{"parameters", list(joint.baseline, parameter_json)},
+         {"train_relerr", number(joint.train_relerr)},
+         {"validation_relerr", number(joint.validation_relerr)},
+         {"cv_relerr", number(joint.cv_relerr)}}},
+       {"mismatch", mismatch},
+       {"effects", list(joint.effects, effect)},
+       {"candidates", list(joint.candidates, candidate)},
+       {"augmented",
+        {{"train_relerr", number(joint.augmented_train_relerr)},
+         {"validation_relerr", number(joint.augmented_validation_relerr)},
+         {"cv_relerr", number(joint.augmented_cv_relerr)},
+         {"floor_relerr", number(joint.floor_relerr)},
+         {"parameters", list(joint.augmented, parameter_json)}}},
+       {"left_out",
+        {{"train", left_out_json(joint.train_left_out)}, {"validation", left_out_json(joint.validation_left_out)}}},
+       {"held_out", held_out_json(joint.held_out)},
+       {"explained", explained_json(joint)},
+       {"budget",
+        {{"parameter_error", number(joint.budget.parameter_error)},
+         {"missing_physics", number(joint.budget.missing_physics)},
+         {"unexplained", number(joint.budget.unexplained)},
+         {"noise", number(joint.budget.noise)}}},
+       {"unexplained", list(joint.unexplained, unexplained_json)},
+       {"excitation", list(joint.excitation, advice_json)}});
+  return made;
 }
 
 Json finding_json(Finding const& finding) {

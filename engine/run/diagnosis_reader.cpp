@@ -213,13 +213,24 @@ JointDiagnosis read_joint(StoredObjects const& in, std::string const& group) {
   return joint;
 }
 
+constexpr std::array verdicts{Verdict::none,        Verdict::named,        Verdict::one_of_class, Verdict::partly,
+                              Verdict::unexplained, Verdict::insufficient, Verdict::data_fault};
+
+// each joint of an arm has its own; a single joint's is that of the diagnosis
+void read_verdicts(StoredObjects const& in, Diagnosis& diagnosis) {
+  auto const groups = in.numbered(root, "joint");
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    JointDiagnosis& joint = diagnosis.joints[i];
+    joint.reason = in.text(groups[i], "reason");
+    joint.verdict = joint.reason.empty() ? diagnosis.verdict : in.choice(in.text(groups[i], "verdict"), verdicts, root);
+  }
+}
+
 }  // namespace
 
 bool has_diagnosis(ResultReader const& reader) { return reader.exists(root); }
 
 Diagnosis read_diagnosis(ResultReader const& reader) {
-  constexpr std::array verdicts{Verdict::none,        Verdict::named,        Verdict::one_of_class, Verdict::partly,
-                                Verdict::unexplained, Verdict::insufficient, Verdict::data_fault};
   StoredObjects const in(reader);
   Diagnosis diagnosis;
   diagnosis.verdict = in.choice(reader.attribute<std::string>(root, "verdict"), verdicts, root);
@@ -229,6 +240,7 @@ Diagnosis read_diagnosis(ResultReader const& reader) {
   diagnosis.seed = static_cast<std::uint64_t>(in.whole(root, "seed"));
   diagnosis.q = in.number(root, "q");
   for (auto const& group : in.numbered(root, "joint")) diagnosis.joints.push_back(read_joint(in, group));
+  read_verdicts(in, diagnosis);
   return diagnosis;
 }
 

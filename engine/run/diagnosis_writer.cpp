@@ -204,6 +204,10 @@ void write_lists(ResultWriter& writer, std::string const& group, JointDiagnosis 
 void write_joint_attributes(ResultWriter& writer, std::string const& group, JointDiagnosis const& joint) {
   writer.attribute(group, "joint", std::int64_t{joint.joint});
   writer.attribute(group, "name", joint.name);
+  if (!joint.reason.empty()) {
+    writer.attribute(group, "verdict", word(joint.verdict));
+    writer.attribute(group, "reason", joint.reason);
+  }
   writer.attribute(group, "unit_position", joint.unit_position);
   writer.attribute(group, "unit_torque", joint.unit_torque);
   writer.attribute(group, "train_relerr", joint.train_relerr);

@@ -124,8 +124,8 @@ FitnessChoice fitness_choice(Experiment::Parts const& parts, EstimatorPlan const
 }
 
 std::string Experiment::diagnose_line() const {
-  return fmt::format("{}: 1 joint, {}; {}, {}", name(), counted(parts_->regressor->size(), "parameter"),
-                     counted(parts_->effects.size(), "effect"),
+  return fmt::format("{}: {}, {}; {}, {}", name(), counted(parts_->joints(), "joint"),
+                     counted(parts_->parameters(), "parameter"), counted(parts_->effects.size(), "effect"),
                      counted(static_cast<std::size_t>(parts_->diagnose.twins), "clean twin"));
 }
 

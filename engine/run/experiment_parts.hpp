@@ -21,6 +21,7 @@
 #include "engine/problem/arm_model.hpp"
 #include "engine/problem/filtered_grams.hpp"
 #include "engine/problem/fitness_choice.hpp"
+#include "engine/problem/recorded_arm.hpp"
 #include "engine/problem/regression_data.hpp"
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/single_precision.hpp"
@@ -50,6 +51,10 @@ struct ArmParts {
   std::string sha256;                 // of the chain that was read from it
   std::vector<FilteredGram> grams{};  // of the training rows
   NoiseLevels noise{};                // of the joints
+  // of a diagnosis
+  bool keeps_channels = false;
+  std::vector<RecordedArm> train{}, validate{};
+  std::vector<std::vector<Effect const*>> effects{};  // [N] it looks for
 };
 
 struct Experiment::Parts {

@@ -77,7 +77,7 @@ TwinComparison compare_with_twins(Recording const& recording, CleanTwin const& t
       motion_axes(pipeline.model(), result.common, result.common.parameters).picked([&](Eigen::VectorXd const& signal) {
         return pipeline.picked(signal, result.common);
       });
-  rows.torque = result.recording.torque_itself();
+  rows.torque = result.recording.whole_torque();
   rows.residual = result.recording.residual;
 
   auto const n = static_cast<Eigen::Index>(safe.size());

@@ -25,7 +25,7 @@ namespace torquescope {
 struct MismatchRows : MotionAxes {
   double rate_hz = 0.0;                   // of the kept samples before the mask
   std::vector<Eigen::Index> kept_rows{};  // of each row: index among the pipeline's kept samples
-  Eigen::VectorXd torque{};               // of the recording, filtered, never whitened
+  Eigen::VectorXd torque{};               // of the recording with its gear load, filtered, never whitened
   Eigen::VectorXd residual{};             // of the recording
   Eigen::VectorXd twin_mean{};            // mean residual of the twins
   Eigen::MatrixXd twins{};                // n x M: residual of each twin

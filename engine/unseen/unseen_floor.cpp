@@ -31,7 +31,7 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
     auto const& record = visited.record;
     TwinResidual& twin = twins[visited.index];
     twin.left = record.torque - record.columns * stage.parameters();
-    twin.torque = record.torque.norm();
+    twin.torque = record.whole_torque().norm();
   });
   return twins;
 }

@@ -134,7 +134,7 @@ LeftOutRows left_out_of(Recording const& recording, StageSetting const& setting,
     return pipeline.prepare(recording);
   };
   ProcessedRecord const whole_before = on_all_rows(before.stage), whole_after = on_all_rows(after.stage);
-  return left_out_rows(whole_before.torque, before.left(whole_before), after.left(whole_after), kept_rows);
+  return left_out_rows(whole_before.whole_torque(), before.left(whole_before), after.left(whole_after), kept_rows);
 }
 
 UnseenPrediction predict(Recording const& recording, StageSetting const& setting, ModelStage const& baseline,
@@ -178,7 +178,7 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   }
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(before.torque.size());
   plain.take_shares(shares, before.kept_rows);
-  result.torque_energy = weighed_energy(before.torque, shares);
+  result.torque_energy = weighed_energy(before.whole_torque(), shares);
   result.energies = energies_of(left_before, left_after, shares);
   result.left_out = left_out_of(recording, setting, {baseline, baseline.parameters(), offset_before},
                                 {augmented, parameters, offset_after}, before.kept_rows);
@@ -207,6 +207,7 @@ TorqueTrace torque_trace(Recording const& recording, RecordPipeline const& pipel
   trace.rate_hz = pipeline.kept_rate_hz();
   trace.time_s = pipeline.picked(before.motion.time_s);
   trace.torque = pipeline.filtered(acting_torque(before.motion.torque));
+  if (recording.gear_load.size() > 0) trace.torque += pipeline.filtered(recording.gear_load);
   trace.velocity = pipeline.picked(before.motion.dq);
   trace.position = pipeline.picked(before.motion.q);
   trace.before = trace.after = Eigen::VectorXd::Constant(trace.time_s.size(), unknown);

@@ -64,4 +64,18 @@ bool looks_at_less_than_half(JointDiagnosis const& joint) {
   return joint.train_left_out.energy > half || joint.validation_left_out.energy > half;
 }
 
+Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints) {
+  auto const any = [&](Verdict verdict) {
+    return std::any_of(joints.begin(), joints.end(), [&](auto const& joint) { return joint.verdict == verdict; });
+  };
+  bool const has_riddle = any(Verdict::unexplained) || any(Verdict::data_fault) || any(Verdict::partly);
+  bool const has_class = any(Verdict::one_of_class), has_name = any(Verdict::named);
+  if (any(Verdict::partly) || ((has_class || has_name) && has_riddle)) return Verdict::partly;
+  if (has_class) return Verdict::one_of_class;
+  if (has_name) return Verdict::named;
+  for (Verdict const verdict : {Verdict::unexplained, Verdict::data_fault, Verdict::none})
+    if (any(verdict)) return verdict;
+  return Verdict::insufficient;
+}
+
 }  // namespace torquescope

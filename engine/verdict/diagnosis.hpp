@@ -172,6 +172,8 @@ struct HeldOutTest {
 
 struct JointDiagnosis {
   int joint = 1;
+  Verdict verdict = Verdict::none;         // of this joint; of an arm, where each has its own
+  std::string reason{};                    // of an arm: one sentence about this joint
   std::string name{};                      // of its position column; "": the joint's number stands for it
   std::string unit_position, unit_torque;  // "rad", "N m"
   std::vector<ParameterEstimate> baseline{};
@@ -181,7 +183,8 @@ struct JointDiagnosis {
   std::vector<NamedEffect> effects{};   // in the order of acceptance
   std::vector<ParameterEstimate> augmented{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
-  double floor_relerr = unknown;  // what a complete model would leave, unseen recording (or training)
+  double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
+  double floor_relerr = unknown;              // what a complete model would leave, unseen recording (or training)
   double train_floor_relerr = unknown;
   LeftOut train_left_out{}, validation_left_out{};
   HeldOutTest held_out{};
@@ -235,5 +238,8 @@ struct Diagnosis {
   std::uint64_t seed = 0;
   double q = 0.05;
 };
+
+// of an arm, from those of its joints: a name counts as the whole answer only where no joint is left with a riddle
+Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints);
 
 }  // namespace torquescope

@@ -207,6 +207,7 @@ std::string none_reason(JointDiagnosis const& joint) {
   append(text, left_out_sentence("Training", joint.train_relerr, joint.train_left_out));
   append(text, left_out_sentence("Unseen", joint.validation_relerr, joint.validation_left_out));
   append(text, joint.power_sentence);
+  if (!joint.refutation.empty()) append(text, sentence(joint.refutation));
   return text;
 }
 

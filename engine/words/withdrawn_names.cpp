@@ -14,15 +14,30 @@ std::string too_little_clause(JointDiagnosis const& joint, double share) {
                      n_tested(joint), joint.effects.size() == 1 ? "explains" : "explain", percent_text(share));
 }
 
+namespace {
+
+// "the unseen relerr from 2.2 % to 2.5 %"
+std::string before_and_after(JointDiagnosis const& joint) {
+  bool const is_unseen = std::isfinite(joint.validation_relerr);
+  return fmt::format("the {} relerr from {} to {}", is_unseen ? "unseen" : "cross-validated",
+                     percent_text(is_unseen ? joint.validation_relerr : joint.cv_relerr),
+                     percent_text(is_unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr));
+}
+
+}  // namespace
+
+std::string too_small_clause(JointDiagnosis const& joint) {
+  auto const names = names_of(joint);
+  return fmt::format("{} {} {}: too little to be a finding", name_list(names, "and"),
+                     names.size() == 1 ? "takes" : "take", before_and_after(joint));
+}
+
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;
-  bool const is_unseen = std::isfinite(joint.validation_relerr);
-  std::string text = fmt::format(
-      "{}, which would explain it, {} the {} relerr from {} to {}", name_list(names, "and"), is_one ? "takes" : "take",
-      is_unseen ? "unseen" : "cross-validated", percent_text(is_unseen ? joint.validation_relerr : joint.cv_relerr),
-      percent_text(is_unseen ? joint.augmented_validation_relerr : joint.augmented_cv_relerr));
-  if (!is_unseen) return text;
+  std::string text = fmt::format("{}, which would explain it, {} {}", name_list(names, "and"),
+                                 is_one ? "takes" : "take", before_and_after(joint));
+  if (!std::isfinite(joint.validation_relerr)) return text;
   std::string const with = is_one ? "it" : "them";
   if (twins_ran_away)
     return text + fmt::format(", and a joint simulated with {} no longer follows the reference", with);

@@ -14,6 +14,8 @@ namespace torquescope {
 // 2.2 % to 2.5 %, where twins with it promise 1.6 %", or "and a joint simulated with it no longer follows the
 // reference"
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
+// because hardly anything is won: "cogging takes the unseen relerr from 2.22 % to 2.14 %: too little to be a finding"
+std::string too_small_clause(JointDiagnosis const& joint);
 // because of what they leave: "backlash, the closest of 29 known effects, explains 37 % of what is missing". Share: 0
 // to 1
 std::string too_little_clause(JointDiagnosis const& joint, double share);

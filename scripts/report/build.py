@@ -80,7 +80,8 @@ def _of_arm(study):
 
 def _of_diagnosis(study):
     joints = study.diagnosis.joints
-    return {"parts": ["diagnosis.html", "recording.html"], "verdict": words_of_diagnosis.verdict(study),
+    parts = ["diagnosis.html"] if study.arm else ["diagnosis.html", "recording.html"]  # a recording of one joint
+    return {"parts": parts, "verdict": words_of_diagnosis.verdict(study),
             "head": words_of_diagnosis.head(study),
             "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
             "lists": tables_of_diagnosis, "diagnosed": diagnosed,

@@ -214,7 +214,6 @@ class Arm(unittest.TestCase):
                      "model.terms beside model.robot")
         self.refused('"offset"]', '"offzet"]', 'there is no effect "offzet"')
         self.refused("train_share = 0.6", "train_share = 1.6", "train_share = 1.6 is out of range")
-        self.refused('name = "planar"', 'name = "planar2"', "an arm cannot be diagnosed yet", command="diagnose")
 
     def test_an_unseen_arm_that_stands_still_is_said_and_judges_nothing(self):
         rows = self.text.splitlines()

@@ -128,15 +128,24 @@ std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) 
   return with_each(hanging(inked + "  ", reason), "\u00A0", " ");
 }
 
+// of a joint among others
+std::string verdict_of_joint(JointDiagnosis const& joint, bool utf8, Ink const& ink) {
+  VerdictWords const words = words_of(joint.verdict);
+  std::string const lead = fmt::format("{} {}: {}", utf8 ? words.mark : "*", which_joint(joint), words.word);
+  return hanging((needs_care(joint.verdict) ? ink.warning(lead) : ink.bold(lead)) + "  ", printable(joint.reason));
+}
+
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
   std::string text;
   for (auto const& joint : diagnosis.joints) {
+    bool const is_one_of_many = !joint.reason.empty();
+    Verdict const verdict = is_one_of_many ? joint.verdict : diagnosis.verdict;
     std::string const part = where_text(joint, options.utf8) +
-                             (diagnosis.verdict == Verdict::partly ? what_is_left_text(joint, options.utf8) : "") +
+                             (verdict == Verdict::partly ? what_is_left_text(joint, options.utf8) : "") +
                              candidates_text(joint, options.all_candidates) + next_text(joint);
-    if (part.empty()) continue;
+    if (part.empty() && !is_one_of_many) continue;
     text += "\n";
-    if (diagnosis.joints.size() > 1) text += ink.bold(which_joint(joint)) + "\n";
+    if (is_one_of_many) text += verdict_of_joint(joint, options.utf8, ink);
     text += part;
   }
   return text;

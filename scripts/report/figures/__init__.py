@@ -41,7 +41,7 @@ class Case:
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
     if study.arm:
-        return _cases(ARM_MODULES, study)
+        return _cases(DIAGNOSIS_MODULES if study.diagnosis else ARM_MODULES, study)
     modules = (
         (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
     )

@@ -56,7 +56,7 @@ Diagnosis diagnosed(Recording const& train, std::vector<Recording> const& valida
   input.twins = 100;  // below 1 / 101 four candidates can be told from chance
   input.seed = 1;
   input.threads = 2;
-  return diagnose_joint(input, {});
+  return diagnose_joint(input, {}).diagnosis;
 }
 
 bool names(Diagnosis const& diagnosis, std::string const& name) {

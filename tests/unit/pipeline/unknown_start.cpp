@@ -23,6 +23,7 @@ Eigen::VectorXd creeping_start(double creep) {
 
 Eigen::VectorXd speed_of(Eigen::VectorXd const& q) {
   Eigen::VectorXd dq = Eigen::VectorXd::Zero(q.size());
+  if (q.size() == 0) return dq;
   dq.tail(q.size() - 1) = q.tail(q.size() - 1) - q.head(q.size() - 1);
   return dq;
 }

@@ -1,0 +1,90 @@
+#include "engine/diagnose/rigid_rows.hpp"
+
+#include <algorithm>
+
+#include "engine/data/filter_checks.hpp"
+#include "engine/pipeline/held_torque.hpp"
+#include "engine/pipeline/reversal_mask.hpp"
+#include "engine/problem/arm_regression.hpp"
+#include "engine/problem/filtered_grams.hpp"
+#include "engine/problem/least_squares.hpp"
+#include "engine/problem/recorded_rows.hpp"
+#include "engine/robot/forward_dynamics.hpp"
+
+namespace torquescope {
+namespace {
+
+std::vector<Motion> motion_of(RecordedArm const& recording, ArmFilter const& filter) {
+  std::vector<Motion> motion;
+  for (auto const& joint : recording.joints) motion.push_back(differentiate(joint, filter.options, filter.section));
+  return motion;
+}
+
+RecordedRows rows_of(ArmModel const& model, RecordedArm const& recording, ArmFilter const& filter) {
+  auto const motion = motion_of(recording, filter);
+  std::vector<std::vector<bool>> moves;
+  for (auto const& joint : motion)
+    moves.push_back(moving_samples(joint.dq, joint.rate_hz, parallel_cutoff_of(filter.options)));
+  return make_recorded_rows(recording.joints.front().name, motion, moves, filter.options, model, filter.section,
+                            recording.payload);
+}
+
+// [N] means of M_jj over instants spread evenly over the recordings
+Eigen::VectorXd mean_inertias(ArmModel const& model, Eigen::VectorXd const& parameters,
+                              std::span<RecordedArm const> recordings) {
+  constexpr Eigen::Index instants = 200;  // of each: a mean needs no more
+  auto const joints = static_cast<Eigen::Index>(model.joints());
+  Eigen::VectorXd const standard = model.base().to_standard(parameters.head(model.base().size()));
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(joints), q(joints);
+  double count = 0.0;
+  for (auto const& [arm, payload] : recordings) {
+    Eigen::Index const n = arm.front().position.size(), step = std::max<Eigen::Index>(1, n / instants);
+    for (Eigen::Index i = 0; i < n; i += step, count += 1.0) {
+      for (Eigen::Index j = 0; j < joints; ++j) q[j] = arm[static_cast<std::size_t>(j)].position[i];
+      sum += mass_matrix(model.chain(), standard, q).diagonal();
+    }
+  }
+  return sum / count;
+}
+
+// [n] of a joint: its columns times its parameters, without friction
+Eigen::VectorXd rigid_torque(ArmModel const& model, Eigen::VectorXd parameters, std::size_t joint,
+                             Eigen::MatrixXd const& rows) {
+  auto const& own = model.parameters_of(joint);
+  auto const friction = static_cast<Eigen::Index>(model.friction()[joint] ? model.friction()[joint]->size() : 0);
+  Eigen::VectorXd of_joint = parameters(own);
+  auto const rigid = std::lower_bound(own.begin(), own.end(), model.base().size()) - own.begin();
+  of_joint.segment(rigid, friction).setZero();
+  return rows * of_joint;
+}
+
+}  // namespace
+
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter) {
+  std::vector<RecordedRows> rows;
+  for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
+  NoiseLevels const noise = noise_levels(filtered_grams(rows, model), static_cast<Eigen::Index>(model.size()));
+  FittedArm fitted;
+  fitted.parameters =
+      solve_weighted(stack_rows(rows, ArmRowChoice::moving, model, noise.deviation, filter.section), {});
+  fitted.noise = noise.deviation;
+  fitted.inertia = mean_inertias(model, fitted.parameters, recordings);
+  return fitted;
+}
+
+std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,
+                                    ArmFilter const& filter) {
+  auto const motion = motion_of(recording, filter);
+  auto const rows = model.rows(motion, recording.payload);
+  std::vector<Recording> alone = recording.joints;
+  for (std::size_t j = 0; j < alone.size(); ++j) {
+    Eigen::VectorXd beside = rigid_torque(model, fitted.parameters, j, rows[j]);
+    if (recording.payload) beside += model.known_torque(j, rows[j], *recording.payload);
+    beside -= fitted.inertia[static_cast<Eigen::Index>(j)] * motion[j].ddq;
+    alone[j].torque -= torque_to_hold(beside);
+    alone[j].gear_load = std::move(beside);
+  }
+  return alone;
+}
+
+}  // namespace torquescope

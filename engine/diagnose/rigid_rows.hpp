@@ -1,0 +1,42 @@
+#pragma once
+// The rows of an arm's joints, told apart: what the rigid arm needs at its fitted parameters, and what is left to the
+// equation of motion of each joint alone while the others move as recorded.
+//
+// Equation   tau_j = y_j(q, dq, ddq) chi + friction_j + what is missing; y_j chi = J_j ddq_j + beside_j,
+//            J_j the mean of M_jj(q) over the recordings. Of joint j alone: tau_j - beside_j
+// Load       beside_j passes the gear: Recording::gear_load
+// Fit        all joints of all training recordings together, rows divided by the noise of their joint (WLS; Gautier
+//            1997, doi:10.1109/ROBOT.1997.606794), where a joint moves one way
+// Units      SI
+// Errors     those of the filters; Error 65 when the rows cannot tell the parameters apart
+// Threads    free functions
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "engine/data/motion.hpp"
+#include "engine/problem/arm_model.hpp"
+#include "engine/problem/recorded_arm.hpp"
+
+namespace torquescope {
+
+// what all recordings share; outlives what is made with it
+struct ArmFilter {
+  FilterOptions const& options;
+  Section const& section;
+};
+
+struct FittedArm {
+  Eigen::VectorXd parameters;  // [R] of the model
+  Eigen::VectorXd inertia;     // [N] J_j
+  Eigen::VectorXd noise;       // [N] standard deviation of what is left of each joint
+};
+
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter);
+
+// each joint of a recording, also of one that nothing was fitted to, as a recording of its own
+std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,
+                                    ArmFilter const& filter);
+
+}  // namespace torquescope

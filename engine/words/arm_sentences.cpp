@@ -1,0 +1,85 @@
+#include "engine/words/arm_sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/quantity_text.hpp"
+#include "engine/words/name_list.hpp"
+
+namespace torquescope {
+namespace {
+
+// in the order in which people want to hear of them
+constexpr std::array told{Verdict::named,      Verdict::one_of_class, Verdict::partly, Verdict::unexplained,
+                          Verdict::data_fault, Verdict::insufficient, Verdict::none};
+
+char const* clause_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::named:
+    case Verdict::one_of_class:
+      return "named at";
+    case Verdict::partly:
+      return "partly explained at";
+    case Verdict::unexplained:
+      return "unexplained at";
+    case Verdict::data_fault:
+      return "a fault of the data at";
+    case Verdict::insufficient:
+      return "the recordings cannot tell at";
+    case Verdict::none:
+      break;
+  }
+  return "nothing missing at";
+}
+
+// "joint 2 (load dependent friction or spring)"
+std::string with_names(JointDiagnosis const& joint) {
+  std::vector<std::string> names;
+  for (auto const& effect : joint.effects) {
+    std::vector<std::string> alike{in_words(effect.name)};
+    for (auto const& other : effect.equivalent) alike.push_back(in_words(other));
+    names.push_back(name_list(alike, "or"));
+  }
+  return which_joint(joint) + (names.empty() ? "" : fmt::format(" ({})", fmt::join(names, "; ")));
+}
+
+std::string joints_clause(std::vector<JointDiagnosis> const& joints, Verdict verdict) {
+  std::vector<std::string> who;
+  for (auto const& joint : joints)
+    if (joint.verdict == verdict) who.push_back(with_names(joint));
+  return who.empty() ? "" : std::string(clause_of(verdict)) + " " + name_list(who, "and");
+}
+
+// over joints, each by the energy of its torque; NaN where one is not known
+double over_joints(std::vector<JointDiagnosis> const& joints, double JointDiagnosis::*relerr) {
+  double error = 0.0, torque = 0.0;
+  for (auto const& joint : joints) {
+    double const own = std::isfinite(joint.*relerr) ? joint.*relerr : joint.validation_relerr;
+    error += own * own * joint.validation_torque_energy;
+    torque += joint.validation_torque_energy;
+  }
+  return std::sqrt(error / torque);
+}
+
+}  // namespace
+
+std::string arm_reason_sentence(Diagnosis const& diagnosis) {
+  std::string text;
+  for (Verdict const verdict : told) {
+    std::string const clause = joints_clause(diagnosis.joints, verdict);
+    if (!clause.empty()) text += (text.empty() ? "" : "; ") + clause;
+  }
+  if (!text.empty())
+    text = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front()))) + text.substr(1) + ".";
+  double const before = over_joints(diagnosis.joints, &JointDiagnosis::validation_relerr),
+               after = over_joints(diagnosis.joints, &JointDiagnosis::augmented_validation_relerr);
+  if (!std::isfinite(before)) return text;
+  text += fmt::format(" Unseen relerr over all joints {}", percent_text(before));
+  if (names_physics(diagnosis.verdict)) text += fmt::format(" to {}", percent_text(after));
+  return text + ".";
+}
+
+}  // namespace torquescope
