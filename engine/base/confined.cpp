@@ -11,9 +11,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <system_error>
 
+#include "engine/base/fork_guard.hpp"
 #include "engine/base/packed_bytes.hpp"
 
 namespace torquescope {
@@ -175,11 +177,14 @@ std::string run_confined(std::function<std::string()> const& work, ConfinedLimit
                          std::function<Problem(std::string const& how)> const& broke_off) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) throw no_child("pipe");
+  std::unique_lock nobody_works(fork_guard());
   pid_t const child = ::fork();
   if (child == 0) {
+    nobody_works.unlock();
     ::close(ends[0]);
     be_the_child(ends[1], work, limits);
   }
+  nobody_works.unlock();
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);

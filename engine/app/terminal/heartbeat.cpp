@@ -3,6 +3,8 @@
 #include <csignal>
 #include <utility>
 
+#include "engine/base/fork_guard.hpp"
+
 namespace torquescope {
 
 namespace {
@@ -22,7 +24,10 @@ std::thread started_without_signals(std::function<void()> work) {
 Heartbeat::Heartbeat(std::chrono::milliseconds period, std::function<void()> beat)
     : thread_(started_without_signals([this, period, beat = std::move(beat)] {
         std::unique_lock lock(guard_);
-        while (!ends_.wait_for(lock, period, [this] { return over_; })) beat();
+        while (!ends_.wait_for(lock, period, [this] { return over_; })) {
+          std::lock_guard const nobody_forks(fork_guard());
+          beat();
+        }
       })) {}
 
 Heartbeat::~Heartbeat() {
