@@ -8,6 +8,7 @@
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/rigid_rows.hpp"
 #include "engine/pipeline/held_torque.hpp"
+#include "engine/statistics/blocked_cv.hpp"
 #include "engine/words/arm_sentences.hpp"
 #include "engine/words/sentences.hpp"
 
@@ -120,7 +121,14 @@ class ArmWork {
   JointOutcome searched(std::size_t j) const {
     std::vector<Recording> others;
     for (std::size_t k = 1; k < train_.size(); ++k) others.push_back(train_[k][j]);
-    for (auto const& recording : unseen_) others.push_back(recording[j]);
+    std::vector<std::string> too_short;
+    for (auto const& recording : unseen_) {
+      bool const is_long = rows_one_way(recording[j], {input_.filter, input_.filter_section}) >= fewest_rows;
+      if (is_long)
+        others.push_back(recording[j]);
+      else
+        too_short.push_back(recording[j].name);
+    }
     Regressor const regressor = own_terms(input_.model, j);
     DiagnosisInput joint{train_.front()[j], others, regressor, input_.filter, input_.filter_section};
     joint.selection = input_.selection;
@@ -141,7 +149,9 @@ class ArmWork {
       outcome = diagnose_joint(joint, progress_);
       return std::nullopt;
     });
-    return why ? hopeless_joint(joint, *why) : outcome;
+    if (why) outcome = hopeless_joint(joint, *why);
+    if (!too_short.empty()) outcome.diagnosis.reason += " " + too_few_rows_sentence(too_short);
+    return outcome;
   }
 
   ArmDiagnosisInput const& input_;

@@ -72,6 +72,15 @@ FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings
   return fitted;
 }
 
+Eigen::Index rows_one_way(Recording const& joint, ArmFilter const& filter) {
+  Motion const motion = differentiate(joint, filter.options, filter.section);
+  auto const moves = moving_samples(motion.dq, motion.rate_hz, parallel_cutoff_of(filter.options));
+  Eigen::VectorXd counted(motion.dq.size());
+  for (Eigen::Index i = 0; i < counted.size(); ++i) counted[i] = moves[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
+  ParallelFilter const parallel(filter.options, motion.rate_hz, counted.size(), filter.section);
+  return static_cast<Eigen::Index>(parallel.pick(counted).sum());
+}
+
 std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,
                                     ArmFilter const& filter) {
   auto const motion = motion_of(recording, filter);

@@ -39,4 +39,7 @@ FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings
 std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,
                                     ArmFilter const& filter);
 
+// kept samples at which this joint surely moves one way: rows of a search
+Eigen::Index rows_one_way(Recording const& joint, ArmFilter const& filter);
+
 }  // namespace torquescope

@@ -66,6 +66,11 @@ double over_joints(std::vector<JointDiagnosis> const& joints, double JointDiagno
 
 }  // namespace
 
+std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
+  return fmt::format("{} {} too few rows of this joint moving one way to judge it.", name_list(recordings, "and"),
+                     recordings.size() == 1 ? "has" : "have");
+}
+
 std::string arm_reason_sentence(Diagnosis const& diagnosis) {
   std::string text;
   for (Verdict const verdict : told) {

@@ -90,11 +90,20 @@ TEST(VerdictTable, OfALawThatChangesNoPrediction) {
   expect(facts, Verdict::none, VerdictReason::nothing_left, false);
 }
 
+// chance excludes it, and nobody predicts better by it
+TEST(VerdictTable, OfALawThatIsTooSmallToBeAFinding) {
+  VerdictFacts facts = explained();
+  facts.is_worth_naming = false;
+  expect(facts, Verdict::none, VerdictReason::too_small, false);
+  facts.all_on_channel = true;
+  expect(facts, Verdict::none, VerdictReason::too_small, false);
+}
+
 TEST(VerdictTable, WordsOfReasonsDiffer) {
   std::set<std::string> words;
   for (auto const reason : {VerdictReason::nothing_left, VerdictReason::motion_poor, VerdictReason::nothing_fits,
                             VerdictReason::no_relation, VerdictReason::not_held_out, VerdictReason::most_is_left,
-                            VerdictReason::explained, VerdictReason::partly_explained})
+                            VerdictReason::explained, VerdictReason::partly_explained, VerdictReason::too_small})
     EXPECT_TRUE(words.insert(word(reason)).second) << word(reason);
 }
 
