@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -46,11 +47,18 @@ std::string with_names(JointDiagnosis const& joint) {
   return which_joint(joint) + (names.empty() ? "" : fmt::format(" ({})", fmt::join(names, "; ")));
 }
 
+// "joint 1 and joint 2 (spring)", "joints 1, 3 and 4"
 std::string joints_clause(std::vector<JointDiagnosis> const& joints, Verdict verdict) {
-  std::vector<std::string> who;
-  for (auto const& joint : joints)
-    if (joint.verdict == verdict) who.push_back(with_names(joint));
-  return who.empty() ? "" : std::string(clause_of(verdict)) + " " + name_list(who, "and");
+  std::vector<std::string> who, numbers;
+  for (auto const& joint : joints) {
+    if (joint.verdict != verdict) continue;
+    who.push_back(with_names(joint));
+    if (joint.effects.empty() && joint.name.empty()) numbers.push_back(std::to_string(joint.joint));
+  }
+  if (who.empty()) return {};
+  bool const are_numbers = who.size() > 1 && numbers.size() == who.size();
+  return std::string(clause_of(verdict)) + " " +
+         (are_numbers ? "joints " + name_list(numbers, "and") : name_list(who, "and"));
 }
 
 // over joints, each by the energy of its torque; NaN where one is not known

@@ -156,6 +156,8 @@ class Forward:
 class Joint:
     joint: int
     name: str  # of its position column; "" unknown
+    verdict: str  # of an arm's joint, with its reason; "" of a single joint
+    reason: str
     unit_position: str
     unit_torque: str
     train_relerr: float

@@ -42,6 +42,13 @@ def verdict(study):
             "evidence": kept_together(" ".join(evidence))}
 
 
+def joint_verdict(joint):
+    """Of one joint among others: "Missing physics named"."""
+    mark, word, _ = VERDICTS[joint.verdict]
+    several = [1 + len(effect.equivalent) for effect in joint.effects if effect.equivalent]
+    return f"{mark} " + word.format(count=q.count_word(several[0]) if several else "several")
+
+
 def kept_together(text):
     """A number stays on one line with its unit, a p with its value."""
     text = re.sub(r"(?<=\d) (?=%|[kmµ]?(?:N|rad|s|m|Hz|A|V|kg|K)\b)", "\u00a0", text)

@@ -132,7 +132,8 @@ std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) 
 std::string verdict_of_joint(JointDiagnosis const& joint, bool utf8, Ink const& ink) {
   VerdictWords const words = words_of(joint.verdict);
   std::string const lead = fmt::format("{} {}: {}", utf8 ? words.mark : "*", which_joint(joint), words.word);
-  return hanging((needs_care(joint.verdict) ? ink.warning(lead) : ink.bold(lead)) + "  ", printable(joint.reason));
+  return (needs_care(joint.verdict) ? ink.warning(lead) : ink.bold(lead)) + "\n" +
+         hanging("  ", printable(joint.reason));
 }
 
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {

@@ -44,6 +44,14 @@ TEST(ArmSentence, NamesJointsByVerdictAndTheErrorOverAll) {
       "Unseen relerr over all joints 4.4 % to 3.0 %.");
 }
 
+TEST(ArmSentence, CountsJointsOfWhichNothingElseIsSaid) {
+  EXPECT_EQ(
+      arm_reason_sentence(arm({joint(1, Verdict::none, 0.03), joint(2, Verdict::none, 0.03),
+                               joint(3, Verdict::insufficient, 0.03), joint(4, Verdict::none, 0.03)})),
+      "The recordings cannot tell at joint 3; nothing missing at joints 1, 2 and 4. Unseen relerr over all joints "
+      "3.0 %.");
+}
+
 TEST(ArmSentence, PromisesNothingWhereNothingIsNamed) {
   EXPECT_EQ(arm_reason_sentence(arm({joint(1, Verdict::none, 0.03), joint(2, Verdict::unexplained, 0.03)})),
             "Unexplained at joint 2; nothing missing at joint 1. Unseen relerr over all joints 3.0 %.");
