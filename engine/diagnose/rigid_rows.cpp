@@ -9,6 +9,8 @@
 #include "engine/problem/filtered_grams.hpp"
 #include "engine/problem/least_squares.hpp"
 #include "engine/problem/recorded_rows.hpp"
+#include "engine/problem/regressor_health.hpp"
+#include "engine/problem/shortest_fit.hpp"
 #include "engine/robot/forward_dynamics.hpp"
 
 namespace torquescope {
@@ -63,10 +65,14 @@ Eigen::VectorXd rigid_torque(ArmModel const& model, Eigen::VectorXd parameters, 
 FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter) {
   std::vector<RecordedRows> rows;
   for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
-  NoiseLevels const noise = noise_levels(filtered_grams(rows, model), static_cast<Eigen::Index>(model.size()));
+  auto const grams = filtered_grams(rows, model);
+  auto const n_parameters = static_cast<Eigen::Index>(model.size());
+  NoiseLevels const noise = noise_levels(grams, n_parameters);
   FittedArm fitted;
-  fitted.parameters =
-      solve_weighted(stack_rows(rows, ArmRowChoice::moving, model, noise.deviation, filter.section), {});
+  RegressionData const stacked = stack_rows(rows, ArmRowChoice::moving, model, noise.deviation, filter.section);
+  // a joint that stands still leaves parameters that nothing tells: the others are searched all the same
+  bool const tells_all = !too_few_rows(stacked) && regressor_health(stacked).identifiable;
+  fitted.parameters = tells_all ? solve_weighted(stacked, {}) : shortest_fit(grams, n_parameters, noise.deviation);
   fitted.noise = noise.deviation;
   fitted.inertia = mean_inertias(model, fitted.parameters, recordings);
   return fitted;

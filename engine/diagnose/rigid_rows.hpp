@@ -7,8 +7,9 @@
 // Load       beside_j passes the gear: Recording::gear_load
 // Fit        all joints of all training recordings together, rows divided by the noise of their joint (WLS; Gautier
 //            1997, doi:10.1109/ROBOT.1997.606794), where a joint moves one way
+//            Where rows cannot tell all parameters apart: the shortest that fit alike (shortest_fit.hpp)
 // Units      SI
-// Errors     those of the filters; Error 65 when the rows cannot tell the parameters apart
+// Errors     those of the filters
 // Threads    free functions
 
 #include <Eigen/Core>

@@ -22,7 +22,9 @@ inline double ranked_fitness(double fitness) {
 
 inline bool trial_wins(double trial_fitness, double target_fitness) {
   // & instead of &&: both are cheap, and a branch that depends on fitness is not
-  return std::isfinite(trial_fitness) & (trial_fitness <= ranked_fitness(target_fitness));
+  auto const is_finite = static_cast<int>(std::isfinite(trial_fitness));
+  auto const is_better = static_cast<int>(trial_fitness <= ranked_fitness(target_fitness));
+  return (is_finite & is_better) != 0;
 }
 
 std::size_t count_nonfinite(std::span<double const> fitness);

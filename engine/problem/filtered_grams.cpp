@@ -15,18 +15,10 @@ void add_rows(JointRows const& rows, Eigen::MatrixXd& gram) {
   gram(own, own) += rows.torque.squaredNorm();
 }
 
-// argmin of the pooled squares, each joint's divided by its variance; nothing where they cannot tell
+// argmin of the pooled squares; nothing where they cannot tell
 std::optional<Eigen::VectorXd> pooled_solution(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters,
                                                Eigen::VectorXd const& variance) {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n_parameters, n_parameters);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_parameters);
-  for (std::size_t j = 0; j < grams.size(); ++j) {
-    auto const& own = grams[j].parameters;
-    auto const count = static_cast<Eigen::Index>(own.size());
-    double const weight = 1.0 / variance[static_cast<Eigen::Index>(j)];
-    information(own, own) += weight * grams[j].gram.topLeftCorner(count, count);
-    right(own) += weight * grams[j].gram.topRightCorner(count, 1);
-  }
+  auto const [information, right] = pooled_squares(grams, n_parameters, variance);
   Eigen::VectorXd const length = information.diagonal().cwiseSqrt();
   if (!(length.minCoeff() > 0.0)) return {};
   Eigen::VectorXd const scale = length.cwiseInverse();
@@ -39,6 +31,19 @@ std::optional<Eigen::VectorXd> pooled_solution(std::vector<FilteredGram> const& 
 }
 
 }  // namespace
+
+PooledSquares pooled_squares(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters,
+                             Eigen::VectorXd const& variance) {
+  PooledSquares pooled{Eigen::MatrixXd::Zero(n_parameters, n_parameters), Eigen::VectorXd::Zero(n_parameters)};
+  for (std::size_t j = 0; j < grams.size(); ++j) {
+    auto const& own = grams[j].parameters;
+    auto const count = static_cast<Eigen::Index>(own.size());
+    double const weight = 1.0 / variance[static_cast<Eigen::Index>(j)];
+    pooled.information(own, own) += weight * grams[j].gram.topLeftCorner(count, count);
+    pooled.right(own) += weight * grams[j].gram.topRightCorner(count, 1);
+  }
+  return pooled;
+}
 
 double FilteredGram::residual_energy(Eigen::Ref<Eigen::VectorXd const> const& all_parameters) const {
   Eigen::VectorXd x(gram.rows());

@@ -28,6 +28,14 @@ struct FilteredGram {
 // over the moving rows of all recordings
 std::vector<FilteredGram> filtered_grams(std::span<RecordedRows const> recordings, ArmModel const& model);
 
+// of all joints, each divided by its variance [N]: information x = right is the fit
+struct PooledSquares {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd right;
+};
+PooledSquares pooled_squares(std::vector<FilteredGram> const& grams, Eigen::Index n_parameters,
+                             Eigen::VectorXd const& variance);
+
 // Standard deviation of each joint's residual where weights are 1 / its square: fit and weights by turns (weights from
 // the errors of a fit: Gautier 1997, as estimators/wls.cpp). Each at least 1e-6 of the root mean square of the joint's
 // torque: what fits exactly must not outweigh everything. That rms itself where the rows cannot tell the parameters

@@ -19,7 +19,7 @@ FilterOptions const no_filter{};
 Section const no_section{};
 
 // sums of two sines, other ones for every joint and seed, with their exact derivatives as channels
-RecordedArm moved(SerialChain const& chain, int seed) {
+RecordedArm moved(SerialChain const& chain, int seed, Eigen::Index still = -1) {
   constexpr Eigen::Index samples = 3000;
   constexpr double rate_hz = 200.0;
   RecordedArm arm;
@@ -36,6 +36,11 @@ RecordedArm moved(SerialChain const& chain, int seed) {
     joint.velocity = 0.8 * slow * (slow * t + number).cos() + 0.2 * fast * (fast * t).cos();
     joint.acceleration = -0.8 * slow * slow * (slow * t + number).sin() - 0.2 * fast * fast * (fast * t).sin();
     joint.torque = Eigen::VectorXd::Zero(samples);
+    if (j == still) {
+      joint.position.setConstant(0.3);
+      joint.velocity.setZero();
+      joint.acceleration.setZero();
+    }
     arm.joints.push_back(std::move(joint));
   }
   Eigen::VectorXd q(joints), dq(joints), ddq(joints);
@@ -85,6 +90,24 @@ TEST_F(RigidRows, LeaveEachJointItsInertiaAndFriction) {
       EXPECT_LT((alone[j].gear_load - beside).norm(), 1e-6 * size) << "joint " << j + 1 << ", motion " << seed;
       EXPECT_LT((joint.torque - torque_to_hold(beside) - alone[j].torque).norm(), 1e-6 * size) << "joint " << j + 1;
     }
+  }
+}
+
+// what nothing tells of the arm is not asked of another recording with the same joint at rest either
+TEST_F(RigidRows, PredictTheOthersWhereAJointStandsStill) {
+  constexpr Eigen::Index still = 1;
+  std::vector<RecordedArm> const train{moved(chain, 1, still)};
+  FittedArm const fitted = fit_arm(model, train, filter);
+  ASSERT_TRUE(fitted.parameters.allFinite());
+  RecordedArm const other = moved(chain, 2, still);
+  auto const alone = joints_alone(model, fitted, other, filter);
+  for (std::size_t j = 0; j < alone.size(); ++j) {
+    if (static_cast<Eigen::Index>(j) == still) continue;
+    auto const& joint = other.joints[j];
+    Eigen::VectorXd const own = fitted.inertia[static_cast<Eigen::Index>(j)] * joint.acceleration +
+                                viscous * joint.velocity +
+                                coulomb * joint.velocity.unaryExpr([](double v) { return std::copysign(1.0, v); });
+    EXPECT_LT((alone[j].gear_load - (joint.torque - own)).norm(), 1e-4 * joint.torque.norm()) << "joint " << j + 1;
   }
 }
 
