@@ -113,9 +113,10 @@ std::vector<std::size_t> waves_in_order(JointModel const& model) {
   auto const& effects = model.effects();
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    auto const& [effect, shape] = effects[i];
+    ShapedEffect const& one = effects[i];
     auto const is_longer = [&](std::size_t k) {
-      return effects[k].effect == effect && effect->n_linear() == sine_and_cosine && shape < effects[k].shape;
+      return effects[k].effect == one.effect && one.effect->n_linear() == sine_and_cosine &&
+             one.shape < effects[k].shape;
     };
     order.insert(std::find_if(order.begin(), order.end(), is_longer), i);
   }

@@ -28,7 +28,7 @@ RegressionData stack_rows(std::span<RecordedRows const> recordings, ArmRowChoice
   data.columns = model.columns();
   data.kept_rate_hz = recordings.front().kept_rate_hz;
   data.first_row = {0};
-  auto& arm = data.arm.emplace();
+  auto& arm = data.arm.emplace(RegressionData::Arm{});
   arm.scale = scale;
   arm.first_instant = {0};
   arm.gain_column = model.gain_columns();

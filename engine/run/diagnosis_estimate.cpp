@@ -51,20 +51,23 @@ DiagnosisSize diagnosis_size(Experiment::Parts const& parts) {
   double const kept_hz = filter.decimate_to_hz > 0.0 ? filter.decimate_to_hz : rate_hz;
   size.rows = size.samples * std::min(1.0, kept_hz / rate_hz);
   size.replicates = static_cast<double>(parts.diagnose.twins);
+  size.joints = static_cast<double>(parts.joints());
   size.unseen_samples = samples_in(parts.train) - size.samples + (parts.validate ? samples_in(*parts.validate) : 0.0);
   return size;
 }
 
 DiagnosisEstimate estimate_diagnosis(DiagnosisSize const& size, int threads) {
-  double const cpu_s = cpu_s_per_sample * size.samples + cpu_s_per_row_replicate * size.rows * size.replicates;
+  double const cpu_s =
+      size.joints * (cpu_s_per_sample * size.samples + cpu_s_per_row_replicate * size.rows * size.replicates);
   double const cores = std::clamp(static_cast<double>(threads), 1.0, most_cores_used);
   return {cpu_s / cores, bytes_at_least + bytes_per_sample * (size.samples + size.unseen_samples) +
                              bytes_per_row_replicate * size.rows * size.replicates};
 }
 
 std::string estimate_words(DiagnosisSize const& size, DiagnosisEstimate const& estimate) {
-  return fmt::format("{} rows x {:.0f} clean twins: about {} and {} of memory for one effect", rough_count(size.rows),
-                     size.replicates, rough_seconds(estimate.seconds), rough_bytes(estimate.bytes));
+  std::string const joints = size.joints > 1.0 ? fmt::format(" x {:.0f} joints", size.joints) : "";
+  return fmt::format("{} rows x {:.0f} clean twins{}: about {} and {} of memory for one effect", rough_count(size.rows),
+                     size.replicates, joints, rough_seconds(estimate.seconds), rough_bytes(estimate.bytes));
 }
 
 std::optional<std::string> decimation_proposal(Experiment::Parts const& parts, int threads) {

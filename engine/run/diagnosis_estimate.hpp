@@ -1,7 +1,7 @@
 #pragma once
 // What a diagnosis will take, told before it begins, and the decimation that would make a long one short.
 //
-// Equation   seconds = (a samples + b rows replicates) / cores used;  bytes = c + d samples + e rows replicates
+// Equation   seconds = joints (a samples + b rows replicates) / cores used;  bytes = c + d samples + e rows replicates
 // Shapes     samples: of all recordings at their own rate; rows: of the training recording that the fit keeps, before
 //            the mask near reversals
 // Accuracy   within a factor of three for one or two effects; every further one repeats the search
@@ -20,6 +20,7 @@ struct DiagnosisSize {
   double rows = 0.0;     // of training, kept
   double replicates = 0.0;
   double unseen_samples = 0.0;
+  double joints = 1.0;  // one after another
 };
 DiagnosisSize diagnosis_size(Experiment::Parts const& parts);
 

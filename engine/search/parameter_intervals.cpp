@@ -112,7 +112,8 @@ bool is_placed(EffectParameter const& parameter) {
 
 // what moving the instant, or the place, to both sides shows is wider where the motion does not tell it
 void widen_placed(std::vector<ParameterEstimate>& estimates, ModelStage const& stage, std::size_t i) {
-  auto const& [effect, shape] = stage.model().effects()[i];
+  Effect const* const effect = stage.model().effects()[i].effect;
+  std::vector<double> const& shape = stage.model().effects()[i].shape;
   auto const& parameters = effect->parameters();
   std::size_t const n_linear = effect->n_linear();
   if (std::none_of(parameters.begin(), parameters.end(), is_placed)) return;

@@ -71,10 +71,10 @@ double median_of_blocks(std::vector<double> const& squares, std::size_t block) {
 
 OctaveEnergies::OctaveEnergies(ProcessedRecord const& recording, RecordPipeline const& pipeline)
     : smooth_(smooth_of_motion(recording.motion, pipeline)), rate_hz_(pipeline.kept_rate_hz()) {
-  constexpr std::size_t most_octaves = 8, fewest_blocks = 8;
+  constexpr std::size_t most_octaves = 8, blocks_of_octave = 8;
   Eigen::VectorXd const residual = recording.residual_itself();
   auto const is_long_enough = [&](Octave const& octave) {
-    return bends(residual, recording.kept_rows, octave).size() >= fewest_blocks * steps_per_block * octave.lag;
+    return bends(residual, recording.kept_rows, octave).size() >= blocks_of_octave * steps_per_block * octave.lag;
   };
   for (std::size_t lag = fast_lag(pipeline); octaves_.size() < most_octaves; lag *= 2) {
     // a motion of short strokes has no room for means: better an octave that hears all above it than none
