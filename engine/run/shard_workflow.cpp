@@ -140,9 +140,9 @@ bool read_now(std::filesystem::path const& segment_folder, JobStatus& status) {
 }  // namespace
 
 JobStatus read_status(std::filesystem::path const& segment_folder) {
-  constexpr int most_listings = 10;
+  constexpr int most_attempts = 10;
   JobStatus status;
-  for (int listing = 1; !read_now(segment_folder, status) && listing < most_listings; ++listing) {
+  for (int listing = 1; !read_now(segment_folder, status) && listing < most_attempts; ++listing) {
   }
   return status;
 }
