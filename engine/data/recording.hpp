@@ -47,6 +47,8 @@ struct Recording {
   Eigen::VectorXd simulated_torque{};  // optional: the user's own simulator on the same motion
   // what passes the gear beside the terms of a model, as that simulator says; no channel: a diagnosis fills it
   Eigen::VectorXd gear_load{};
+  // what is not known of it: n x k, independent errors of one standard deviation each; none
+  Eigen::MatrixXd load_errors{};
   std::vector<DataWarning> warnings{};
   std::vector<Finding> findings{};  // of the examination (engine/health)
   std::vector<Stretch> left_out{};  // no row within them is fitted: what stands there was filled

@@ -6,8 +6,9 @@
 #include "engine/pipeline/held_torque.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
+#include "engine/problem/covariance_root.hpp"
 #include "engine/problem/filtered_grams.hpp"
-#include "engine/problem/least_squares.hpp"
+#include "engine/problem/plain_least_squares.hpp"
 #include "engine/problem/recorded_rows.hpp"
 #include "engine/problem/regressor_health.hpp"
 #include "engine/problem/shortest_fit.hpp"
@@ -49,14 +50,14 @@ Eigen::VectorXd mean_inertias(ArmModel const& model, Eigen::VectorXd const& para
   return sum / count;
 }
 
-// [n] of a joint: its columns times its parameters, without friction
-Eigen::VectorXd rigid_torque(ArmModel const& model, Eigen::VectorXd parameters, std::size_t joint,
+// n x c of a joint: its columns times parameters [R][c], without friction
+Eigen::MatrixXd rigid_torque(ArmModel const& model, Eigen::MatrixXd const& parameters, std::size_t joint,
                              Eigen::MatrixXd const& rows) {
   auto const& own = model.parameters_of(joint);
   auto const friction = static_cast<Eigen::Index>(model.friction()[joint] ? model.friction()[joint]->size() : 0);
-  Eigen::VectorXd of_joint = parameters(own);
+  Eigen::MatrixXd of_joint = parameters(own, Eigen::all);
   auto const rigid = std::lower_bound(own.begin(), own.end(), model.base().size()) - own.begin();
-  of_joint.segment(rigid, friction).setZero();
+  of_joint.middleRows(rigid, friction).setZero();
   return rows * of_joint;
 }
 
@@ -72,7 +73,15 @@ FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings
   RegressionData const stacked = stack_rows(rows, ArmRowChoice::moving, model, noise.deviation, filter.section);
   // a joint that stands still leaves parameters that nothing tells: the others are searched all the same
   bool const tells_all = !too_few_rows(stacked) && regressor_health(stacked).identifiable;
-  fitted.parameters = tells_all ? solve_weighted(stacked, {}) : shortest_fit(grams, n_parameters, noise.deviation);
+  if (tells_all) {
+    constexpr std::int64_t automatic_lags = -1;
+    LeastSquaresFit const fit = plain_least_squares(stacked, automatic_lags);
+    fitted.parameters = fit.parameters;
+    fitted.errors = covariance_root(fit.covariance_hac);
+  } else {
+    fitted.parameters = shortest_fit(grams, n_parameters, noise.deviation);
+    fitted.errors.resize(n_parameters, 0);
+  }
   fitted.noise = noise.deviation;
   fitted.inertia = mean_inertias(model, fitted.parameters, recordings);
   return fitted;
@@ -98,6 +107,9 @@ std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitt
     beside -= fitted.inertia[static_cast<Eigen::Index>(j)] * motion[j].ddq;
     alone[j].torque -= torque_to_hold(beside);
     alone[j].gear_load = std::move(beside);
+    constexpr double matters = 0.1;  // of the noise: what is less adds half a per cent to it
+    alone[j].load_errors = largest_parts(rigid_torque(model, fitted.errors, j, rows[j]),
+                                         matters * fitted.noise[static_cast<Eigen::Index>(j)]);
   }
   return alone;
 }

@@ -8,6 +8,7 @@
 // Fit        all joints of all training recordings together, rows divided by the noise of their joint (WLS; Gautier
 //            1997, doi:10.1109/ROBOT.1997.606794), where a joint moves one way
 //            Where rows cannot tell all parameters apart: the shortest that fit alike (shortest_fit.hpp)
+// Errors of  the fit go with every recording: Recording::load_errors, those that matter beside the joint's noise
 // Units      SI
 // Errors     those of the filters
 // Threads    free functions
@@ -30,6 +31,7 @@ struct ArmFilter {
 
 struct FittedArm {
   Eigen::VectorXd parameters;  // [R] of the model
+  Eigen::MatrixXd errors;      // [R][r] independent errors of the parameters, each of one standard deviation (HAC)
   Eigen::VectorXd inertia;     // [N] J_j
   Eigen::VectorXd noise;       // [N] standard deviation of what is left of each joint
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/random_stream.hpp"
 #include "engine/effects/carry_over.hpp"
 #include "engine/pipeline/recorded_loop.hpp"
 #include "engine/search/weights_elsewhere.hpp"
@@ -136,6 +137,21 @@ void fill_signals(ModelStage const& stage, CandidateColumns const& training, std
   result.signals = result.without_own(std::move(signals));
 }
 
+// what is not known of the load that was taken out is drawn anew for every replicate of a prediction
+void add_load_errors(Recording const& recording, RandomKey key, RecordPipeline const& pipeline, TwinComparison& here) {
+  Eigen::Index const parts = recording.load_errors.cols();
+  if (parts == 0) return;
+  key.domain = RandomDomain::resampling;
+  Eigen::MatrixXd errors = pipeline.filtered_columns(recording.load_errors, here.recording);
+  pipeline.whiten(errors, here.rows.kept_rows);
+  Eigen::MatrixXd draws(parts, here.rows.n_twins());
+  for (Eigen::Index twin = 0; twin < draws.cols(); ++twin) {
+    RandomStream stream(key, 0, static_cast<std::uint32_t>(twin));
+    for (Eigen::Index k = 0; k < parts; ++k) draws(k, twin) = stream.normal();
+  }
+  here.rows.twins += errors * draws;
+}
+
 UnseenEvidence made(StageSetting const& setting, ModelStage const& stage, CandidateColumns const& training,
                     Recording const& recording, std::uint32_t index, bool knows_joint) {
   auto pipeline = std::make_shared<RecordPipeline>(pipeline_for(setting, recording, stage));
@@ -147,6 +163,7 @@ UnseenEvidence made(StageSetting const& setting, ModelStage const& stage, Candid
   UnseenEvidence result;
   TwinComparison here = compare_with_twins(recording, twin, *pipeline, {setting.seed, index, first_free_twin_set},
                                            n_twins, setting.workers());
+  if (!here.ran_away) add_load_errors(recording, {setting.seed, index}, *pipeline, here);
   here.rows.plain_twins = {};  // as large as all of the rest, and nobody asks
   result.comparison = std::make_shared<TwinComparison const>(std::move(here));
   result.pipeline = pipeline;

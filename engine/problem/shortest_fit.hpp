@@ -1,5 +1,5 @@
 #pragma once
-// The shortest of all parameters that fit an arm's rows alike: for predictions, where the rows cannot tell some of them.
+// The shortest of all parameters that fit an arm's rows alike: for predictions, where rows cannot tell some of them.
 //
 // Equation   argmin |D x| over the minimisers of sum_j |tau_j - Phi_j x|^2 / s_j^2, D: lengths of the pooled columns.
 //            Directions with less than 1e-12 of the largest eigenvalue of the scaled Gram matrix are not in the rows

@@ -317,6 +317,9 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   parts->health = regressor_health(rows, parts->reductions);
   if (!simulates) {
     auto found = is_arm ? arm_findings(*parts, recording) : fit_findings(*parts, recording);
+    // what is missing may bend an inertia below nothing: a diagnosis asks what it is
+    if (is_arm && purpose == Purpose::diagnose)
+      for (auto& finding : found) finding.grade = std::min(finding.grade, Grade::warning);
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();

@@ -5,7 +5,7 @@
 add_library(torquescope_flags INTERFACE)
 target_compile_options(torquescope_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-qual
-  -Wdouble-promotion -Wimplicit-fallthrough -Werror -ffp-contract=off -fno-math-errno)
+  $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wimplicit-fallthrough -Werror -ffp-contract=off -fno-math-errno)
 # GCC 12 at -O3 sees overruns inside its own std::string and std::vector (bugs 105651, 105329, 105562): these four only
 # warn of code that is not there. Later compilers and clang-tidy keep watch.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -24,11 +24,17 @@ std::thread started_without_signals(std::function<void()> work) {
 Heartbeat::Heartbeat(std::chrono::milliseconds period, std::function<void()> beat)
     : thread_(started_without_signals([this, period, beat = std::move(beat)] {
         std::unique_lock lock(guard_);
+        began_ = true;
+        ends_.notify_one();
         while (!ends_.wait_for(lock, period, [this] { return over_; })) {
           std::lock_guard const nobody_forks(fork_guard());
           beat();
         }
-      })) {}
+      })) {
+  // a thread that begins takes locks too, which a fork must not meet (fork_guard.hpp)
+  std::unique_lock lock(guard_);
+  ends_.wait(lock, [this] { return began_; });
+}
 
 Heartbeat::~Heartbeat() {
   {

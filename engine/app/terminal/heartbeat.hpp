@@ -21,6 +21,7 @@ class Heartbeat {
  private:
   std::mutex guard_;
   std::condition_variable ends_;
+  bool began_ = false;
   bool over_ = false;
   std::thread thread_;
 };

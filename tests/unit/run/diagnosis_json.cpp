@@ -131,7 +131,7 @@ TEST(DiagnosisJson, UnknownNumbersAreNull) {
 TEST(DiagnosisJson, SurvivesTextsThatAreNoUtf8) {
   Diagnosis diagnosis = example::invented_none();
   diagnosis.reason = "caf\xe9";
-  EXPECT_NO_THROW(Json::parse(diagnosis_json(diagnosis)));
+  EXPECT_TRUE(Json::parse(diagnosis_json(diagnosis)).contains("reason"));
 }
 
 }  // namespace diagnosis_json_test

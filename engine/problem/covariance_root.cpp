@@ -1,0 +1,24 @@
+#include "engine/problem/covariance_root.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace torquescope {
+
+Eigen::MatrixXd covariance_root(Eigen::MatrixXd const& covariance) {
+  Eigen::VectorXd const error = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::VectorXd const per_error = (error.array() > 0.0).select(error.cwiseInverse(), 0.0);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(per_error.asDiagonal() * covariance *
+                                                            per_error.asDiagonal());
+  return error.asDiagonal() * axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+Eigen::MatrixXd largest_parts(Eigen::MatrixXd const& columns, double least) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(columns.transpose() * columns);
+  double const energy = least * least * static_cast<double>(columns.rows());
+  Eigen::Index k = 0;
+  while (k < columns.cols() && axes.eigenvalues()[columns.cols() - 1 - k] > energy) ++k;
+  return columns * axes.eigenvectors().rightCols(k).rowwise().reverse();
+}
+
+}  // namespace torquescope
