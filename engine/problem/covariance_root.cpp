@@ -14,6 +14,7 @@ Eigen::MatrixXd covariance_root(Eigen::MatrixXd const& covariance) {
 }
 
 Eigen::MatrixXd largest_parts(Eigen::MatrixXd const& columns, double least) {
+  if (columns.cols() == 0) return columns;
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(columns.transpose() * columns);
   double const energy = least * least * static_cast<double>(columns.rows());
   Eigen::Index k = 0;

@@ -40,6 +40,7 @@ TEST(LargestParts, DropWhatIsSmallerThanAsked) {
   ASSERT_EQ(parts.cols(), 1);
   EXPECT_NEAR(parts.col(0).squaredNorm(), 100.0 * (4.0 + 0.25), 1e-6);
   EXPECT_EQ(largest_parts(columns, 10.0).cols(), 0);
+  EXPECT_EQ(largest_parts(Eigen::MatrixXd(100, 0), 0.5).cols(), 0);
 }
 
 }  // namespace covariance_root_test
