@@ -58,8 +58,9 @@ constexpr StopWords words_of_shard{
 void print_baseline(Session const& session, Diagnosis const& diagnosis) {
   for (auto const& joint : diagnosis.joints) {
     if (joint.baseline.empty()) continue;  // given up before it was fitted: the verdict says why
+    std::string const whose = diagnosis.joints.size() > 1 ? which_joint(joint) + ": " : "";
     std::string line =
-        fmt::format("{} parameters; error {} train", joint.baseline.size(), percent_text(joint.train_relerr));
+        fmt::format("{}{} parameters; error {} train", whose, joint.baseline.size(), percent_text(joint.train_relerr));
     if (std::isfinite(joint.validation_relerr))
       line += fmt::format(", {} unseen", percent_text(joint.validation_relerr));
     LeftOut const& left_out = std::isfinite(joint.validation_relerr) ? joint.validation_left_out : joint.train_left_out;
