@@ -93,8 +93,7 @@ class ArmWork {
       unseen_.push_back(joints_alone(input_.model, fitted_, recording, filter));
   }
 
-  // Whether the rigid arm of this round asks another torque of the joint than that which its search was made beside:
-  // what moves less than a tenth of the noise moves no verdict
+  // Whether the joint's rigid torque differs from the one it was last searched with, by more than a tenth of its noise
   bool has_moved(std::size_t j, Eigen::VectorXd const& before) const {
     constexpr double tenth = 0.1;
     if (before.size() == 0) return true;
@@ -102,8 +101,8 @@ class ArmWork {
     return moved > tenth * fitted_.noise[static_cast<Eigen::Index>(j)];
   }
 
-  // Of joints whose laws are not beside the rigid arm yet, the one where they explain most, counted in the noise of the
-  // joint: what is large there bends the parameters that all joints share
+  // Of joints whose laws are not yet taken out of the fit, the one whose laws are largest relative to its noise: these
+  // bias the shared parameters most
   std::optional<std::size_t> strongest_new(std::vector<JointOutcome> const& outcomes) const {
     std::optional<std::size_t> strongest;
     double most = 0.0;
@@ -133,7 +132,7 @@ class ArmWork {
     DiagnosisInput joint{train_.front()[j], others, regressor, input_.filter, input_.filter_section};
     joint.selection = input_.selection;
     joint.selection.candidates = input_.candidates[j];
-    joint.selection.q = input_.selection.q / static_cast<double>(input_.model.joints());  // chance has as many goes
+    joint.selection.q = input_.selection.q / static_cast<double>(input_.model.joints());  // Bonferroni over joints
     joint.levels = input_.levels;
     joint.twins = input_.twins;
     joint.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another

@@ -7,8 +7,9 @@
 // Load       beside_j passes the gear: Recording::gear_load
 // Fit        all joints of all training recordings together, rows divided by the noise of their joint (WLS; Gautier
 //            1997, doi:10.1109/ROBOT.1997.606794), where a joint moves one way
-//            Where rows cannot tell all parameters apart: the shortest that fit alike (shortest_fit.hpp)
-// Errors of  the fit go with every recording: Recording::load_errors, those that matter beside the joint's noise
+//            Where rows cannot tell all parameters apart: the least-norm solution (shortest_fit.hpp)
+// Accuracy   errors of the fitted parameters go with every recording as Recording::load_errors, those above a tenth of
+//            the joint's noise
 // Units      SI
 // Errors     those of the filters
 // Threads    free functions
@@ -42,7 +43,7 @@ FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings
 std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,
                                     ArmFilter const& filter);
 
-// kept samples at which this joint surely moves one way: rows of a search
+// number of kept samples at which this joint surely moves one way
 Eigen::Index rows_one_way(Recording const& joint, ArmFilter const& filter);
 
 }  // namespace torquescope
