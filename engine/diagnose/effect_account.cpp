@@ -32,8 +32,8 @@ Eigen::VectorXd beside_the_level(ModelStage const& stage, Effect const& effect, 
 
 Eigen::VectorXd parameters_of(ModelStage const& stage, std::size_t i) {
   auto const* effect = stage.model().effects()[i].effect;
-  return stage.parameters().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
-                                    static_cast<Eigen::Index>(effect->n_linear()));
+  return stage.estimate().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
+                                  static_cast<Eigen::Index>(effect->n_linear()));
 }
 
 // on the rows, as it is

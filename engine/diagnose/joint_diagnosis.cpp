@@ -43,10 +43,10 @@ std::string without_reference_sentence(bool is_echo) {
 }
 
 std::string several_recordings_sentence(DiagnosisInput const& input) {
-  std::vector<std::string> further;
-  for (std::size_t i = 0; i < input.further_training; ++i) further.push_back(input.validate[i].name);
-  return "Parameters are fitted to " + input.train.name + "; " + name_list(further, "and") +
-         (further.size() == 1 ? " has" : " have") + " to be predicted by them.";
+  std::string further;
+  for (std::size_t i = 0; i < input.further_training; ++i)
+    further += (i + 1 == input.further_training ? " and " : ", ") + input.validate[i].name;
+  return "Parameters are fitted to " + input.train.name + further + " together.";
 }
 
 LeftOut told(LeftOutRows const& rows) {
@@ -106,16 +106,19 @@ class JointWork {
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
     std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
-    unseen_.reserve(input_.validate.size());
+    others_.training = input_.further_training;
     for (auto const& given : input_.validate)
-      unseen_.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
+      others_.all.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
+    // an arm's fit has seen the rows of training: what is not known of it shows in none of them
+    for (std::size_t i = 0; i < others_.training; ++i) others_.all[i].load_errors = {};
+    setting.trained = std::make_shared<TrainedMotion const>(trained_motion_of(setting, others_.others().training));
     // its faults are known by now: what stops the search is a motion that cannot carry it
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      search_ = search_in_time(setting, recording, unseen_, {selection, levels()}, torque_late_s_, progress_);
+      search_ = search_in_time(setting, recording, others_, {selection, levels()}, torque_late_s_, progress_);
       return std::nullopt;
     });
     if (why) return hopeless(*why);
-    kept_ = keep_what_predicts(*search_, unseen_);
+    kept_ = keep_what_predicts(*search_, others_.others());
     look_at_reversals(setting, recording, selection);
     selection_ = kept_.state.selection;
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
@@ -145,18 +148,18 @@ class JointWork {
     selection.only_a_mismatch = true;
     // the search moves torque in time, and what it moved has to be put back when nothing comes of it
     Recording const recording_before = recording;
-    std::vector<Recording> const unseen_before = unseen_;
+    OwnedRecordings const others_before = others_;
     double late_s = torque_late_s_;
     std::unique_ptr<StepwiseSearch const> again;
     auto const failed = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      again = search_in_time(setting, recording, unseen_, {selection, levels()}, late_s, progress_);
+      again = search_in_time(setting, recording, others_, {selection, levels()}, late_s, progress_);
       return std::nullopt;
     });
     KeptModel kept;
-    if (!failed) kept = keep_what_predicts(*again, unseen_);
+    if (!failed) kept = keep_what_predicts(*again, others_.others());
     if (failed || !is_named(kept)) {
       recording = recording_before;
-      unseen_ = unseen_before;
+      others_ = others_before;
       return;
     }
     search_ = std::move(again);
@@ -186,9 +189,9 @@ class JointWork {
     HeldOut& held_out = kept_.held_out;
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
-    joint_.held_out = {held_out.gain.blocks == 0 ? ""
-                       : unseen_.empty()         ? "cross-validated"
-                                                 : "unseen",
+    joint_.held_out = {held_out.gain.blocks == 0         ? ""
+                       : others_.others().unseen.empty() ? "cross-validated"
+                                                         : "unseen",
                        held_out.gain.blocks == 0 ? "" : word(held_out.gain.change), held_out.gain.t,
                        held_out.gain.asked_for, held_out.gain.blocks};
     double floor = 0.0;
@@ -203,7 +206,8 @@ class JointWork {
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
     }
-    if (input_.validate.empty()) {
+    if (others_.training > 0) account_for_further_training();
+    if (others_.others().unseen.empty()) {
       auto const& record = baseline().comparison.recording;
       joint_.traces.push_back(
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
@@ -220,6 +224,34 @@ class JointWork {
     }
   }
 
+  // one fit to all training recordings, and each of them by the fit to the others
+  void account_for_further_training() {
+    StageSetting const& setting = search_->setting;
+    RecordingsInTurn const in_turn = recordings_in_turn(setting, others_.others().training, selection_);
+    auto const error = [&](double energy) { return std::sqrt(energy / in_turn.torque); };
+    double before = 0.0, after = 0.0;
+    for (auto const& one : in_turn.recordings) {
+      before += one.before.squaredNorm();
+      after += one.after.squaredNorm();
+    }
+    joint_.train_relerr = error(in_turn.fitted_before);
+    joint_.augmented_train_relerr = error(in_turn.fitted_after);
+    joint_.cv_relerr = error(before);
+    joint_.augmented_cv_relerr = error(after);
+    for (auto const& recording : others_.others().training) joint_.traces.push_back(trace_in_training(recording));
+  }
+
+  TorqueTrace trace_in_training(Recording const& recording) const {
+    RecordPipeline const plain = pipeline_for(search_->setting, recording, baseline());
+    RecordPipeline full = pipeline_for(search_->setting, recording, final_stage());
+    ProcessedRecord const before = plain.prepare(recording);
+    full.restrict_to(before.kept_rows);
+    ProcessedRecord const after = full.prepare(recording);
+    std::vector<std::string> unsaid;
+    return torque_trace(recording, plain, before, before.torque - before.columns * baseline().estimate(),
+                        after.torque - after.columns * transferable(final_stage(), unsaid));
+  }
+
   std::vector<Eigen::VectorXd> law_torques() const {
     StageSetting const& setting = search_->setting;
     auto const torque_in = [&](Recording const& recording, Eigen::VectorXd const& parameters) -> Eigen::VectorXd {
@@ -230,8 +262,8 @@ class JointWork {
     };
     std::vector<std::string> unsaid;
     Eigen::VectorXd const elsewhere = transferable(final_stage(), unsaid);
-    std::vector<Eigen::VectorXd> torques{torque_in(setting.recording, final_stage().parameters())};
-    for (auto const& recording : unseen_) torques.push_back(torque_in(recording, elsewhere));
+    std::vector<Eigen::VectorXd> torques{torque_in(setting.recording, final_stage().estimate())};
+    for (auto const& recording : others_.all) torques.push_back(torque_in(recording, elsewhere));
     return torques;
   }
 
@@ -356,7 +388,7 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  std::vector<Recording> unseen_;  // torque in time with that of the training recording
+  OwnedRecordings others_;  // torque in time with that of the first
   std::vector<Eigen::VectorXd> laws_;
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop

@@ -7,12 +7,12 @@
 namespace torquescope {
 
 std::unique_ptr<StepwiseSearch const> search_in_time(StageSetting& setting, Recording& recording,
-                                                     std::vector<Recording>& unseen, SearchRules const& rules,
-                                                     double& late_s, StageSink const& progress) {
+                                                     OwnedRecordings& others, SearchRules const& rules, double& late_s,
+                                                     StageSink const& progress) {
   constexpr int most_times = 2;
   auto const search = [&] {
     return std::make_unique<StepwiseSearch const>(
-        search_stepwise(setting, rules.options, rules.levels, unseen, progress));
+        search_stepwise(setting, rules.options, rules.levels, others.others(), progress));
   };
   auto found = search();
   auto const as_read = std::make_shared<RecordedLoop const>(found->end().selection.baseline->twin->loop);
@@ -21,7 +21,7 @@ std::unique_ptr<StepwiseSearch const> search_in_time(StageSetting& setting, Reco
     if (!more_s) break;
     late_s += *more_s;
     recording = with_torque_earlier(std::move(recording), *more_s);
-    for (auto& one : unseen) one = with_torque_earlier(std::move(one), *more_s);
+    for (auto& one : others.all) one = with_torque_earlier(std::move(one), *more_s);
     if (loses_the_law(*as_read, recording)) setting.loop = as_read;
     found = search();
   }

@@ -20,9 +20,19 @@ struct SearchRules {
   DecisionLevels levels{};
 };
 
-// recording: what the setting refers to; it, the unseen ones and late_s are changed when the torque is put in time
+// all others of a joint: the first so many belong to training
+struct OwnedRecordings {
+  std::vector<Recording> all{};
+  std::size_t training = 0;
+  OtherRecordings others() const {
+    std::span<Recording const> const whole = all;
+    return {whole.first(training), whole.subspan(training)};
+  }
+};
+
+// recording: what the setting refers to; it, the others and late_s are changed when the torque is put in time
 std::unique_ptr<StepwiseSearch const> search_in_time(StageSetting& setting, Recording& recording,
-                                                     std::vector<Recording>& unseen, SearchRules const& rules,
-                                                     double& late_s, StageSink const& progress);
+                                                     OwnedRecordings& others, SearchRules const& rules, double& late_s,
+                                                     StageSink const& progress);
 
 }  // namespace torquescope

@@ -33,7 +33,7 @@ namespace {
 // replicates of training as if they had as many rows
 AdequacyPart beside_training(Evidence const& evidence, UnseenResidual const& unseen, double allowed,
                              DecisionLevels const& levels) {
-  double const rows = static_cast<double>(unseen.rows) / static_cast<double>(evidence.stage().comparison.rows.size());
+  double const rows = static_cast<double>(unseen.rows) / static_cast<double>(evidence.training().basis().rows());
   Eigen::VectorXd left = rows * evidence.left_in_folds().colwise().sum().transpose();
   left[0] = unseen.left;
   return adequacy_part(left, rows * allowed, unseen.torque, levels);
@@ -75,12 +75,11 @@ Adequacy adequacy_of(Evidence const& evidence, DecisionLevels const& levels) {
   ModelStage const& stage = evidence.stage();
   double const of_form = levels.tolerance * levels.tolerance;
   double laws = 0.0;
-  for (std::size_t i = 0; i < stage.model().effects().size(); ++i)
-    laws += torque_of(stage, evidence.columns(), i).squaredNorm();
+  for (std::size_t i = 0; i < stage.model().effects().size(); ++i) laws += evidence.training().law_energy(i);
   Adequacy result;
   AdequacyPart const itself = in_torque_itself_part(evidence, of_form, levels);
   result.train = adequacy_part(evidence.left_in_folds().colwise().sum().transpose(), of_form * laws,
-                               stage.comparison.rows.torque.squaredNorm(), levels);
+                               evidence.training().torque_energy(), levels);
   result.train.holds = result.train.holds && itself.holds;
   Eigen::VectorXd const& forms = evidence.by_forms();
   double const of_chance = forms.tail(forms.size() - 1).maxCoeff();

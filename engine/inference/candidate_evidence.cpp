@@ -20,7 +20,7 @@ struct Slice {
 // of a law over its grid so far
 struct Best {
   Eigen::VectorXd gain{};             // 1 + M: of each signal at its own best shape
-  Eigen::VectorXd train{}, unseen{};  // there
+  Eigen::VectorXd first{}, unseen{};  // there
   LawGain recording{};                // at the recording's best shape
   std::size_t point = 0;
   bool is_testable = false;
@@ -30,14 +30,14 @@ void add(Best& best, LawGain&& gain, std::size_t point) {
   if (!gain.is_testable) return;
   Eigen::VectorXd const total = gain.total();
   if (!best.is_testable) {
-    best = {total, gain.train, gain.unseen, std::move(gain), point, true};
+    best = {total, gain.first, gain.unseen, std::move(gain), point, true};
     return;
   }
   bool const is_better = total[0] > best.gain[0];
   for (Eigen::Index t = 0; t < total.size(); ++t)
     if (total[t] > best.gain[t]) {
       best.gain[t] = total[t];
-      best.train[t] = gain.train[t];
+      best.first[t] = gain.first[t];
       best.unseen[t] = gain.unseen[t];
     }
   if (is_better) {
@@ -58,15 +58,16 @@ void finish(CandidateEvidence& law, Best const& best) {
   std::vector<double> const null(best.gain.data() + 1, best.gain.data() + best.gain.size());
   law.null_standard = standardised_twins(null);
   law.scan.z = twin_z(best.gain[0], null);
-  Eigen::VectorXd const of_twins = best.train.tail(best.train.size() - 1);
-  law.train_mean = of_twins.mean();
-  law.train_spread =
-      std::sqrt((of_twins.array() - law.train_mean).square().sum() / static_cast<double>(null.size() - 1));
+  Eigen::VectorXd const of_twins = best.first.tail(best.first.size() - 1);
+  law.first_mean = of_twins.mean();
+  law.first_spread =
+      std::sqrt((of_twins.array() - law.first_mean).square().sum() / static_cast<double>(null.size() - 1));
   law.scan.gain = best.gain[0];
   law.scan.best_point = best.point;
   law.scan.shape = law.scan.grid.point(best.point);
   law.scan.parameters = best.recording.parameters;
   law.train = best.recording.train[0];
+  law.first = best.recording.first[0];
   law.unseen = best.recording.unseen[0];
   law.least_unseen = quantile({best.unseen.data() + 1, best.unseen.data() + best.unseen.size()}, 0.05);
 }

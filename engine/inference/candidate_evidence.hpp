@@ -21,9 +21,10 @@ struct CandidateEvidence {
   FoldKind folds = FoldKind::whole;  // that the gain is of
   EffectScan scan{};  // effect, grid, best point and shape; z: standardised gain; p: over the catalogue; gain: of both
   double train = 0.0, unseen = 0.0;             // parts of the gain
+  double first = 0.0;                           // of train: in the recording that stages are made of
   double least_unseen = 0.0;                    // that replicates lose there by chance (5 %); 0 without unseen evidence
   std::vector<double> null_standard{};          // of replicates
-  double train_mean = 0.0, train_spread = 0.0;  // of what replicates gain in training
+  double first_mean = 0.0, first_spread = 0.0;  // of what replicates gain there
 };
 
 struct CatalogueEvidence {

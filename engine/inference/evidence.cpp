@@ -6,7 +6,6 @@
 
 #include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
-#include "engine/inference/law_forms.hpp"
 #include "engine/statistics/equal_blocks.hpp"
 
 namespace torquescope {
@@ -50,42 +49,44 @@ void drop_wrong_signs(OrthonormalGroup const& group, Eigen::MatrixXd const& coef
 
 }  // namespace
 
-Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, std::span<Recording const> unseen)
-    : stage_(&stage), motions_(stage) {
-  fill_training(CandidateColumns::none);
+Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, OtherRecordings const& others)
+    : stage_(&stage), training_(stage, CandidateColumns::none) {
   std::uint32_t index = 1;
-  for (auto const& recording : unseen) {
-    auto one = unseen_evidence(setting, stage, columns(), recording, index++);
-    weights_unseen_.push_back(one ? one->pipeline->weights() : nullptr);
-    if (one)
-      add_unseen(std::move(*one));
-    else
-      without_replicates_.push_back(unseen_residual(setting, stage, recording));
-  }
+  // weights: of each recording; found: those that replicates could be made of
+  auto const evidence_of = [&](std::span<Recording const> recordings, auto& weights) {
+    std::vector<UnseenEvidence> found;
+    for (auto const& recording : recordings) {
+      auto one = unseen_evidence(setting, stage, columns(), recording, index++);
+      weights.push_back(one ? one->pipeline->weights() : nullptr);
+      if (one)
+        found.push_back(std::move(*one));
+      else
+        without_replicates_.push_back(unseen_residual(setting, stage, recording));
+    }
+    return found;
+  };
+  training_.add(evidence_of(others.training, weights_further_), CandidateColumns::none);
+  fill_folds();
+  for (auto& one : evidence_of(others.unseen, weights_unseen_)) add_unseen(std::move(one));
 }
 
-Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_), motions_(*of.stage_, without) {
-  fill_training(without);
-  for (auto const& one : of.unseen_) add_unseen(without_effect(one, *stage_, columns(), without));
+Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_), training_(*of.stage_, without) {
+  auto const without_it = [&](UnseenEvidence const& one) { return without_effect(one, *stage_, columns(), without); };
+  std::vector<UnseenEvidence> further;
+  for (auto const& one : of.training_.further()) further.push_back(without_it(one));
+  training_.add(std::move(further), without);
+  fill_folds();
+  for (auto const& one : of.unseen_) add_unseen(without_it(one));
 }
 
-void Evidence::fill_training(std::size_t without) {
-  auto const& rows = stage_->comparison.rows;
-  Eigen::MatrixXd signals = exchangeable(rows.residual, rows.twins);
-  signals.col(0) += torque_of(*stage_, columns(), without);
-  Eigen::VectorXd const by_model = (columns().nuisance().transpose() * signals).colwise().squaredNorm().transpose();
-  if (Eigen::MatrixXd const forms = forms_of_laws(*stage_, without); forms.cols() > 0)
-    motions_.twin.add_nuisance(forms);
-  Eigen::MatrixXd const& basis = columns().nuisance();
-  by_forms_ = (basis.transpose() * signals).colwise().squaredNorm().transpose() - by_model;
-  basis_and_signals_.resize(rows.size(), basis.cols() + signals.cols());
-  basis_and_signals_ << basis, signals;
+void Evidence::fill_folds() {
   whole_ = in_folds(FoldKind::whole);
   interleaved_ = in_folds(FoldKind::interleaved);
-  left_unseen_.resize(0, signals.cols());
+  left_unseen_.resize(0, training_.signals());
 }
 
 void Evidence::add_unseen(UnseenEvidence one) {
+  one.nuisance = training_.in_basis(one.nuisance);
   unseen_left_.push_back(std::move(one.signals));
   unseen_left_.back().noalias() -= one.nuisance * whole_.products.whole;
   Eigen::MatrixXd const blocks = block_sums(unseen_left_.back().array().square().matrix());
@@ -95,14 +96,14 @@ void Evidence::add_unseen(UnseenEvidence one) {
 }
 
 Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
-  Eigen::Index const n = basis_and_signals_.rows(), k = columns().nuisance().cols(), m = basis_and_signals_.cols() - k;
+  Eigen::Index const k = training_.nuisances(), m = training_.signals();
   InFolds result;
-  result.folds = folds(n, guard_rows(*stage_->pipeline), kind);
-  FoldProducts const all = fold_products(result.folds, columns().nuisance(), basis_and_signals_);
+  result.folds = training_.folds(kind);
+  FoldProducts const all = fold_products(result.folds, training_.basis(), training_.basis_and_signals());
   result.gram = picked(all, 0, k, 0, k);
   result.products = picked(all, 0, k, k, m);
   result.less_own = left_inside_less_own(result.gram, result.products);
-  result.left = result.less_own + fold_energies(result.folds, basis_and_signals_.rightCols(m));
+  result.left = result.less_own + fold_energies(result.folds, training_.basis_and_signals().rightCols(m));
   return result;
 }
 
@@ -124,21 +125,21 @@ double Evidence::law_energy_unseen() const {
 std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vector<double>> const& shapes,
                                      FoldKind kind, DrivenBy motion) const {
   InFolds const& beside = folds_of(kind);
-  auto const each = columns(motion).columns_of_each(effect, shapes);
+  auto const each = training_.columns_of_each(effect, shapes, motion);
   std::vector<OrthonormalGroup> groups;
   Eigen::Index width = 0;
   for (auto const& one : each) {
-    groups.push_back(orthonormal_group(one, columns().nuisance(), signs(effect)));
+    groups.push_back(orthonormal_group(one, training_.basis(), signs(effect)));
     width += groups.back().rank();
   }
-  Eigen::MatrixXd q(basis_and_signals_.rows(), width);
+  Eigen::MatrixXd q(training_.basis().rows(), width);
   Eigen::Index at = 0;
   for (auto const& group : groups) {
     q.middleCols(at, group.rank()) = group.q;
     at += group.rank();
   }
-  FoldProducts const all = fold_products(beside.folds, q, basis_and_signals_);
-  Eigen::Index const k = columns().nuisance().cols(), m = basis_and_signals_.cols() - k;
+  FoldProducts const all = fold_products(beside.folds, q, training_.basis_and_signals());
+  Eigen::Index const k = training_.nuisances(), m = training_.signals();
   std::vector<LawGain> results;
   at = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -153,7 +154,7 @@ std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vect
 LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) const {
   OrthonormalGroup const& group = *candidate.group;
   LawGain result;
-  result.train = result.unseen = Eigen::VectorXd::Zero(beside.left.cols());
+  result.train = result.first = result.unseen = Eigen::VectorXd::Zero(beside.left.cols());
   if (group.rank() == 0) return result;
   result.is_testable = true;
   Eigen::MatrixXd const& coefficients = candidate.products.whole;
@@ -163,10 +164,11 @@ LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) con
   Eigen::MatrixXd in_folds = beside.less_own - left_inside_less_own(gram, stacked(beside.products, candidate.products));
   drop_wrong_signs(group, coefficients, in_folds);
   result.train = in_folds.colwise().sum().transpose();
+  result.first = in_folds.topRows(n_folds).colwise().sum().transpose();
   add_unseen(candidate, result);
   // nothing with the signs that physics allows; replicates are not asked for theirs, which is on the safe side
   if (!(bounded.gain > 0.0) || !are_plausible(*candidate.effect, bounded.parameters, columns().scales()))
-    result.train[0] = result.unseen[0] = 0.0;
+    result.train[0] = result.first[0] = result.unseen[0] = 0.0;
   return result;
 }
 
@@ -179,7 +181,7 @@ Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, Unsee
   CarryOver const over = carry_over(*candidate.effect);
   UnseenChange change;
   change.by_share = over == CarryOver::in_part;
-  change.model = -one.nuisance * ((columns().nuisance().transpose() * *candidate.columns) * to_parameters);
+  change.model = -one.nuisance * ((training_.basis().transpose() * *candidate.columns) * to_parameters);
   if (over == CarryOver::none)
     change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
   else
@@ -213,13 +215,18 @@ void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
   }
 }
 
+std::vector<RowsLeft::Part> Evidence::of_recordings(Eigen::VectorXd const& left) const {
+  std::vector<RowsLeft::Part> parts;
+  for (auto const& one : training_.recordings())
+    parts.push_back({left.segment(one.rows.from, one.rows.size()), one.memory_rows});
+  return parts;
+}
+
 RowsLeft Evidence::rows_left(FoldKind kind) const {
   InFolds const& beside = folds_of(kind);
-  Eigen::Index const k = columns().nuisance().cols();
-  RowsLeft left;
-  left.parts.push_back({left_on_rows(beside.folds, columns().nuisance(), basis_and_signals_.col(k), beside.gram,
-                                     picked(beside.products, 0, k, 0, 1)),
-                        guard_rows(*stage_->pipeline)});
+  Eigen::Index const k = training_.nuisances();
+  RowsLeft left{of_recordings(left_on_rows(beside.folds, training_.basis(), training_.basis_and_signals().col(k),
+                                           beside.gram, picked(beside.products, 0, k, 0, 1)))};
   for (std::size_t i = 0; i < unseen_.size(); ++i)
     left.parts.push_back({unseen_left_[i].col(0), unseen_[i].memory_rows});
   return left;
@@ -228,19 +235,18 @@ RowsLeft Evidence::rows_left(FoldKind kind) const {
 RowsLeft Evidence::rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
                              DrivenBy motion) const {
   InFolds const& beside = folds_of(kind);
-  Eigen::MatrixXd const law = columns(motion).columns(effect, shape);
-  OrthonormalGroup const group = orthonormal_group(law, columns().nuisance(), signs(effect));
-  Eigen::Index const k = columns().nuisance().cols();
-  FoldProducts const all = fold_products(beside.folds, group.q, basis_and_signals_.leftCols(k + 1));
+  Eigen::MatrixXd const& basis = training_.basis();
+  Eigen::MatrixXd const law = std::move(training_.columns_of_each(effect, {shape}, motion).front());
+  OrthonormalGroup const group = orthonormal_group(law, basis, signs(effect));
+  Eigen::Index const k = training_.nuisances();
+  FoldProducts const all = fold_products(beside.folds, group.q, training_.basis_and_signals().leftCols(k + 1));
   Candidate const candidate{
       &effect, &shape, &group, &law, picked(all, 0, group.rank(), 0, k), picked(all, 0, group.rank(), k, 1)};
   FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
   Eigen::MatrixXd both(group.q.rows(), k + group.rank());
-  both << columns().nuisance(), group.q;
-  RowsLeft left;
-  left.parts.push_back({left_on_rows(beside.folds, both, basis_and_signals_.col(k), gram,
-                                     stacked(picked(beside.products, 0, k, 0, 1), candidate.products)),
-                        guard_rows(*stage_->pipeline)});
+  both << basis, group.q;
+  RowsLeft left{of_recordings(left_on_rows(beside.folds, both, training_.basis_and_signals().col(k), gram,
+                                           stacked(picked(beside.products, 0, k, 0, 1), candidate.products)))};
   for (std::size_t i = 0; i < unseen_.size(); ++i) {
     UnseenChange const change = change_unseen(candidate, unseen_[i]);
     Eigen::VectorXd const own = unseen_left_[i].col(0);

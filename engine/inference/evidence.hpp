@@ -1,8 +1,8 @@
 #pragma once
 // The evidence for and against one model: all recordings beside its replicates, and what any further law gains there.
 //
-// Score      D = sum over training folds of what fits outside them leave inside, and over the rows of validation
-//            recordings of what training's fit leaves there; whitened rows. Gain of a law: the fall of D
+// Score      D = sum over folds of all training recordings of what fits outside them leave inside, and over the rows of
+//            validation recordings of what training's fit leaves there; whitened rows. Gain of a law: the fall of D
 // Null       the same of every replicate, whose shapes are searched alike
 // Shapes     everything is computed for 1 + M signals at once: the recording, then M replicates
 // Memory     8 (M + 1) bytes for each row and signal
@@ -14,15 +14,21 @@
 #include <vector>
 
 #include "engine/inference/left_out.hpp"
-#include "engine/inference/recording_evidence.hpp"
-#include "engine/search/own_motion.hpp"
+#include "engine/inference/training_rows.hpp"
 #include "engine/statistics/held_out_gain.hpp"
 
 namespace torquescope {
 
+// of one joint, beside the one that stages are made of; their time from 0
+struct OtherRecordings {
+  std::span<Recording const> training{};  // that parameters are fitted to as well
+  std::span<Recording const> unseen{};    // that they predict
+};
+
 // of one law at one shape; each 1 + M long: recording first
 struct LawGain {
   Eigen::VectorXd train{}, unseen{};  // unseen: 0 where there is no such evidence
+  Eigen::VectorXd first{};            // of train: in the recording that the stage was made of
   Eigen::VectorXd parameters{};       // linear ones, of the recording, with the signs that physics allows
   bool is_testable = false;           // false: the model's own columns explain it
   Eigen::VectorXd total() const { return train + unseen; }
@@ -51,14 +57,17 @@ bool leaves_clearly_more(RowsLeft const& one, RowsLeft const& best, OfForm const
 
 class Evidence {
  public:
-  Evidence(StageSetting const& setting, ModelStage const& stage, std::span<Recording const> unseen);
+  Evidence(StageSetting const& setting, ModelStage const& stage, OtherRecordings const& others);
   // the same replicates where effect `without` of the model is a candidate again, not a part of it
   Evidence(Evidence const& of, std::size_t without);
 
   ModelStage const& stage() const { return *stage_; }
-  CandidateColumns const& columns(DrivenBy motion = DrivenBy::twin) const { return motions_.of(motion); }
+  // of the recording that the stage was made of
+  CandidateColumns const& columns(DrivenBy motion = DrivenBy::twin) const { return training_.columns(motion); }
+  TrainingRows const& training() const { return training_; }
   std::size_t n_unseen() const { return unseen_.size(); }
-  // one for each unseen recording; none where no replicates of it could be made
+  // one for each further training recording, and for each unseen one; none where no replicates of it could be made
+  std::vector<std::shared_ptr<NoiseWeights const>> const& weights_further() const { return weights_further_; }
   std::vector<std::shared_ptr<NoiseWeights const>> const& weights_unseen() const { return weights_unseen_; }
 
   // what the model leaves: folds and blocks of unseen rows x (1 + M)
@@ -66,8 +75,8 @@ class Evidence {
   Eigen::MatrixXd const& left_unseen() const { return left_unseen_; }
 
   // energy that other forms of the model's laws would explain (law_forms.hpp): nuisances of every question
-  Eigen::VectorXd const& by_forms() const { return by_forms_; }
-  // unseen recordings of which no replicates could be made
+  Eigen::VectorXd const& by_forms() const { return training_.by_forms(); }
+  // other recordings of which no replicates could be made
   std::vector<UnseenResidual> const& without_replicates() const { return without_replicates_; }
   // energies over all unseen rows: of the torque, and of the model's laws (whitened)
   double torque_energy_unseen() const;
@@ -89,7 +98,7 @@ class Evidence {
     Eigen::MatrixXd less_own{};       // folds x (1 + M): left, less the signals' own energy
     Eigen::MatrixXd left{};
   };
-  void fill_training(std::size_t without);
+  void fill_folds();
   void add_unseen(UnseenEvidence one);
   InFolds in_folds(FoldKind kind) const;
   InFolds const& folds_of(FoldKind kind) const { return kind == FoldKind::whole ? whole_ : interleaved_; }
@@ -110,16 +119,16 @@ class Evidence {
   };
   UnseenChange change_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
   void add_unseen(Candidate const& candidate, LawGain& gain) const;
+  // what is left of training, one part for each of its recordings
+  std::vector<RowsLeft::Part> of_recordings(Eigen::VectorXd const& left) const;
 
   ModelStage const* stage_;
-  BothMotions motions_;
-  Eigen::MatrixXd basis_and_signals_{};  // n x (k + 1 + M)
-  Eigen::VectorXd by_forms_{};           // 1 + M
+  TrainingRows training_;
   InFolds whole_{}, interleaved_{};
-  Eigen::MatrixXd left_unseen_{};  // blocks x (1 + M)
-  std::vector<UnseenEvidence> unseen_{};
+  Eigen::MatrixXd left_unseen_{};         // blocks x (1 + M)
+  std::vector<UnseenEvidence> unseen_{};  // nuisance: of the basis of training
   std::vector<UnseenResidual> without_replicates_{};
-  std::vector<std::shared_ptr<NoiseWeights const>> weights_unseen_{};
+  std::vector<std::shared_ptr<NoiseWeights const>> weights_further_{}, weights_unseen_{};
   std::vector<Eigen::MatrixXd> unseen_left_{};  // of each: n x (1 + M), less the step of training's nuisance columns
 };
 

@@ -38,11 +38,11 @@ struct PlainRows {
 };
 
 // both models on the same training rows
-struct TrainingRows {
+struct RowsOfBoth {
   std::optional<PlainRows> before{}, after{};
   Eigen::Index memory_rows;
 
-  explicit TrainingRows(Selection const& selection) : memory_rows(guard_rows(*selection.final->pipeline)) {
+  explicit RowsOfBoth(Selection const& selection) : memory_rows(guard_rows(*selection.final->pipeline)) {
     auto const& baseline = selection.baseline->comparison.recording;
     auto const& final = selection.final->comparison.recording;
     Rows in_one, in_other;
@@ -70,7 +70,7 @@ struct TrainingRows {
 };
 
 // the rows where the laws do something
-Rows acting_rows(TrainingRows const& rows, ModelStage const& stage) {
+Rows acting_rows(RowsOfBoth const& rows, ModelStage const& stage) {
   constexpr double something = 0.01;  // of the most they do
   Eigen::ArrayXd torque = Eigen::ArrayXd::Zero(rows.after->torque.size());
   for (std::size_t i = 0; i < stage.model().effects().size(); ++i) {
@@ -85,7 +85,7 @@ Rows acting_rows(TrainingRows const& rows, ModelStage const& stage) {
   return acting;
 }
 
-HeldOutGain gain_where_acting(TrainingRows const& rows, ModelStage const& stage) {
+HeldOutGain gain_where_acting(RowsOfBoth const& rows, ModelStage const& stage) {
   Rows const acting = acting_rows(rows, stage);
   if (acting.empty()) return {};
   Eigen::VectorXd const before = rows.left(interleaved_residuals, *rows.before)(acting),
@@ -133,10 +133,16 @@ ExplainedShare explained_share(std::span<HeldOutBlock const> blocks, double nois
   return result;
 }
 
-HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection,
+HeldOut held_out_errors(StageSetting const& setting, OtherRecordings const& others, Selection const& selection,
                         std::span<std::shared_ptr<NoiseWeights const> const> weights, Blocks which) {
   HeldOut result;
   std::vector<HeldOutBlock> blocks;
+  auto const& unseen = others.unseen;
+  auto const add = [&](Eigen::VectorXd const& before, Eigen::VectorXd const& after, Eigen::Index memory_rows) {
+    auto const own = held_out_blocks(before, after, memory_rows);
+    blocks.insert(blocks.end(), own.begin(), own.end());
+    result.left.push_back({after, memory_rows});
+  };
   for (std::size_t i = 0; i < unseen.size(); ++i) {
     UnseenResult one =
         check_unseen(unseen[i], setting, *selection.baseline, *selection.final, of_reversals(weights, i));
@@ -144,19 +150,16 @@ HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> 
     result.before += one.energies.before;
     result.after += one.energies.after;
     result.torque += one.torque_energy;
-    if (one.left_before.size() > 0) {
-      auto const own = held_out_blocks(one.left_before, one.left_after, one.memory_rows);
-      blocks.insert(blocks.end(), own.begin(), own.end());
-      result.left.push_back({one.left_after, one.memory_rows});
-    }
+    if (one.left_before.size() > 0) add(one.left_before, one.left_after, one.memory_rows);
     result.unseen.push_back(std::move(one));
   }
   if (selection.accepted.empty()) return result;
-  TrainingRows const rows(selection);
-  if (unseen.empty()) {
-    result.left.push_back({rows.left(blocked_residuals, *rows.after), rows.memory_rows});
-    blocks = held_out_blocks(rows.left(blocked_residuals, *rows.before), result.left.front().left, rows.memory_rows);
-  }
+  RowsOfBoth const rows(selection);
+  if (unseen.empty() && others.training.empty())
+    add(rows.left(blocked_residuals, *rows.before), rows.left(blocked_residuals, *rows.after), rows.memory_rows);
+  if (unseen.empty() && !others.training.empty())
+    for (auto const& one : recordings_in_turn(setting, others.training, selection).recordings)
+      add(one.before, one.after, one.memory_rows);
   result.gain = held_out_gain(blocks, which);
   result.explained = explained_share(blocks, noise_of(selection));
   bool const all_bound = std::all_of(selection.accepted.begin(), selection.accepted.end(),

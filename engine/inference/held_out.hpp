@@ -1,9 +1,9 @@
 #pragma once
 // How well a model predicts rows that nothing was fitted to, beside the baseline, in the torque itself.
 //
-// Rows       those of the unseen recordings; without any, ten blocks of the training rows, each predicted by the fit
-//            outside it (guarded). Where all laws belong to an instant or a clock: the rows where they act, in short
-//            blocks
+// Rows       those of the unseen recordings; without any, each training recording by the fit to the others, or ten
+//            blocks of the only one, each by the fit outside it (guarded). Where all laws belong to an instant or a
+//            clock: the rows where they act, in short blocks
 // Reversals  where their rows are weighed, they count for as much as their weights say
 // Test       paired over blocks (held_out_gain.hpp): all alike, or where the laws act
 // Share      of the mismatch's energy there, what the laws explain: (before - after) / (before - floor), the floor of
@@ -18,6 +18,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/inference/evidence.hpp"
+#include "engine/inference/recordings_in_turn.hpp"
 #include "engine/pipeline/noise_weights.hpp"
 #include "engine/search/selection.hpp"
 #include "engine/statistics/held_out_gain.hpp"
@@ -47,7 +49,7 @@ struct HeldOut {
 };
 
 // weights: one for each unseen recording; none: its rows near reversals are masked
-HeldOut held_out_errors(StageSetting const& setting, std::span<Recording const> unseen, Selection const& selection,
+HeldOut held_out_errors(StageSetting const& setting, OtherRecordings const& others, Selection const& selection,
                         std::span<std::shared_ptr<NoiseWeights const> const> weights, Blocks which);
 
 // noise: what a complete model would leave of every row

@@ -10,8 +10,8 @@
 namespace torquescope {
 namespace {
 
-KeptModel judged(StepwiseSearch const& search, SearchState const& state, std::span<Recording const> unseen) {
-  KeptModel kept{state, held_out_errors(search.setting, unseen, state.selection, state.evidence->weights_unseen(),
+KeptModel judged(StepwiseSearch const& search, SearchState const& state, OtherRecordings const& others) {
+  KeptModel kept{state, held_out_errors(search.setting, others, state.selection, state.evidence->weights_unseen(),
                                         state.adequacy.holds() ? Blocks::where_it_acts : Blocks::alike)};
   HeldOut const& held_out = kept.held_out;
   auto const& deciding = held_out.acting.blocks > 0 ? held_out.acting : held_out.gain;
@@ -50,12 +50,12 @@ bool predicts_less(KeptModel const& shorter, KeptModel const& longer) {
 
 }  // namespace
 
-KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen) {
-  KeptModel const whole = judged(search, search.end(), unseen);
+KeptModel keep_what_predicts(StepwiseSearch const& search, OtherRecordings const& others) {
+  KeptModel const whole = judged(search, search.end(), others);
   KeptModel longer = whole;
   for (std::size_t i = search.states.size() - 1; i > 0; --i) {
     if (search.states[i - 1].selection.accepted.empty()) return stands(longer) ? longer : whole;
-    KeptModel shorter = judged(search, search.states[i - 1], unseen);
+    KeptModel shorter = judged(search, search.states[i - 1], others);
     if (stands(longer) && (!stands(shorter) || predicts_less(shorter, longer))) return longer;
     longer = std::move(shorter);
   }

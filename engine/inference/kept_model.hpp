@@ -26,6 +26,6 @@ struct KeptModel {
   double fall = 0.0;  // of the held-out error, as a share of it; of laws of a clock alone, where they act
 };
 
-KeptModel keep_what_predicts(StepwiseSearch const& search, std::span<Recording const> unseen);
+KeptModel keep_what_predicts(StepwiseSearch const& search, OtherRecordings const& others);
 
 }  // namespace torquescope

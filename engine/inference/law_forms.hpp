@@ -16,7 +16,9 @@
 
 namespace torquescope {
 
-// of all accepted laws, side by side; no columns where none has any
-Eigen::MatrixXd forms_of_laws(ModelStage const& stage, std::size_t without);
+// of all accepted laws but `without`, side by side, on the motion of a record; no columns where none has any. model:
+// the stage's, with the load of that recording
+Eigen::MatrixXd forms_of_laws(ModelStage const& stage, JointModel const& model, ProcessedRecord const& record,
+                              std::size_t without);
 
 }  // namespace torquescope

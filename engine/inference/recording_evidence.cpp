@@ -129,7 +129,8 @@ void fill_signals(ModelStage const& stage, CandidateColumns const& training, std
   result.own = own_nuisances(stage, result, without);
   // training's orthonormal columns are combinations of the plain ones: the same combinations here
   Eigen::MatrixXd const combination = solve_scaled(training.with_tangents(), training.nuisance());
-  result.nuisance = result.without_own(transferable_columns(stage.model(), *result.columns, without) * combination);
+  result.model = result.without_own(transferable_columns(stage.model(), *result.columns, without));
+  result.nuisance = result.model * combination;
   Eigen::MatrixXd signals = predicted_signals(stage, *result.comparison);
   bool const is_asked = without < stage.model().effects().size();
   if (is_asked && !is_clock_bound(*stage.model().effects()[without].effect))

@@ -36,6 +36,7 @@ struct UnseenEvidence {
   std::shared_ptr<CandidateColumns const> columns{};
   Eigen::MatrixXd signals{};     // n x (M + 1); moved from by Evidence
   Eigen::MatrixXd nuisance{};    // n x k: what a step of training's orthonormal nuisance columns is here
+  Eigen::MatrixXd model{};       // n x p: columns of the model and tangents of its shapes, as far as they act here
   Eigen::VectorXd offset{};      // n: unit vector of the record's own offset; empty where the model has none
   Eigen::MatrixXd own{};         // n x any, orthonormal: all nuisances of the record
   Eigen::Index memory_rows = 1;  // that repeat each other

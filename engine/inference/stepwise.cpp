@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/effects/carry_over.hpp"
 #include "engine/inference/adequacy.hpp"
+#include "engine/inference/pooled_fit.hpp"
 #include "engine/inference/refined_candidates.hpp"
 #include "engine/inference/simulated_candidate.hpp"
 #include "engine/search/joint_refinement.hpp"
@@ -32,8 +33,8 @@ constexpr double heavier_share = 0.1;
 class Search {
  public:
   Search(StageSetting const& setting, SelectionOptions const& options, DecisionLevels const& levels,
-         std::span<Recording const> unseen, StageSink const& progress)
-      : result_{{}, setting}, options_(options), levels_(levels), unseen_(unseen), progress_(progress) {}
+         OtherRecordings const& others, StageSink const& progress)
+      : result_{{}, setting}, options_(options), levels_(levels), others_(others), progress_(progress) {}
 
   StepwiseSearch run() && {
     begin();
@@ -67,9 +68,8 @@ class Search {
     setting().weights = first->pipeline->weights();
     if (first->twin->colour) setting().reads_colour = true;
     SearchState state;
-    state.selection.baseline = state.selection.final = std::make_shared<ModelStage const>(std::move(*first));
-    state.selection.first_energy = state.selection.baseline->energy;
-    add(std::move(state));
+    state.selection.first_energy = first->energy;
+    add(std::move(state), std::move(*first));
   }
 
   // What is missing may have taken nearly all of the inertia away, so that no loop holds the joint: then a heavier one
@@ -93,9 +93,13 @@ class Search {
     return std::nullopt;
   }
 
-  // with its evidence
-  void add(SearchState state) {
-    state.evidence = std::make_shared<Evidence const>(setting(), *state.selection.final, unseen_);
+  // with its evidence, and one fit to all training recordings
+  void add(SearchState state, ModelStage made) {
+    auto const stage = std::make_shared<ModelStage>(std::move(made));
+    state.evidence = std::make_shared<Evidence const>(setting(), *stage, others_);
+    stage->pooled = pooled_fit(*stage, state.evidence->training());
+    state.selection.final = stage;
+    if (!state.selection.baseline) state.selection.baseline = stage;
     state.adequacy = adequacy_of(*state.evidence, levels_);
     result_.states.push_back(std::move(state));
   }
@@ -204,11 +208,11 @@ class Search {
     Evidence const& evidence = *state.evidence;
     if (candidate.bound) return refuse(effect, bound_words(*effect, *candidate.bound, evidence.columns().joint()));
     auto const before = state.selection.final;
-    // what the simulated model takes away must be beyond chance in training, where the projection's gain was
+    // what the simulated model takes away must be beyond chance in its recording, where the projection's gain was
     CandidateEvidence const& found = candidate.evidence;
-    double const by_chance = found.train_mean + catalogue.chance * found.train_spread;
-    // it may be beyond chance by unseen rows alone
-    double const least_taken = found.train > by_chance ? by_chance : found.train_mean;
+    double const by_chance = found.first_mean + catalogue.chance * found.first_spread;
+    // it may be beyond chance by the rows of other recordings alone
+    double const least_taken = found.first > by_chance ? by_chance : found.first_mean;
     auto draft = simulated(setting(), evidence, candidate, least_taken);
     if (!draft) return refuse(effect, "replicates with it do not follow the reference");
     if (energy_about_true_mean(*before) - energy_about_true_mean(*draft) < least_taken)
@@ -235,8 +239,7 @@ class Search {
         {scan.effect, scan, scan.p, scan.gain / unit, candidate.evidence.train / unit, instead});
     selection.energy_unit *= energy_unit_under(*before, *whole.pipeline);
     setting().weights = whole.pipeline->weights();
-    selection.final = std::make_shared<ModelStage const>(std::move(whole));
-    add(std::move(next));
+    add(std::move(next), std::move(whole));
   }
 
   // laws taken early that later ones have made useless
@@ -253,8 +256,7 @@ class Search {
       next.selection.rejected.push_back(
           {next.selection.accepted[*weakest].effect, "adds nothing beside what was named after it"});
       next.selection.accepted.erase(next.selection.accepted.begin() + at);
-      next.selection.final = std::make_shared<ModelStage const>(std::move(*stage));
-      add(std::move(next));
+      add(std::move(next), std::move(*stage));
     }
   }
 
@@ -304,16 +306,15 @@ class Search {
   StepwiseSearch result_;
   SelectionOptions const& options_;
   DecisionLevels const& levels_;
-  std::span<Recording const> unseen_;
+  OtherRecordings others_;
   StageSink const& progress_;
 };
 
 }  // namespace
 
 StepwiseSearch search_stepwise(StageSetting const& setting, SelectionOptions const& options,
-                               DecisionLevels const& levels, std::span<Recording const> unseen,
-                               StageSink const& progress) {
-  return Search(setting, options, levels, unseen, progress).run();
+                               DecisionLevels const& levels, OtherRecordings const& others, StageSink const& progress) {
+  return Search(setting, options, levels, others, progress).run();
 }
 
 }  // namespace torquescope

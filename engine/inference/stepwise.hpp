@@ -33,9 +33,8 @@ struct StepwiseSearch {
   SearchState const& end() const { return states.back(); }
 };
 
-// unseen: validation recordings, their time from 0. Errors: Error 65, the baseline cannot be fitted or simulated
+// Errors: Error 65, the baseline cannot be fitted or simulated
 StepwiseSearch search_stepwise(StageSetting const& setting, SelectionOptions const& options,
-                               DecisionLevels const& levels, std::span<Recording const> unseen,
-                               StageSink const& progress);
+                               DecisionLevels const& levels, OtherRecordings const& others, StageSink const& progress);
 
 }  // namespace torquescope

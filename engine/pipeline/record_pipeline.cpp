@@ -182,13 +182,17 @@ ProcessedRecord RecordPipeline::restricted(ProcessedRecord record, std::vector<E
   return record;
 }
 
+Motion RecordPipeline::motion_of(Recording const& recording) const {
+  return differentiate(recording, options_, section_);
+}
+
 ProcessedRecord RecordPipeline::prepare(Recording const& recording) const {
   Recording driving;
   driving.rate_hz = recording.rate_hz;
   driving.time_s = recording.time_s;
   driving.position = smooth_positions(recording.position, drive_options_, rate_hz_);
   driving.torque = recording.torque;
-  return prepare(differentiate(recording, options_, section_), spline_motion(std::move(driving)));
+  return prepare(motion_of(recording), spline_motion(std::move(driving)));
 }
 
 ProcessedRecord RecordPipeline::prepare(Motion&& motion, Motion&& drive) const {

@@ -107,6 +107,8 @@ class RecordPipeline {
     Eigen::MatrixXd joint, drive;
   };
   SmoothPositions smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const;
+  // differentiated, as process() does
+  Motion motion_of(Recording const& recording) const;
   // of a recording whose position is to be that column
   ProcessedRecord process_smooth(Recording&& recording, SmoothPositions const& positions, Eigen::Index column) const;
   // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay

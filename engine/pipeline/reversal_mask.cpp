@@ -9,15 +9,20 @@
 namespace torquescope {
 namespace {
 
-constexpr double still_share = 0.005;     // of the peak speed
+constexpr double still_share = 0.005;     // of the motion's speed
 constexpr double reach_in_periods = 1.6;  // of the cut-off
 
-double still_speed(Eigen::VectorXd const& dq) { return dq.size() > 0 ? still_share * dq.cwiseAbs().maxCoeff() : 0.0; }
-
-Eigen::Index reach_of(double rate_hz, double cutoff_hz) {
-  TORQUESCOPE_EXPECT(rate_hz > 0.0 && cutoff_hz >= 0.0);
-  return cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(reach_in_periods / cutoff_hz * rate_hz)) : 0;
+// the peak of a sine with the same upper twentieth
+double speed_of(Eigen::VectorXd const& dq) {
+  constexpr double below = 0.95, of_sine = 0.99692;  // sin(0.95 pi / 2)
+  std::vector<double> speeds(static_cast<std::size_t>(dq.size()));
+  for (std::size_t k = 0; k < speeds.size(); ++k) speeds[k] = std::abs(dq[static_cast<Eigen::Index>(k)]);
+  auto const at = speeds.begin() + static_cast<std::ptrdiff_t>(below * static_cast<double>(speeds.size() - 1));
+  std::nth_element(speeds.begin(), at, speeds.end());
+  return *at / of_sine;
 }
+
+double still_speed(Eigen::VectorXd const& dq) { return dq.size() > 0 ? still_share * speed_of(dq) : 0.0; }
 
 bool is_still(double dq, double slowest) { return std::abs(dq) < slowest || dq == 0.0; }
 
@@ -36,8 +41,13 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> rests(Eigen::VectorXd const& 
 
 }  // namespace
 
+Eigen::Index mask_reach(double rate_hz, double cutoff_hz) {
+  TORQUESCOPE_EXPECT(rate_hz > 0.0 && cutoff_hz >= 0.0);
+  return cutoff_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(reach_in_periods / cutoff_hz * rate_hz)) : 0;
+}
+
 std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
-  Eigen::Index const n = dq.size(), reach = reach_of(rate_hz, cutoff_hz);
+  Eigen::Index const n = dq.size(), reach = mask_reach(rate_hz, cutoff_hz);
   double const slowest = still_speed(dq);
 
   std::vector<bool> moving(static_cast<std::size_t>(n), true);
@@ -55,7 +65,7 @@ std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, doub
 }
 
 std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
-  Eigen::Index const n = dq.size(), reach = reach_of(rate_hz, cutoff_hz);
+  Eigen::Index const n = dq.size(), reach = mask_reach(rate_hz, cutoff_hz);
   std::vector<bool> kept(static_cast<std::size_t>(n), true);
   for (auto const& [first, end] : rests(dq, reach))
     for (Eigen::Index i = std::max<Eigen::Index>(0, first - reach); i < std::min(n, end + reach); ++i)
@@ -65,7 +75,7 @@ std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz
 
 std::vector<bool> resting_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz) {
   std::vector<bool> rest(static_cast<std::size_t>(dq.size()), false);
-  for (auto const& [first, end] : rests(dq, reach_of(rate_hz, cutoff_hz)))
+  for (auto const& [first, end] : rests(dq, mask_reach(rate_hz, cutoff_hz)))
     for (Eigen::Index i = first; i < end; ++i) rest[static_cast<std::size_t>(i)] = true;
   return rest;
 }

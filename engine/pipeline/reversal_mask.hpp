@@ -1,7 +1,8 @@
 #pragma once
 // The samples at which a joint surely moves one way: everything but reversals and what the regression filter smears.
 //
-// Equation   still_k: |dq_k| < 0.005 max|dq|, or the sign of dq differs from that of sample k-1;
+// Equation   still_k: |dq_k| < 0.005 v, or the sign of dq differs from that of sample k-1; v: the speed that a
+//            twentieth of the record exceeds, as the peak of such a sine: one fast homing move is no scale
 //            dropped: every sample within 1.6 / cutoff_hz of a still one (cutoff_hz 0: nothing is widened)
 // Reversals  kept where a job weighs them: then only rests are dropped
 // Use        on the whole record before its edges are cut, on recording and replicates, each from its filtered velocity
@@ -15,9 +16,12 @@
 
 namespace torquescope {
 
+// samples that the regression filter smears a still one over
+Eigen::Index mask_reach(double rate_hz, double cutoff_hz);
+
 std::vector<bool> moving_samples(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
 
-// dropped: every stretch slower than 0.005 max|dq| that lasts longer than 1.6 / cutoff_hz, and as much before and after
+// dropped: every stretch slower than 0.005 v that lasts longer than 1.6 / cutoff_hz, and as much before and after
 // it
 std::vector<bool> samples_without_rest(Eigen::VectorXd const& dq, double rate_hz, double cutoff_hz);
 

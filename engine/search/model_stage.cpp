@@ -1,12 +1,15 @@
 #include "engine/search/model_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/pipeline/joint_bounds.hpp"
 #include "engine/pipeline/motion_limits.hpp"
+#include "engine/pipeline/reversal_mask.hpp"
 #include "engine/statistics/scaled_solution.hpp"
 #include "engine/twin/reversal_weights.hpp"
 #include "engine/twin/twin_whitening.hpp"
@@ -127,7 +130,40 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage) {
   RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
   pipeline.bound_effects(stage.pipeline->bounds_effects());
+  if (!setting.trained || &recording == &setting.recording) return pipeline;
+  std::vector<bool> outside =
+      samples_outside(*setting.trained, setting.regressor.columns(pipeline.motion_of(recording)),
+                      mask_reach(recording.rate_hz, pipeline.cutoff_hz()));
+  auto const saturated = saturated_samples(recording, pipeline.cutoff_hz());
+  std::transform(outside.begin(), outside.end(), saturated.begin(), outside.begin(), std::logical_or<>());
+  pipeline.leave_out(std::move(outside));
   return pipeline;
+}
+
+TrainedMotion trained_motion_of(StageSetting const& setting, std::span<Recording const> further) {
+  std::vector<Eigen::MatrixXd> each;
+  Eigen::Index rows = 0;
+  double memory = 1.0;
+  auto const add = [&](Recording const& recording) {
+    RecordPipeline const pipeline = pipeline_for(setting, recording, setting.regressor);
+    Eigen::MatrixXd const columns = setting.regressor.columns(pipeline.motion_of(recording));
+    // without the edges that the filter drops
+    Eigen::VectorXd const place =
+        pipeline.picked(Eigen::VectorXd::LinSpaced(columns.rows(), 0.0, double(columns.rows() - 1)));
+    auto const first = static_cast<Eigen::Index>(place[0]), last = static_cast<Eigen::Index>(place[place.size() - 1]);
+    each.push_back(columns.middleRows(first, last + 1 - first));
+    rows += each.back().rows();
+    memory = static_cast<double>(guard_rows(pipeline)) * pipeline.rate_hz() / pipeline.kept_rate_hz();
+  };
+  add(setting.recording);
+  for (auto const& recording : further) add(recording);
+  Eigen::MatrixXd all(rows, each.front().cols());
+  Eigen::Index at = 0;
+  for (auto const& one : each) {
+    all.middleRows(at, one.rows()) = one;
+    at += one.rows();
+  }
+  return trained_motion(all, memory);
 }
 
 BaselineReference ModelStage::reference() const {

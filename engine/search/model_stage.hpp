@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/pipeline/reversal_rows.hpp"
+#include "engine/pipeline/trained_motion.hpp"
 #include "engine/search/candidate_columns.hpp"
 #include "engine/twin/ablation.hpp"
 #include "engine/twin/baseline_twin.hpp"
@@ -33,9 +35,10 @@ struct StageSetting {
   std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
   std::shared_ptr<NoiseWeights const> weights{};  // the same
   std::optional<TwinLevels> levels{};             // of this very model; none: measure
-  bool reads_colour = false;     // noise as the model leaves it, whatever the law says (torque_colour.hpp)
+  bool reads_colour = false;  // noise as the model leaves it, whatever the law says (torque_colour.hpp)
   ReversalRows reversals = ReversalRows::mask;
-  double least_inertia_share = 0.0;  // of the model without effects (joint_fit.hpp); 0: as a rule
+  double least_inertia_share = 0.0;                // of the model without effects (joint_fit.hpp); 0: as a rule
+  std::shared_ptr<TrainedMotion const> trained{};  // rows of other recordings outside of it are left out; none: no row
   bool inertia_by_turns = false;     // a held inertia is one that a loop leads round the turns (joint_fit.hpp)
   TwinExchange* exchange = nullptr;  // processes that share the replicates; none by default
 
@@ -45,18 +48,31 @@ struct StageSetting {
 // of a look at noise: two threads have something to do
 inline constexpr std::size_t twins_per_round = 2 * twin_lanes;
 
+// what all training recordings show of the motion
+TrainedMotion trained_motion_of(StageSetting const& setting, std::span<Recording const> further);
+
 // of a recording, with the setting's filter and rows
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, JointModel model);
+
+// one fit to all training recordings, where there are several
+struct PooledFit {
+  Eigen::VectorXd parameters{};  // corrected for the bias of processing
+  Eigen::MatrixXd deviations{};  // of every replicate's fit from their mean: columns of the model, one per tangent; x M
+  Eigen::VectorXd jackknife{};   // deviations by leaving out blocks of the rows
+};
 
 struct ModelStage {
   std::unique_ptr<RecordPipeline> pipeline{};  // restricted to the common rows
   std::optional<BaselineTwin> twin{};          // always there in a stage that make_stage() returned
   TwinComparison comparison{};
   MismatchEnergy energy{};
+  std::optional<PooledFit> pooled{};  // as the search fills it in (inference/pooled_fit.hpp)
 
   JointModel const& model() const { return pipeline->model(); }
-  // corrected for the bias of processing
+  // that replicates are simulated with: of this recording, corrected for the bias of processing
   Eigen::VectorXd const& parameters() const { return twin->baseline.parameters; }
+  // of all training recordings: what is reported, and predicts others
+  Eigen::VectorXd const& estimate() const { return pooled ? pooled->parameters : parameters(); }
   Eigen::VectorXd mismatch() const { return comparison.rows.residual - comparison.rows.twin_mean; }
   // what candidates need to know of the baseline: this stage's own parameters
   BaselineReference reference() const;

@@ -98,6 +98,11 @@ void widen_by_levels(Eigen::VectorXd& half, ModelStage const& stage, CandidateCo
 Eigen::VectorXd half_intervals(ModelStage const& stage, CandidateColumns const& columns) {
   CoefficientBounds const room = room_of(stage, columns);
   Eigen::MatrixXd const all = columns.with_tangents();
+  if (stage.pooled) {
+    Eigen::VectorXd const wide =
+        (two_sided * deviations_of(stage.pooled->deviations)).cwiseMax(jackknife_quantile * stage.pooled->jackknife);
+    return (wide.array().square() + discrepancy_shifts(stage.energy, all, room).array().square()).sqrt();
+  }
   Eigen::VectorXd const chance = two_sided * deviations_of(solve_scaled(all, twins_apart(stage, columns), room), room);
   Eigen::VectorXd const blocks = jackknife_quantile * jackknife_deviations(stage.mismatch(), all, room);
   Eigen::VectorXd half = chance.cwiseMax(blocks);
@@ -171,12 +176,12 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
   ModelEstimate result;
   auto const owners = model.regressor().column_owners();
   for (std::size_t k = 0; k < owners.size(); ++k)
-    result.baseline.push_back(estimate(owners[k].name, owners[k].unit, stage.parameters()[static_cast<Eigen::Index>(k)],
+    result.baseline.push_back(estimate(owners[k].name, owners[k].unit, stage.estimate()[static_cast<Eigen::Index>(k)],
                                        half[static_cast<Eigen::Index>(k)]));
   Eigen::Index shape_at = columns.model_columns().cols();
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     auto const& effect = *model.effects()[i].effect;
-    auto const values = model.effect_parameters(i, stage.parameters());
+    auto const values = model.effect_parameters(i, stage.estimate());
     std::vector<ParameterEstimate> own;
     for (std::size_t k = 0; k < values.size(); ++k) {
       auto const& parameter = effect.parameters()[k];

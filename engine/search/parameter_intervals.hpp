@@ -5,6 +5,7 @@
 //            half width^2 = max(1.96 sd sqrt(1 + 1/M), 2.26 se of the block jackknife)^2 + law_discrepancy^2
 // Jackknife  over tenths of the record and, for an effect, over tenths along its axis (block_jackknife,
 //            axis_blocks.hpp)
+// Several    training recordings: deviations and jackknife of one fit to all of them (ModelStage::pooled)
 // Bounds     shapes and signs stay within their bounds in every replicate and without every block, as in the fit
 // Instants   and places: as far as their profile goes, where that is further (profiled_interval.hpp)
 // Value      corrected for bias (baseline_correction.hpp); shapes by the last step of joint_refinement.hpp

@@ -30,7 +30,7 @@ std::vector<TwinResidual> residuals_of_twins(Recording const& recording, StageSe
   for_each_unseen_twin(recording, setting, stage, loop, rows, [&](VisitedTwin const& visited) {
     auto const& record = visited.record;
     TwinResidual& twin = twins[visited.index];
-    twin.left = record.torque - record.columns * stage.parameters();
+    twin.left = record.torque - record.columns * stage.estimate();
     twin.torque = record.whole_torque().norm();
   });
   return twins;
@@ -54,7 +54,7 @@ void for_each_unseen_twin(Recording const& recording, StageSetting const& settin
   RecordPipeline pipeline = pipeline_for(setting, recording, stage);
   pipeline.weigh_with(rows.weights);
   if (rows.only != nullptr) pipeline.restrict_to(*rows.only);
-  CleanTwin const twin(pipeline.model().twin_joint(stage.parameters()), with_levels_of(stage, loop.loop), loop.track,
+  CleanTwin const twin(pipeline.model().twin_joint(stage.estimate()), with_levels_of(stage, loop.loop), loop.track,
                        stage.twin->twin.step_s());
   for_each_twin(twin, pipeline, {setting.seed, 1, first_free_twin_set}, unseen_twins, setting.threads,
                 [&](VisitedTwin const& visited) {

@@ -104,7 +104,7 @@ char const* why_left_out(Effect const& effect) {
 }  // namespace
 
 Eigen::VectorXd transferable(ModelStage const& stage, std::vector<std::string>& nuisances) {
-  Eigen::VectorXd parameters = stage.parameters();
+  Eigen::VectorXd parameters = stage.estimate();
   auto const& effects = stage.model().effects();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     Effect const& effect = *effects[i].effect;

@@ -37,8 +37,7 @@ std::optional<RecordedLoop> loop_of(Recording const& recording, StageSetting con
 double position_error(Recording const& recording, RecordedLoop const& loop, ModelStage const& stage) {
   JointModel model = stage.model();
   model.load_as_in(recording);
-  CleanTwin const twin(model.twin_joint(stage.parameters()), noiseless(loop.loop), loop.track,
-                       stage.twin->twin.step_s());
+  CleanTwin const twin(model.twin_joint(stage.estimate()), noiseless(loop.loop), loop.track, stage.twin->twin.step_s());
   TwinGroup group;
   twin.simulate({}, 0, group);
   if (group.ran_away[0]) return unknown;
@@ -107,7 +106,7 @@ PredictionEnergies without_effect(ModelStage const& augmented, std::size_t effec
   std::vector<Eigen::Index> others;
   for (Eigen::Index k = 0; k < trained.cols(); ++k)
     if (k < first || k >= first + width) others.push_back(k);
-  Eigen::VectorXd const& parameters = augmented.parameters();
+  Eigen::VectorXd const& parameters = augmented.estimate();
   Eigen::VectorXd const torque = trained.middleCols(first, width) * parameters.segment(first, width);
   Eigen::VectorXd const refitted = parameters(others) + solve_scaled(trained(Eigen::all, others), torque);
   Eigen::VectorXd left = after.torque - after.columns(Eigen::all, others) * refitted;
@@ -150,7 +149,7 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   ProcessedRecord const after = full.prepare(recording);
   Eigen::VectorXd parameters = transferable(augmented, result.nuisances);
   refit_on_head(augmented, after, parameters, result.nuisances);
-  Eigen::VectorXd left_before = before.torque - before.columns * baseline.parameters();
+  Eigen::VectorXd left_before = before.torque - before.columns * baseline.estimate();
   Eigen::VectorXd left_after = after.torque - after.columns * parameters;
   Artefacts const artefacts(artefact, baseline, augmented, before.kept_rows);
   take_out(artefacts.before, left_before);
@@ -180,7 +179,7 @@ UnseenPrediction predict(Recording const& recording, StageSetting const& setting
   plain.take_shares(shares, before.kept_rows);
   result.torque_energy = weighed_energy(before.whole_torque(), shares);
   result.energies = energies_of(left_before, left_after, shares);
-  result.left_out = left_out_of(recording, setting, {baseline, baseline.parameters(), offset_before},
+  result.left_out = left_out_of(recording, setting, {baseline, baseline.estimate(), offset_before},
                                 {augmented, parameters, offset_after}, before.kept_rows);
   result.kept_rows = before.kept_rows;
   result.memory_rows = guard_rows(plain);

@@ -69,7 +69,8 @@ std::string left_out_clause(LeftOut const& left_out) {
   if (std::isfinite(left_out.augmented_relerr) && left_out.augmented_relerr != left_out.relerr)
     errors += " to " + percent_text(left_out.augmented_relerr);
   return fmt::format(
-      "{} of the time with {} of the residual's energy, near reversals and rests, is left out of that; "
+      "{} of the time with {} of the residual's energy, near reversals, at rest or outside the motion of training, is "
+      "left out of that; "
       "with it the relerr is {}",
       percent_text(left_out.time), percent_text(left_out.energy), errors);
 }

@@ -36,11 +36,11 @@ class Stepwise : public testing::Test {
   }
 
   StepwiseSearch searched(Recording const& recording, std::vector<char const*> const& names,
-                          std::vector<Recording> const& unseen = {}) const {
+                          OtherRecordings const& others = {}) const {
     StageSetting const setting{recording, clean_regressor(), filter, section, 40, 1, 2};
     SelectionOptions options;
     for (auto const* name : names) options.candidates.push_back(find_effect(name));
-    return search_stepwise(setting, options, levels, unseen, {});
+    return search_stepwise(setting, options, levels, others, {});
   }
 
   FilterOptions const filter = clean_filter();
@@ -77,12 +77,32 @@ TEST_F(Stepwise, TakesTheLawThatIsThereAndThenStops) {
 TEST_F(Stepwise, TakesALawThatRunsDownWhereTheUnseenRecordingBeganWarmer) {
   Recording const recording = recording_with("thermal_friction", 0.3, {2.0}, 3);
   std::vector<Recording> const unseen{recording_with("thermal_friction", 0.12, {2.0}, 4, 12.0)};
-  StepwiseSearch const search = searched(recording, {"thermal_friction", "spring", "cogging"}, unseen);
+  StepwiseSearch const search = searched(recording, {"thermal_friction", "spring", "cogging"}, {{}, unseen});
   auto const& accepted = search.end().selection.accepted;
   ASSERT_EQ(accepted.size(), 1U);
   EXPECT_EQ(accepted.front().effect->name(), "thermal_friction");
   EXPECT_TRUE(search.end().adequacy.holds());
-  EXPECT_TRUE(keep_what_predicts(search, unseen).is_held_out_lower);
+  EXPECT_TRUE(keep_what_predicts(search, {{}, unseen}).is_held_out_lower);
+}
+
+TEST_F(Stepwise, TakesTheLawThatAllTrainingRecordingsHave) {
+  Recording const recording = recording_with("spring", 0.4, {0.0, 0.0}, 3);
+  std::vector<Recording> const further{recording_with("spring", 0.4, {0.0, 0.0}, 4)};
+  StepwiseSearch const search = searched(recording, laws, {further, {}});
+  auto const& accepted = search.end().selection.accepted;
+  ASSERT_EQ(accepted.size(), 1U);
+  EXPECT_EQ(accepted.front().effect->name(), "spring");
+  EXPECT_TRUE(search.end().adequacy.holds());
+  KeptModel const kept = keep_what_predicts(search, {further, {}});
+  EXPECT_TRUE(kept.is_held_out_lower);
+  EXPECT_EQ(kept.held_out.left.size(), 2U);  // each predicted by the fit to the other
+}
+
+TEST_F(Stepwise, IsNotContentWithALawThatOneTrainingRecordingHasNot) {
+  Recording const recording = recording_with("spring", 0.4, {0.0, 0.0}, 3);
+  std::vector<Recording> const further{recording_with("", 0.0, {}, 4)};
+  StepwiseSearch const search = searched(recording, {"spring"}, {further, {}});
+  EXPECT_FALSE(search.end().adequacy.holds());
 }
 
 // a law that acts in one tenth of the record is judged by that tenth

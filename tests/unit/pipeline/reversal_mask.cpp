@@ -54,6 +54,14 @@ TEST(ReversalMask, FindsAReversalBetweenTwoFastSamples) {
   for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k < 490 || k > 510) << k;
 }
 
+// a recording that begins with the drive back to where the test starts
+TEST(ReversalMask, KeepsASlowTestBehindOneFastMove) {
+  Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
+  dq.head(40).setConstant(-300.0);
+  auto const moving = moving_samples(dq, rate_hz, 0.0);
+  for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k != 40) << k;
+}
+
 TEST(ReversalMask, DropsAJointThatNeverMoves) {
   auto const moving = moving_samples(Eigen::VectorXd::Zero(100), rate_hz, 0.0);
   EXPECT_EQ(std::count(moving.begin(), moving.end(), true), 0);

@@ -126,10 +126,10 @@ TEST(ReasonSentence, SaysWhateverTheVerdictThatTheUnseenRecordingIsOfAnotherKind
 
 TEST(LeftOutClause, TellsTimeEnergyAndTheErrorWithIt) {
   LeftOut left_out{0.71, 0.98, 0.46, 0.38};
-  EXPECT_EQ(
-      left_out_clause(left_out),
-      "71.0 % of the time with 98.0 % of the residual's energy, near reversals and rests, is left out of that; with it "
-      "the relerr is 46.0 % to 38.0 %");
+  EXPECT_EQ(left_out_clause(left_out),
+            "71.0 % of the time with 98.0 % of the residual's energy, near reversals, at rest or outside the motion of "
+            "training, is left out of that; with it "
+            "the relerr is 46.0 % to 38.0 %");
   left_out.augmented_relerr = unknown;
   EXPECT_THAT(left_out_clause(left_out), ::testing::EndsWith("the relerr is 46.0 %"));
   left_out.time = 0.0;
