@@ -168,7 +168,8 @@ def left_out_note(joint):
                                       if math.isfinite(after) and after != before else "")
         said.append(f"{where}: {q.percent(time)} of the time with {q.percent(energy)} of the residual's energy; "
                     f"error over all rows {errors}")
-    return f"Left out of these errors near reversals, at rest or outside the motion of training, {'; '.join(said)}." if said else ""
+    where = "near reversals, at rest or outside the motion of training"
+    return f"Left out of these errors {where}, {'; '.join(said)}." if said else ""
 
 
 def fit_answer(study, joint):
