@@ -72,7 +72,7 @@ SEARCH = """
 [[estimator]]
 name = "lshade"
 population = 60
-generations = 300
+generations = 450
 """
 
 

@@ -78,12 +78,15 @@ class Verdicts(unittest.TestCase):
         with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
 
-    def said_of(self, rows, further=None, effects='["spring"]'):
+    def said_of(self, rows, further=None, effects='["spring"]', unseen=None):
         self.write("recorded.csv", rows)
         job = JOB.replace('["spring"]', effects)
         if further:
             self.write("further.csv", further)
             job = job.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
+        if unseen:
+            self.write("unseen.csv", unseen)
+            job = job.replace('"recorded.csv"', '"recorded.csv"\nvalidate = "unseen.csv"')
         (self.folder / "job.toml").write_text(job)
         (self.folder / "verdicts.h5").unlink(missing_ok=True)
         return json.loads(self.run_program("diagnose", "job.toml", "--out", "verdicts.h5", "--json", "-", "--quiet"))
@@ -103,9 +106,9 @@ class Verdicts(unittest.TestCase):
         both = self.said_of(self.with_spring(self.rows), self.with_spring(self.other_rows))
         self.assertEqual(both["verdict"], "named", both["reason"])
         self.assertEqual(both["joints"][0]["effects"][0]["name"], "spring")
-        self.assertIn("further.csv has to be predicted", both["reason"])
-        self.assertLess(both["joints"][0]["augmented"]["validation_relerr"],
-                        0.5 * both["joints"][0]["baseline"]["validation_relerr"])
+        self.assertIn("fitted to recorded.csv and further.csv together", both["reason"])
+        # each predicted by the fit to the other
+        self.assertLess(both["joints"][0]["augmented"]["cv_relerr"], 0.5 * both["joints"][0]["baseline"]["cv_relerr"])
         for rows, further in ((self.with_spring(self.rows), self.other_rows),
                               (self.rows, self.with_spring(self.other_rows))):
             one = self.said_of(rows, further)
@@ -117,7 +120,8 @@ class Verdicts(unittest.TestCase):
         sprung = self.with_spring(self.rows)
         waved = [[*motion, str(float(torque) + 0.4 * math.sin(2 * math.pi * 1.7 * float(motion[0])))]
                  for *motion, torque in sprung]
-        said = self.said_of(waved, self.with_spring(self.other_rows), '["spring", "periodic_disturbance"]')
+        said = self.said_of(waved, effects='["spring", "periodic_disturbance"]',
+                            unseen=self.with_spring(self.other_rows))
         joint = said["joints"][0]
         self.assertEqual([effect["name"] for effect in joint["effects"]], ["spring", "periodic_disturbance"])
         self.assertLess(joint["augmented"]["validation_relerr"], 0.3 * joint["baseline"]["validation_relerr"])
