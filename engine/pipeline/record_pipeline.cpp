@@ -71,8 +71,8 @@ RecordPipeline::SmoothPositions RecordPipeline::smoothed(Eigen::Ref<Eigen::Matri
   return smooth;
 }
 
-ProcessedRecord RecordPipeline::process_smooth(Recording&& recording, SmoothPositions const& positions,
-                                               Eigen::Index column) const {
+std::optional<ProcessedRecord> RecordPipeline::process_smooth(Recording&& recording, SmoothPositions const& positions,
+                                                              Eigen::Index column) const {
   std::string const name = recording.name;
   Motion drive;
   if (positions.drive.size() > 0) {
@@ -82,6 +82,7 @@ ProcessedRecord RecordPipeline::process_smooth(Recording&& recording, SmoothPosi
   }
   recording.position = positions.joint.col(column);
   ProcessedRecord record = prepare(differentiate_smooth(std::move(recording)), std::move(drive));
+  if (record.kept_rows.size() <= model_.size()) return std::nullopt;
   fit(record, name);
   return record;
 }

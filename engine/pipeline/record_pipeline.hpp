@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,8 +110,9 @@ class RecordPipeline {
   SmoothPositions smoothed(Eigen::Ref<Eigen::MatrixXd const> const& positions) const;
   // differentiated, as process() does
   Motion motion_of(Recording const& recording) const;
-  // of a recording whose position is to be that column
-  ProcessedRecord process_smooth(Recording&& recording, SmoothPositions const& positions, Eigen::Index column) const;
+  // of a recording whose position is to be that column; nothing where it moves on fewer rows than there are parameters
+  std::optional<ProcessedRecord> process_smooth(Recording&& recording, SmoothPositions const& positions,
+                                                Eigen::Index column) const;
   // before whitening and least squares: of a recording that need not excite every column; parameters and residual stay
   // empty
   ProcessedRecord prepare(Recording const& recording) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -91,13 +92,12 @@ void for_each_twin(CleanTwin const& twin, RecordPipeline const& pipeline, TwinAd
     parallel_for(twins, threads, [&](std::size_t i, int thread) {
       TwinGroup const& group = simulated[i / twin_lanes];
       std::size_t const lane = i % twin_lanes;
-      bool const ran_away = group.ran_away[lane];
-      ProcessedRecord record;
-      if (!ran_away) {
+      static ProcessedRecord const none;
+      std::optional<ProcessedRecord> record;
+      if (!group.ran_away[lane])
         record = pipeline.process_smooth(recording_of(group, lane, pipeline.rate_hz()), smooth[i / twin_lanes],
                                          static_cast<Eigen::Index>(lane));
-      }
-      visit({first * twin_lanes + i, thread, ran_away, record});
+      visit({first * twin_lanes + i, thread, !record, record ? *record : none});
     });
   }
 }
