@@ -8,13 +8,45 @@
 namespace torquescope {
 namespace {
 
-std::vector<Effect const*> others(ModelStage const& stage, std::span<Effect const* const> catalogue) {
+// laws that effect i may be another one of. Waves of one kind may be there several times, each for itself
+std::vector<Effect const*> others(ModelStage const& stage, std::size_t i, std::span<Effect const* const> catalogue) {
   auto const& effects = stage.model().effects();
   std::vector<Effect const*> result;
-  for (auto const* effect : catalogue)
-    if (std::none_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; }))
-      result.push_back(effect);
+  for (auto const* effect : catalogue) {
+    bool const is_there =
+        std::any_of(effects.begin(), effects.end(), [&](auto const& one) { return one.effect == effect; });
+    if (!is_there || (effect->is_wave() && effect != effects[i].effect)) result.push_back(effect);
+  }
   return result;
+}
+
+std::size_t waves_of(Effect const& effect) {
+  auto const& parameters = effect.parameters();
+  return static_cast<std::size_t>(std::count_if(parameters.begin(), parameters.end(),
+                                                [](auto const& one) { return one.is_order() || one.is_frequency(); }));
+}
+
+// What a rival leaves. Where the accepted law has several waves and the rival one, the rival is given as many: at one
+// speed two waves in time are two over position
+RowsLeft left_by(Evidence const& evidence, RefinedCandidate const& rival, std::size_t waves, FoldKind kind) {
+  Effect const& effect = *rival.evidence.scan.effect;
+  RowsLeft best = rival.left;
+  std::vector<std::vector<double>> shapes{rival.shape};
+  for (std::size_t more = waves_of(effect); more > 0 && shapes.size() * more < waves;) {
+    auto const& grid = rival.evidence.scan.grid;
+    std::vector<std::vector<double>> next;
+    for (std::size_t point = 0; point < grid.size(); ++point) {
+      std::vector<std::vector<double>> with = shapes;
+      with.push_back(grid.point(point));
+      RowsLeft left = evidence.rows_left(effect, with, kind, rival.driven_by);
+      if (!(left.energy() < best.energy())) continue;
+      best = std::move(left);
+      next = std::move(with);
+    }
+    if (next.empty()) return best;
+    shapes = std::move(next);
+  }
+  return best;
 }
 
 }  // namespace
@@ -27,7 +59,7 @@ std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::spa
   LawGain const own = evidence.gains(*effect, {shape}, kind).front();
   double const own_gain = own.total()[0];
   RowsLeft const own_left = evidence.rows_left(*effect, shape, kind), without_any = evidence.rows_left(kind);
-  auto const rivals = others(of.stage(), catalogue);
+  auto const rivals = others(of.stage(), i, catalogue);
   CatalogueEvidence const scanned = scan_catalogue(evidence, rivals, kind, levels.alpha, setting.threads);
   std::vector<CandidateEvidence const*> near;
   for (auto const& law : scanned.laws)
@@ -42,7 +74,9 @@ std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::spa
     if (!law->scan.effect->is_plausible(refined.shape, evidence.columns().scales())) continue;
     bool const is_a_law =
         refined.evidence.scan.gain > 0.0 && !refined.bound && leaves_clearly_less(refined.left, without_any);
-    if (!is_a_law || leaves_clearly_more(refined.left, own_left, {without_any, levels.tolerance})) continue;
+    if (!is_a_law) continue;
+    RowsLeft const left = left_by(evidence, refined, waves_of(*effect), kind);
+    if (leaves_clearly_more(left, own_left, {without_any, levels.tolerance})) continue;
     set.push_back({law->scan.effect, refined.shape, own_gain > 0.0 ? refined.evidence.scan.gain / own_gain : 0.0});
   }
   std::stable_sort(set.begin(), set.end(), [](auto const& a, auto const& b) { return a.gain_ratio > b.gain_ratio; });

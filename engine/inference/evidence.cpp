@@ -18,6 +18,14 @@ std::vector<bool> signs(Effect const& effect) {
   return non_negative;
 }
 
+Eigen::MatrixXd side_by_side(std::vector<Eigen::MatrixXd> const& each) {
+  if (each.size() == 1) return each.front();
+  Eigen::MatrixXd all(each.front().rows(), each.front().cols() * static_cast<Eigen::Index>(each.size()));
+  for (std::size_t i = 0; i < each.size(); ++i)
+    all.middleCols(static_cast<Eigen::Index>(i) * each[i].cols(), each[i].cols()) = each[i];
+  return all;
+}
+
 // blocks of a recording's rows, as many as training has folds
 Eigen::MatrixXd block_sums(Eigen::MatrixXd const& per_row) {
   Eigen::MatrixXd sums(n_folds, per_row.cols());
@@ -144,8 +152,9 @@ std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vect
   at = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Eigen::Index const rank = groups[i].rank();
-    results.push_back(gain_of(
-        {&effect, &shapes[i], &groups[i], &each[i], picked(all, at, rank, 0, k), picked(all, at, rank, k, m)}, beside));
+    results.push_back(gain_of({&effect, std::span(shapes).subspan(i, 1), &groups[i], &each[i],
+                               picked(all, at, rank, 0, k), picked(all, at, rank, k, m)},
+                              beside));
     at += rank;
   }
   return results;
@@ -185,7 +194,9 @@ Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, Unsee
   if (over == CarryOver::none)
     change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
   else
-    change.law = one.without_own(one.columns->columns(*candidate.effect, *candidate.shape)) * to_parameters;
+    change.law = one.without_own(side_by_side(one.columns->columns_of_each(
+                     *candidate.effect, std::vector(candidate.shapes.begin(), candidate.shapes.end())))) *
+                 to_parameters;
   return change;
 }
 
@@ -232,16 +243,21 @@ RowsLeft Evidence::rows_left(FoldKind kind) const {
   return left;
 }
 
-RowsLeft Evidence::rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
+RowsLeft Evidence::rows_left(Effect const& effect, std::vector<std::vector<double>> const& shapes, FoldKind kind,
                              DrivenBy motion) const {
   InFolds const& beside = folds_of(kind);
   Eigen::MatrixXd const& basis = training_.basis();
-  Eigen::MatrixXd const law = std::move(training_.columns_of_each(effect, {shape}, motion).front());
-  OrthonormalGroup const group = orthonormal_group(law, basis, signs(effect));
+  Eigen::MatrixXd const law = side_by_side(training_.columns_of_each(effect, shapes, motion));
+  std::vector<bool> of_each;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    std::vector<bool> const own = signs(effect);
+    of_each.insert(of_each.end(), own.begin(), own.end());
+  }
+  OrthonormalGroup const group = orthonormal_group(law, basis, of_each);
   Eigen::Index const k = training_.nuisances();
   FoldProducts const all = fold_products(beside.folds, group.q, training_.basis_and_signals().leftCols(k + 1));
   Candidate const candidate{
-      &effect, &shape, &group, &law, picked(all, 0, group.rank(), 0, k), picked(all, 0, group.rank(), k, 1)};
+      &effect, shapes, &group, &law, picked(all, 0, group.rank(), 0, k), picked(all, 0, group.rank(), k, 1)};
   FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
   Eigen::MatrixXd both(group.q.rows(), k + group.rank());
   both << basis, group.q;

@@ -88,6 +88,11 @@ class Evidence {
   // by the model alone, and with a law beside it
   RowsLeft rows_left(FoldKind kind) const;
   RowsLeft rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
+                     DrivenBy motion = DrivenBy::twin) const {
+    return rows_left(effect, std::vector<std::vector<double>>{shape}, kind, motion);
+  }
+  // the same law several times, each at its own shape: waves
+  RowsLeft rows_left(Effect const& effect, std::vector<std::vector<double>> const& shapes, FoldKind kind,
                      DrivenBy motion = DrivenBy::twin) const;
 
  private:
@@ -104,7 +109,7 @@ class Evidence {
   InFolds const& folds_of(FoldKind kind) const { return kind == FoldKind::whole ? whole_ : interleaved_; }
   struct Candidate {
     Effect const* effect;
-    std::vector<double> const* shape;
+    std::span<std::vector<double> const> shapes;
     OrthonormalGroup const* group;
     Eigen::MatrixXd const* columns;
     FoldProducts cross, products;  // with the basis, with the signals
