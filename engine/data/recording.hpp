@@ -6,10 +6,12 @@
 // Threads    plain record
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/data/finding.hpp"
+#include "engine/data/given_signals.hpp"
 
 namespace torquescope {
 
@@ -49,6 +51,8 @@ struct Recording {
   Eigen::VectorXd gear_load{};
   // what is not known of it: n x k, independent errors of one standard deviation each; none
   Eigen::MatrixXd load_errors{};
+  // what the other joints of an arm do to this one; no channel: a diagnosis fills it
+  std::shared_ptr<GivenSignals const> given{};
   std::vector<DataWarning> warnings{};
   std::vector<Finding> findings{};  // of the examination (engine/health)
   std::vector<Stretch> left_out{};  // no row within them is fitted: what stands there was filled

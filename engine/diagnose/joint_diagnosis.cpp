@@ -105,7 +105,10 @@ class JointWork {
     if (input_.reversals == ReversalRows::weigh) setting.reversals = ReversalRows::weigh;
     setting.exchange = input_.exchange;
     SelectionOptions selection = input_.selection;
-    std::erase_if(selection.candidates, [&](Effect const* law) { return closes(first_look_.limits(), *law); });
+    std::erase_if(selection.candidates, [&](Effect const* law) {
+      bool const is_unknown = law->is_given() && !(recording.given && recording.given->of(law->name()));
+      return is_unknown || closes(first_look_.limits(), *law);
+    });
     others_.training = input_.further_training;
     for (auto const& given : input_.validate)
       others_.all.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));

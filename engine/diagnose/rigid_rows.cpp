@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/data/filter_checks.hpp"
+#include "engine/diagnose/arm_laws.hpp"
 #include "engine/pipeline/held_torque.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
@@ -101,12 +102,14 @@ std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitt
   auto const motion = motion_of(recording, filter);
   auto const rows = model.rows(motion, recording.payload);
   std::vector<Recording> alone = recording.joints;
+  auto const laws = arm_law_signals(model, fitted.parameters, motion);
   for (std::size_t j = 0; j < alone.size(); ++j) {
     Eigen::VectorXd beside = rigid_torque(model, fitted.parameters, j, rows[j]);
     if (recording.payload) beside += model.known_torque(j, rows[j], *recording.payload);
     beside -= fitted.inertia[static_cast<Eigen::Index>(j)] * motion[j].ddq;
     alone[j].torque -= torque_to_hold(beside);
     alone[j].gear_load = std::move(beside);
+    alone[j].given = laws[j];
     constexpr double matters = 0.1;  // of the noise: what is less adds half a per cent to it
     alone[j].load_errors = largest_parts(rigid_torque(model, fitted.errors, j, rows[j]),
                                          matters * fitted.noise[static_cast<Eigen::Index>(j)]);

@@ -10,6 +10,7 @@
 //            Where rows cannot tell all parameters apart: the least-norm solution (shortest_fit.hpp)
 // Accuracy   errors of the fitted parameters go with every recording as Recording::load_errors, those above a tenth of
 //            the joint's noise
+// Laws       of several joints: their columns go with every recording as Recording::given (arm_laws.hpp)
 // Units      SI
 // Errors     those of the filters
 // Threads    free functions

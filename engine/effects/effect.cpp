@@ -60,7 +60,7 @@ std::vector<ParameterRange> Effect::linear_bounds(JointScales const& scales) con
 }
 
 bool Effect::is_plain_term() const {
-  return takes_shape(0) && !has_memory() && !needs_baseline() && acts_on() == ActsOn::joint;
+  return takes_shape(0) && !has_memory() && !needs_baseline() && !is_given() && acts_on() == ActsOn::joint;
 }
 
 void Effect::columns_of_shapes(EffectInput const& input, std::vector<std::vector<double>> const& shapes,

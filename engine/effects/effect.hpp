@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/data/given_signals.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/effects/effect_traits.hpp"
 #include "engine/effects/joint_scales.hpp"
@@ -92,6 +93,7 @@ struct EffectInput {
   JointScales scales{};
   std::span<double const> load_torque{};   // n_samples; may be empty unless needs_baseline()
   std::span<double const> model_torque{};  // n_samples: the baseline on this motion, without the torque channel's noise
+  GivenSignals const* given = nullptr;     // of the recording; none
 
   Eigen::Index size() const { return motion.q.size(); }
   JointState state(Eigen::Index sample) const;
@@ -131,7 +133,8 @@ struct EffectDescription {
   bool is_dry_friction = false;  // torque jumps with the sign of the velocity: set-valued at rest for a simulator
   bool is_partly_dry = false;    // a part of it does so, beside one that asks for an acceleration
   bool is_level_free =
-      false;  // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
+      false;              // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
+  bool is_given = false;  // columns come with the recording (given_effect.hpp)
   bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
 };
@@ -159,6 +162,7 @@ class Effect {
   bool is_partly_dry() const { return description_.is_partly_dry; }
   bool is_level_free() const { return description_.is_level_free; }
   bool is_rigid_body() const { return description_.is_rigid_body; }
+  bool is_given() const { return description_.is_given; }
   std::string const& plain_equation() const { return description_.plain_equation; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;
@@ -194,6 +198,7 @@ class Effect {
 };
 
 std::vector<Effect const*> const& effect_choices();
+// of these and of arm_law_choices()
 Effect const* find_effect(std::string const& name);
 
 }  // namespace torquescope

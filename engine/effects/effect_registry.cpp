@@ -1,12 +1,22 @@
-#include "engine/effects/effect.hpp"
+#include "engine/effects/given_effect.hpp"
 
 namespace torquescope {
 
 namespace effects {
 #define TORQUESCOPE_CHOICE(name) Effect const& name();
+#include "arm_law_choices.inc"
 #include "effect_choices.inc"
 #undef TORQUESCOPE_CHOICE
 }  // namespace effects
+
+std::vector<Effect const*> const& arm_law_choices() {
+  static std::vector<Effect const*> const choices{
+#define TORQUESCOPE_CHOICE(name) &effects::name(),
+#include "arm_law_choices.inc"
+#undef TORQUESCOPE_CHOICE
+  };
+  return choices;
+}
 
 std::vector<Effect const*> const& effect_choices() {
   static std::vector<Effect const*> const choices{
@@ -18,8 +28,9 @@ std::vector<Effect const*> const& effect_choices() {
 }
 
 Effect const* find_effect(std::string const& name) {
-  for (auto const* effect : effect_choices())
-    if (effect->name() == name) return effect;
+  for (auto const* choices : {&effect_choices(), &arm_law_choices()})
+    for (auto const* effect : *choices)
+      if (effect->name() == name) return effect;
   return nullptr;
 }
 

@@ -23,7 +23,8 @@ Eigen::MatrixXd forms_of(Effect const& effect, MotionAxes const& axes) {
 }
 
 bool has_forms(Effect const& effect) {
-  return !effect.signature().empty() && !is_spectrum(effect.signature().front()) && !is_clock_bound(effect);
+  return !effect.signature().empty() && !effect.is_given() && !is_spectrum(effect.signature().front()) &&
+         !is_clock_bound(effect);
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ void fill_signals(ModelStage const& stage, CandidateColumns const& training, std
                   UnseenEvidence& result) {
   BaselineReference reference = stage.reference();
   reference.gear_load = result.pipeline->model().reference().gear_load;
+  reference.given = result.pipeline->model().reference().given;
   result.columns = std::make_shared<CandidateColumns const>(*result.pipeline, *result.comparison, std::move(reference),
                                                             stage.parameters(), without);
   result.own = own_nuisances(stage, result, without);

@@ -16,7 +16,10 @@ std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording) 
   return recording.gear_load.size() > 0 ? std::make_shared<Eigen::VectorXd const>(recording.gear_load) : nullptr;
 }
 
-void JointModel::load_as_in(Recording const& recording) { reference_.gear_load = gear_load_of(recording); }
+void JointModel::load_as_in(Recording const& recording) {
+  reference_.gear_load = gear_load_of(recording);
+  reference_.given = recording.given;
+}
 
 std::size_t JointModel::size() const { return first_parameter(effects_.size()); }
 
@@ -68,7 +71,9 @@ Eigen::MatrixXd JointModel::columns(Motion const& motion, Motion const& drive) c
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));
   all.leftCols(static_cast<Eigen::Index>(regressor_->size())) = regressor_->columns(motion);
   FittedBaseline const baseline = on_motion(*regressor_, reference_, motion);
-  EffectInput const input = baseline.input(motion), driven{drive, reference_.scales};
+  EffectInput input = baseline.input(motion);
+  input.given = reference_.given.get();
+  EffectInput const driven{drive, reference_.scales};
   for (std::size_t i = 0; i < effects_.size(); ++i)
     effects_[i].effect->columns(effects_[i].effect->has_inertia() ? driven : input, effects_[i].shape,
                                 all.middleCols(static_cast<Eigen::Index>(first_parameter(i)),
@@ -89,8 +94,9 @@ TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
   TwinJoint joint = make_twin_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
   for (std::size_t i = 0; i < effects_.size(); ++i)
-    joint.effects.push_back(lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales,
-                                        {joint.lanes, reference_.gear_load, reference_.scales.rate_hz}));
+    joint.effects.push_back(
+        lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales,
+                    {joint.lanes, reference_.gear_load, reference_.scales.rate_hz, reference_.given}));
   return joint;
 }
 

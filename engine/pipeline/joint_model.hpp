@@ -31,6 +31,7 @@ struct BaselineReference {
   Eigen::VectorXd parameters{};  // of the regressor
   // per sample: load that passes the gear beside the regressor's (Recording::gear_load); none
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
+  std::shared_ptr<GivenSignals const> given{};  // the recording's; none
 };
 
 // one per sample
@@ -47,7 +48,7 @@ class JointModel {
 
   Regressor const& regressor() const { return *regressor_; }
   BaselineReference const& reference() const { return reference_; }
-  // the same model on that recording: its gear load, or none
+  // the same model on that recording: its gear load and what other joints do there, or none
   void load_as_in(Recording const& recording);
   std::vector<ShapedEffect> const& effects() const { return effects_; }
   std::size_t size() const;

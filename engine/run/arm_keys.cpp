@@ -36,7 +36,7 @@ void choose_arm_effects(Experiment::Parts& parts, std::vector<Problem>& problems
       for (Effect const* effect : friction->terms()) has.push_back(effect->name());
     std::vector<Problem> own;
     parts.arm->effects.push_back(chosen_effects(parts.diagnose, model.chain().joints[j].kind, has,
-                                                section_or_empty(parts.job, "diagnose"), own));
+                                                section_or_empty(parts.job, "diagnose"), own, JointsOfJob::of_an_arm));
     if (j == 0) problems.insert(problems.end(), own.begin(), own.end());
   }
   parts.effects = parts.arm->effects.front();

@@ -6,7 +6,7 @@
 
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
-#include "engine/effects/effect.hpp"
+#include "engine/effects/given_effect.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/excite/excite_options.hpp"
 #include "engine/job/job_options.hpp"
@@ -49,7 +49,9 @@ bool is_time_of_a_channel(Effect const& effect) {
 }
 
 void add_effects(std::vector<CatalogueEntry>& entries) {
-  for (Effect const* effect : effect_choices()) {
+  std::vector<Effect const*> effects = effect_choices();
+  effects.insert(effects.end(), arm_law_choices().begin(), arm_law_choices().end());
+  for (Effect const* effect : effects) {
     CatalogueEntry entry{effect->name(), "effect", effect->title() + " [" + word(effect->family()) + "]", {}, {}};
     entry.text.push_back("family     " + joined(effect->families()));
     entry.text.push_back(
@@ -61,6 +63,7 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
     entry.text.push_back(fmt::format("acts on    {}{}", word(effect->acts_on()),
                                      effect->is_plain_term() ? "; may be a term of [model]" : "") +
                          (effect->has_plain_form() ? fmt::format(", there {}", effect->plain_equation()) : ""));
+    if (effect->is_given()) entry.text.push_back("arms       looked for at the joints of whole arms alone");
     if (is_time_of_a_channel(*effect))
       entry.text.push_back(
           "counted    from a drive that holds the torque of a row until the next row; where rows are instants it is "

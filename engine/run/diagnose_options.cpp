@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/effects/given_effect.hpp"
 #include "engine/optim/optimiser.hpp"
 #include "engine/pipeline/reversal_rows.hpp"
 #include "engine/twin/null_kind.hpp"
@@ -19,6 +20,7 @@ bool contains(std::vector<std::string> const& names, std::string const& name) {
 std::vector<std::string> catalogue_names() {
   std::vector<std::string> names;
   for (Effect const* effect : effect_choices()) names.push_back(effect->name());
+  for (Effect const* effect : arm_law_choices()) names.push_back(effect->name());
   return names;
 }
 
@@ -100,11 +102,13 @@ std::vector<std::string> DiagnoseOptions::ablations() const {
 
 std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,
                                           std::vector<std::string> const& model_terms, Section const& section,
-                                          std::vector<Problem>& problems) {
+                                          std::vector<Problem>& problems, JointsOfJob joints) {
   std::vector<Effect const*> chosen;
   if (options.effects == std::vector<std::string>{"all"}) {
     for (Effect const* effect : effect_choices())
       if (effect->exists_on(joint) && !contains(model_terms, effect->name())) chosen.push_back(effect);
+    if (joints == JointsOfJob::of_an_arm)
+      chosen.insert(chosen.end(), arm_law_choices().begin(), arm_law_choices().end());
     return chosen;
   }
   if (options.effects.empty())
@@ -113,6 +117,9 @@ std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointK
   for (auto const& name : options.effects) {
     Effect const* effect = find_effect(name);
     Problem problem = refusal(name, effect, joint, model_terms, section);
+    if (problem.what.empty() && effect->is_given() && joints == JointsOfJob::one)
+      problem = problem_at(section, "effects", fmt::format("effect \"{}\" is a law of the joints of an arm", name),
+                           "name a robot file in [model], or remove it");
     if (problem.what.empty() && std::find(chosen.begin(), chosen.end(), effect) != chosen.end())
       problem = problem_at(section, "effects", fmt::format("effect \"{}\" stands twice", name), "remove one of them");
     if (problem.what.empty())

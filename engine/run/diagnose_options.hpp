@@ -36,8 +36,11 @@ struct DiagnoseOptions {
 
 // the effects to look for: those named, in that order, or the whole catalogue as far as the joint can have it, without
 // the terms that the model has already. `section`: [diagnose], for the places in messages
+// laws of several joints exist in arms alone
+enum class JointsOfJob { one, of_an_arm };
+
 std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,
                                           std::vector<std::string> const& model_terms, Section const& section,
-                                          std::vector<Problem>& problems);
+                                          std::vector<Problem>& problems, JointsOfJob joints = JointsOfJob::one);
 
 }  // namespace torquescope

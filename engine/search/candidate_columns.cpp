@@ -68,7 +68,10 @@ Eigen::MatrixXd CandidateColumns::with_tangents() const {
 }
 
 EffectInput CandidateColumns::input_of(Effect const& effect) const {
-  return effect.has_inertia() ? EffectInput{record_->drive, reference_.scales} : baseline_.input(record_->motion);
+  EffectInput input =
+      effect.has_inertia() ? EffectInput{record_->drive, reference_.scales} : baseline_.input(record_->motion);
+  input.given = reference_.given.get();
+  return input;
 }
 
 // the columns of all shapes, one shape after the other

@@ -173,7 +173,7 @@ BaselineReference ModelStage::reference() const {
       fitted_baseline(regressor, {own.data(), regressor.size()}, twin->record.motion,
                       pipeline->cutoff_hz() > 0.0 ? pipeline->cutoff_hz() : 0.4 * pipeline->kept_rate_hz(),
                       twin->loop.loop.encoder_step);
-  return {baseline.scales, own, model().reference().gear_load};
+  return {baseline.scales, own, model().reference().gear_load, model().reference().given};
 }
 
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model) {

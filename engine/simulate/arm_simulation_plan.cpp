@@ -49,6 +49,11 @@ void read_effect(Section const& section, SerialChain const& chain, std::vector<A
   Setting const* setting = section.find("name");
   auto const* name = setting ? std::get_if<std::string>(&setting->value) : nullptr;
   Effect const* effect = name ? find_effect(*name) : nullptr;
+  if (effect != nullptr && effect->is_given()) {
+    problems.push_back(problem_at(section, "name", fmt::format("\"{}\" cannot be simulated at one joint", *name),
+                                  "remove it: it is a law of several joints, which a diagnosis looks for"));
+    return;
+  }
   if (effect == nullptr) {
     std::vector<std::string> known;
     for (Effect const* one : effect_choices()) known.push_back(one->name());

@@ -14,6 +14,13 @@
 namespace torquescope {
 namespace {
 
+// straight from tick to tick, constant beyond the ends
+double between_ticks(Eigen::VectorXd const& signal, double ticks) {
+  double const tick = std::clamp(ticks, 0.0, static_cast<double>(signal.size() - 1));
+  auto const before = static_cast<Eigen::Index>(tick), after = std::min(before + 1, signal.size() - 1);
+  return signal[before] + (tick - static_cast<double>(before)) * (signal[after] - signal[before]);
+}
+
 using LaneTorques = std::array<double, twin_lanes>;
 
 // the same in all lanes
@@ -91,11 +98,7 @@ class CatalogueEffect final : public LaneEffect {
 
   // straight from tick to tick
   double gear_load_at(double time_s) const {
-    if (!gear_load_) return 0.0;
-    Eigen::VectorXd const& load = *gear_load_;
-    double const tick = std::clamp(time_s * gear_load_rate_hz_, 0.0, static_cast<double>(load.size() - 1));
-    auto const before = static_cast<Eigen::Index>(tick), after = std::min(before + 1, load.size() - 1);
-    return load[before] + (tick - static_cast<double>(before)) * (load[after] - load[before]);
+    return gear_load_ ? between_ticks(*gear_load_, time_s * gear_load_rate_hz_) : 0.0;
   }
 
   void shift(LaneInstant const& tick, double* channel) {
@@ -166,10 +169,41 @@ class CatalogueEffect final : public LaneEffect {
 
 }  // namespace
 
+namespace {
+
+// a torque known beforehand, one per tick, straight from tick to tick; the same in all lanes
+class KnownTorque final : public LaneEffect {
+ public:
+  KnownTorque(std::shared_ptr<Eigen::VectorXd const> torque, double rate_hz)
+      : torque_(std::move(torque)), rate_hz_(rate_hz) {}
+  bool follows_steps() const override { return false; }
+  void add(LaneInstant const& at, LaneDemand& demand) override {
+    double const now = between_ticks(*torque_, at.time_s * rate_hz_);
+    for (double& lane : demand.smooth) lane += now;
+  }
+
+ private:
+  std::shared_ptr<Eigen::VectorXd const> torque_;
+  double rate_hz_;
+};
+
+LaneEffectMaker known_torque(Effect const& effect, std::vector<double> const& parameters,
+                             LaneBaseline const& baseline) {
+  Eigen::MatrixXd const* columns = baseline.given ? baseline.given->of(effect.name()) : nullptr;
+  auto torque = std::make_shared<Eigen::VectorXd const>(
+      columns == nullptr
+          ? Eigen::VectorXd::Zero(1).eval()
+          : Eigen::VectorXd(*columns * Eigen::Map<Eigen::VectorXd const>(parameters.data(), columns->cols())));
+  return [torque, rate_hz = baseline.rate_hz] { return std::make_unique<KnownTorque>(torque, rate_hz); };
+}
+
+}  // namespace
+
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneBaseline const& baseline) {
   TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear());
   TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
+  if (effect.is_given()) return known_torque(effect, parameters, baseline);
   return [&effect, parameters = std::move(parameters), scales, baseline] {
     return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline);
   };

@@ -51,7 +51,8 @@ struct LaneBaseline {
   LaneJoint joint{.inertia = 0.0};
   // load that passes the gear beside inertia and weight, one per tick from time 0 on; none
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
-  double rate_hz = 0.0;  // of it
+  double rate_hz = 0.0;                         // of it
+  std::shared_ptr<GivenSignals const> given{};  // one per tick, of laws of several joints; none
 };
 
 // a fresh object, its memory at the start of a recording

@@ -18,13 +18,13 @@ import arm_cli  # noqa: E402
 
 JOB = arm_cli.JOB.split("[[estimator]]", maxsplit=1)[0] + """
 [diagnose]
-effects = ["spring", "load_dependent_friction", "power_law_viscous"]
+effects = ["spring", "load_dependent_friction", "power_law_viscous", "friction_of_previous_joint"]
 twins = 60
 """
 
 
-def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0):
-    """law: (q, dq, torque that the rigid joint needs) -> torque in addition."""
+def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None):
+    """law: (q, dq, torque that the rigid joint needs) -> torque in addition; other: of the other joint's speed."""
     noise = random.Random(7)
     lines = ["t_s,q1_rad,q2_rad,i1_A,i2_A"]
     for k in range(int(seconds * rate_hz)):
@@ -37,6 +37,8 @@ def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0):
             rub = (truth[f"viscous_{joint}"] * dq + truth[f"coulomb_{joint}"] * math.copysign(1.0, dq)
                    + truth[f"offset_{joint}"])
             tau[joint - 1] += law(q, dq, tau[joint - 1] - rub)
+        if other:
+            tau[joint - 1] += other(moves[2 - joint][1])
         current = [value / gain + noise.gauss(0.0, 0.02) for value, gain in zip(tau, arm_cli.GAIN)]
         lines.append(f"{t:.4f},{moves[0][0]:.9f},{moves[1][0]:.9f},{current[0]:.7f},{current[1]:.7f}")
     return "\n".join(lines) + "\n"
@@ -71,6 +73,22 @@ class ArmDiagnosis(arm_cli.Arm):
                 self.assertIn(f"joint 2 ({name.replace('_', ' ')}", told["reason"])
                 self.assertLess(second["augmented"]["validation_relerr"], 0.5 * second["baseline"]["validation_relerr"])
                 os.remove(os.path.join(self.folder, "told.h5"))
+
+    def test_friction_of_a_neighbour_is_named_where_it_is_felt(self):
+        _, told = self.said_of(recording(other=lambda dq: 0.3 * dq + 0.4 * math.copysign(1.0, dq)))
+        first, second = told["joints"]
+        self.assertEqual(first["effects"], [], told["reason"])
+        self.assertEqual([one["name"] for one in second["effects"]], ["friction_of_previous_joint"], told["reason"])
+        values = {one["name"]: one["value"] for one in second["effects"][0]["parameters"]}
+        self.assertAlmostEqual(values["previous_viscous"], 0.3, delta=0.03)
+        self.assertAlmostEqual(values["previous_coulomb"], 0.4, delta=0.04)
+
+    def test_a_law_of_several_joints_is_no_term_of_one(self):
+        self.write("arm.csv", recording(seconds=1.0))
+        self.write("arm.toml", JOB.replace('friction = ["', 'friction = ["friction_of_next_joint", "'))
+        done = self.here("diagnose", "arm.toml")
+        self.assertEqual(done.code, 78)
+        self.assertIn("friction_of_next_joint", done.err)
 
     def test_the_result_keeps_the_verdict_of_each_joint(self):
         _, told = self.said_of(recording(lambda q, _dq, _load: 1.5 * q))

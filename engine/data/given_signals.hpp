@@ -1,0 +1,30 @@
+#pragma once
+// Torques on one joint that the motion of other joints makes, a unit of each parameter: columns that come with a
+// recording, since the joint's own motion does not tell them.
+//
+// Shapes     columns: n samples at the full rate x L parameters of the law of that name
+// Units      N m (or N) per unit of the parameter
+// Threads    plain record
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace torquescope {
+
+struct GivenSignals {
+  struct Law {
+    std::string name{};
+    Eigen::MatrixXd columns{};
+  };
+  std::vector<Law> laws{};
+
+  // nullptr: the recording tells nothing of that law
+  Eigen::MatrixXd const* of(std::string const& law) const {
+    for (Law const& one : laws)
+      if (one.name == law) return &one.columns;
+    return nullptr;
+  }
+};
+
+}  // namespace torquescope
