@@ -1,8 +1,8 @@
 #pragma once
 // The laws that cannot be told from an accepted one on these recordings.
 //
-// Rival      any other law in its place, its shape refined, the other accepted laws beside it. Of a law of several waves
-//            the rivals have as many, the further ones over their grid
+// Rival      any other law in its place, its shape refined, the other accepted laws beside it. Of a law of several
+//            waves the rivals have as many, the further ones over their grid
 // Excluded   when the accepted law gains clearly more over folds and blocks of unseen rows (paired, one-sided, level
 //            5 %), and more than a law's form may be off; a rival that is itself no clear gain, or stands at a bound,
 //            is none

@@ -6,8 +6,8 @@
 //            stand in `places`, all of it
 // Memory     one group of replicates per thread at the full rate, whatever the count
 // Bits       what visit() gets depends on the address and the replicate alone
-// Errors     whatever the pipeline or visit() throws; a replicate that diverged, or sticks where the recording moves, is
-//            visited with ran_away = true and an empty record
+// Errors     whatever the pipeline or visit() throws; a replicate that diverged, or sticks where the recording moves,
+//            is visited with ran_away = true and an empty record
 // Threads    `threads` of base/parallel
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 // Weight along a direction that the robot file does not say: the arm stands on a tilted base.
 //
-// Equation   tau = t_1 y_j(q, 0, 0; |g| e_1) chi + t_2 y_j(q, 0, 0; |g| e_2) chi, e_1, e_2 at right angles to the gravity
-//            of the file; t: tilt of the base [rad], small. chi: base parameters, which say nothing of what weighs on no
-//            joint along the file's gravity: a first joint that stands upright feels a little more
+// Equation   tau = t_1 y_j(q, 0, 0; |g| e_1) chi + t_2 y_j(q, 0, 0; |g| e_2) chi, e_1, e_2 at right angles to gravity
+//            of the file; t: tilt of the base [rad], small. chi: base parameters, which say nothing of what weighs on
+//            no joint along the file's gravity: a first joint that stands upright feels a little more
 // Source     Hollerbach, Khalil, Gautier 2016, Springer Handbook of Robotics, section 6.3 (gravity in the base frame)
 
 #include "engine/effects/given_effect.hpp"
