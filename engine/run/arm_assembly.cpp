@@ -50,12 +50,13 @@ std::string digest_of(SerialChain const& chain) {
 }
 
 Files read_files(Job const& job, std::vector<std::string> const& files, RecordingOptions const& options,
-                 CarriedPayloads const& payloads, std::vector<std::string> const& joint_names) {
+                 CarriedPayloads const& payloads, std::vector<std::string> const& joint_names,
+                 RecordedTables const& tables) {
   Section const section = section_or_empty(job, "recording");
   auto const of_joints = joint_options(options, joint_names, section);
   Files recordings;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    RawTable const table = read_table(job.resolve(files[k]), section);
+    RawTable const table = table_of_job(job, files[k], section, tables);
     for (auto const& one : of_joints) refuse_huge_samples(table, one);
     recordings.push_back({make_arm_recording(table, of_joints, joint_names, section).joints, payloads[k]});
   }
@@ -231,10 +232,11 @@ ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Paylo
   return arm;
 }
 
-void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads) {
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads,
+                   RecordedTables const& tables) {
   auto const names = parts.arm->model.joint_names();
-  Files train = read_files(parts.job, options.train, options, payloads.train, names);
-  Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names);
+  Files train = read_files(parts.job, options.train, options, payloads.train, names, tables);
+  Files unseen = read_files(parts.job, options.validate, options, payloads.validate, names, tables);
   split_files(train, unseen, options.train_share);
   bring_files_to_one_rate(train, unseen);
   for (auto& file : train) grade_standstill(file.joints);

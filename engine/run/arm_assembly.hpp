@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "engine/data/recorded_tables.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/run/arm_payloads.hpp"
 #include "engine/run/experiment_parts.hpp"
@@ -16,7 +17,8 @@ namespace torquescope {
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads = {});
 
 // fills train, validate, the filter where the job has none, and what the arm's training rows tell
-void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads);
+void use_arm_files(Experiment::Parts& parts, RecordingOptions const& options, PayloadPlan const& payloads,
+                   RecordedTables const& tables);
 // the same, and truth, from a simulation
 void use_arm_simulation(Experiment::Parts& parts, ArmSimulationPlan const& plan);
 

@@ -68,10 +68,11 @@ void check_sources(Job const& job, RecordingOptions const& recording, std::vecto
 }
 
 std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> const& files,
-                                       RecordingOptions const& options, Section const& section) {
+                                       RecordingOptions const& options, Section const& section,
+                                       RecordedTables const& tables) {
   std::vector<Recording> recordings;
   for (auto const& file : files) {
-    RawTable const table = read_table(job.resolve(file), section);
+    RawTable const table = table_of_job(job, file, section, tables);
     refuse_huge_samples(table, options);
     recordings.push_back(make_recording(table, options, section));
   }
@@ -119,10 +120,10 @@ void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan, Channe
       if (name == names[i]) parts.truth[static_cast<Eigen::Index>(i)] = value;
 }
 
-void use_files(Experiment::Parts& parts, RecordingOptions const& options) {
+void use_files(Experiment::Parts& parts, RecordingOptions const& options, RecordedTables const& tables) {
   Section const section = section_or_empty(parts.job, "recording");
-  parts.train.recordings = read_recordings(parts.job, options.train, options, section);
-  std::vector<Recording> unseen = read_recordings(parts.job, options.validate, options, section);
+  parts.train.recordings = read_recordings(parts.job, options.train, options, section, tables);
+  std::vector<Recording> unseen = read_recordings(parts.job, options.validate, options, section, tables);
   split_off_unseen(parts.train.recordings, unseen, options.train_share);
   double const rate_hz = rate_of_job(parts.train.recordings, unseen);
   bring_to_rate(parts.train.recordings, rate_hz);
@@ -247,7 +248,7 @@ Experiment Experiment::load(std::filesystem::path const& job_file, Purpose purpo
   return load(read_job_file(job_file), purpose);
 }
 
-Experiment Experiment::load(Job text, Purpose purpose) {
+Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tables) {
   refuse_small_stack();
   auto parts = std::make_unique<Parts>();
   parts->job = std::move(text);
@@ -302,12 +303,12 @@ Experiment Experiment::load(Job text, Purpose purpose) {
   if (is_arm && simulates) {
     use_arm_simulation(*parts, arm_plan);
   } else if (is_arm) {
-    use_arm_files(*parts, recording, payloads);
+    use_arm_files(*parts, recording, payloads, tables);
   } else {
     if (simulates)
       use_simulation(*parts, plan, channels);
     else
-      use_files(*parts, recording);
+      use_files(*parts, recording, tables);
     if (!simulates) choose_filter(*parts);
     prepare(parts->train, *parts, channels);
     if (parts->validate) prepare(*parts->validate, *parts, channels);

@@ -11,6 +11,11 @@
 
 namespace torquescope {
 
+RawTable table_of_job(Job const& job, std::string const& name, Section const& section, RecordedTables const& tables) {
+  auto const in_memory = tables.find(name);
+  return in_memory != tables.end() ? in_memory->second : read_table(job.resolve(name), section);
+}
+
 double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate) {
   constexpr double about_the_same = 0.1;
   double const first = train.front().rate_hz;

@@ -1,13 +1,19 @@
 #pragma once
-// What the recordings of one job share: a sampling rate, and who may see them.
+// What the recordings of one job share: where they come from, a sampling rate, and who may see them.
 //
 // Threads    free functions
 
+#include <string>
 #include <vector>
 
+#include "engine/data/recorded_tables.hpp"
 #include "engine/data/recording.hpp"
+#include "engine/job/job.hpp"
 
 namespace torquescope {
+
+// the table in memory of this name, else that of the file beside the job; Errors: those of read_table()
+RawTable table_of_job(Job const& job, std::string const& name, Section const& section, RecordedTables const& tables);
 
 // that of the first where all are about the same, else the lowest
 double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate);

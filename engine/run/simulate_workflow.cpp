@@ -81,11 +81,14 @@ SimulateReport simulate_one_arm(Job const& job, ModelOptions const& model, Exper
 }  // namespace
 
 SimulateReport simulate_recording(std::filesystem::path const& job_file, std::filesystem::path const& output) {
-  Job const job = read_job_file(job_file);
+  return simulate_recording(read_job_file(job_file), output);
+}
+
+SimulateReport simulate_recording(Job const& job, std::filesystem::path const& output) {
   std::vector<Problem> problems;
   check_section_names(job, problems);
   auto experiment = read_options<ExperimentOptions>(job, problems);
-  if (experiment.name.empty()) experiment.name = job_file.stem().string();
+  if (experiment.name.empty()) experiment.name = job.path.stem().string();
   auto const model = read_options<ModelOptions>(job, problems);
   if (!job.find("simulate")) {
     Problem problem;

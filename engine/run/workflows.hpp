@@ -14,6 +14,7 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/data/finding.hpp"
+#include "engine/data/recorded_tables.hpp"
 #include "engine/job/job.hpp"
 #include "engine/run/progress_update.hpp"
 #include "engine/store/segment_folder.hpp"
@@ -41,7 +42,8 @@ class Experiment {
   enum class Purpose { identify, diagnose, check };
   // Errors: 66, 65, 78 with everything that can be refused before starting
   static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
-  static Experiment load(Job job, Purpose purpose);  // of a text that need not be a file yet
+  // of a text that need not be a file yet; a recording that it names is looked for in `tables` before any file is
+  static Experiment load(Job job, Purpose purpose, RecordedTables const& tables = {});
   Experiment(Experiment&&) noexcept;
   ~Experiment();
 
@@ -170,6 +172,7 @@ struct SimulateReport {
   std::uintmax_t bytes = 0;
 };
 SimulateReport simulate_recording(std::filesystem::path const& job_file, std::filesystem::path const& output);
+SimulateReport simulate_recording(Job const& job, std::filesystem::path const& output);
 
 // searches the motion that the job's [excite] asks for, and writes it: CSV. The same file on any number of threads
 struct ExciteReport {

@@ -9,6 +9,7 @@ namespace assemble_test {
 
 using test::load_job;
 using test::simulated_joint;
+using test::TemporaryFolder;
 
 TEST(LoadExperiment, KnowsTheTruthOfSimulatedData) {
   Experiment const experiment = load_job(test::joint_model + "[[estimator]]\nname = \"ols\"\n" + simulated_joint);
@@ -39,6 +40,40 @@ TEST(LoadExperiment, RefusesTwoSourcesOfDataAndNone) {
   std::string const fit = "[model]\nterms = [\"inertia\"]\n[[estimator]]\nname = \"ols\"\n";
   EXPECT_THROW(load_job(fit), Error);
   EXPECT_THROW(load_job(fit + "[recording]\ntrain = \"a.csv\"\n" + simulated_joint), Error);
+}
+
+// columns of a file are those of the same numbers in memory, and the file is never looked for
+TEST(LoadExperiment, TakesARecordingFromMemoryAsFromItsFile) {
+  TemporaryFolder const folder;
+  auto const simulated = folder.write("simulate.toml", "[model]\nterms = [\"inertia\"]\n" + simulated_joint);
+  simulate_recording(simulated, folder / "motion.csv");
+  std::string const job = test::joint_model +
+                          "[[estimator]]\nname = \"ols\"\n[recording]\ntrain = \"motion.csv\"\n"
+                          "columns = {time = \"t_s\", position = \"q_rad\", torque = \"tau_Nm\"}\n";
+  auto const job_file = folder.write("job.toml", job);
+  auto const from_file = Experiment::load(job_file);
+
+  RawTable const read = read_table(folder / "motion.csv", {"recording", {}, {}});
+  NamedColumns columns;
+  for (std::size_t c = 0; c < read.names.size(); ++c) columns.emplace_back(read.names[c], read.columns[c]);
+  std::filesystem::remove(folder / "motion.csv");
+  EXPECT_THROW(Experiment::load(job_file), Error);
+  RecordedTables const tables{{"motion.csv", table_in_memory("motion.csv", columns)}};
+  auto const from_memory = Experiment::load(read_job(job_file), Experiment::Purpose::identify, tables);
+
+  auto const &file_rows = from_file.parts().train.regression, &memory_rows = from_memory.parts().train.regression;
+  EXPECT_EQ(file_rows.phi, memory_rows.phi);
+  EXPECT_EQ(file_rows.tau, memory_rows.tau);
+  EXPECT_EQ(from_memory.parts().train.recordings.front().name, "motion.csv");
+}
+
+TEST(LoadExperiment, KnowsRecordingsInMemoryByTheirNumbers) {
+  std::vector<double> const rising{1.0, 2.0, 3.0}, falling{3.0, 2.0, 1.0};
+  auto const digest = [](std::string const& name, std::vector<double> const& values) {
+    return table_in_memory(name, {{"a", values}, {"b", values}}).sha256;
+  };
+  EXPECT_EQ(digest("x", rising), digest("y", rising));
+  EXPECT_NE(digest("x", rising), digest("x", falling));
 }
 
 }  // namespace assemble_test
