@@ -6,7 +6,7 @@ set(layers kernels)
 file(STRINGS ${SOURCE}/engine/layers.txt lines REGEX ":")
 foreach(line IN LISTS lines)
   string(REGEX REPLACE ":.*" "" layer "${line}")
-  if(NOT layer MATCHES "^(kernels|app)$")  # what people type and read, not what is computed
+  if(NOT layer MATCHES "^(kernels|app|python)$")  # what people type and read, not what is computed
     list(APPEND layers engine/${layer})
   endif()
 endforeach()

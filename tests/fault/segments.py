@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 import study
-from content_digest import content_sha256
+from torquescope.reader.content_digest import content_sha256
 
 
 def set_text(group, name, text):

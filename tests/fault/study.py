@@ -21,7 +21,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "report"))
 sys.path.insert(0, os.path.join(HERE, "..", "jobs"))
 
 import simulated_job  # noqa: E402
-from file_seal import FOOTER  # noqa: E402
+from torquescope.reader.file_seal import FOOTER  # noqa: E402
 
 PROGRAM = os.environ["TORQUESCOPE"]
 SEED = int(os.environ.get("FAULT_SEED", time.time_ns() % 1_000_000))

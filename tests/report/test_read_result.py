@@ -17,9 +17,8 @@ import numpy as np
 
 WRITER, SCRIPTS = sys.argv[1:3]
 sys.path.insert(0, SCRIPTS)
-import read_result  # noqa: E402
-from content_digest import content_sha256  # noqa: E402
-from read_result import Result, ResultError  # noqa: E402
+from torquescope.reader import Result, ResultError, summary  # noqa: E402
+from torquescope.reader.content_digest import content_sha256  # noqa: E402
 
 
 class ReadsWhatTheStoreWrote(unittest.TestCase):
@@ -91,7 +90,7 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
             self.assertTrue(file["runs/fade/population"].fletcher32)
 
     def test_summary_names_every_estimator_and_parameter(self):
-        text = "\n".join(read_result.summary(self.result))
+        text = "\n".join(summary(self.result))
         for word in ("crs_a465_joint", "300 samples of a.csv, b.csv", "inertia", "0.0036", "ols", "fade"):
             self.assertIn(word, text)
 
@@ -159,10 +158,12 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
     def test_a_file_that_crashes_hdf5_ends_in_one_error(self):
         """Whatever happens to the child that looks first, this process lives on."""
         code = (
-            "import os, signal, sys; sys.path.insert(0, sys.argv[2]); import first_look, read_result\n"
+            "import os, signal, sys; sys.path.insert(0, sys.argv[2])\n"
+            "from torquescope import reader\n"
+            "from torquescope.reader import first_look\n"
             "first_look._look = lambda *_: os.kill(os.getpid(), getattr(signal, sys.argv[3]))\n"
-            "try: read_result.Result(sys.argv[1])\n"
-            "except read_result.ResultError as error: print(error)\n"
+            "try: reader.Result(sys.argv[1])\n"
+            "except reader.ResultError as error: print(error)\n"
         )
         for number in ("SIGSEGV", "SIGXCPU", "SIGKILL"):
             run = subprocess.run([sys.executable, "-B", "-c", code, self.name, SCRIPTS, number],

@@ -28,7 +28,7 @@ bool is_tested(Candidate const& one) { return one.decision != Decision::not_test
 bool is_taken(Candidate const& one) { return is_tested(one) && one.decision != Decision::rejected; }
 
 // by columns that are shown: what was taken, then the smallest p that counts, equal ones by z; as the page
-// (scripts/report/tables_of_diagnosis.py)
+// (scripts/report/torquescope/page/tables_of_diagnosis.py)
 std::vector<Candidate const*> in_order(JointDiagnosis const& joint) {
   double const least = least_p(joint.twins);
   auto const rank = [least](Candidate const& one) {

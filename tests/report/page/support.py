@@ -76,7 +76,7 @@ def result(kind):
 
 @lru_cache(maxsize=None)
 def study(kind):
-    from study import Study
+    from torquescope.page.study import Study
     return Study(result(kind))
 
 
@@ -85,9 +85,7 @@ def page(kind):
     """Path of the built page: ctest's (make_pages.py), or one of this process."""
     if PAGES and (made := Path(PAGES) / f"{kind}.html").exists():
         return made
-    import board
-    import build
-    import build_board
+    from torquescope.page import board, build, build_board
     path = FOLDER / f"{kind}.html"
     text = build_board.page(board.Board(result(kind))) if kind in make_board.KINDS else build.page(study(kind))
     path.write_text(text, encoding="utf-8")

@@ -7,10 +7,9 @@ import h5py
 import numpy as np
 import support
 import make_arm_result
-import tables_of_arm
-import words_of_arm
-from figures import all_cases
-from study import Study
+from torquescope.page import tables_of_arm, words_of_arm
+from torquescope.page.figures import all_cases
+from torquescope.page.study import Study
 
 
 def changed(change):

@@ -10,11 +10,9 @@ from pathlib import Path
 
 import support
 
-import board
-import build_board
-import figure
+from torquescope.page import board, build_board, figure
 import make_board
-from figures import BOARD_MODULES, board_cases
+from torquescope.page.figures import BOARD_MODULES, board_cases
 
 
 def text_of(page):
@@ -40,7 +38,7 @@ class BoardPage(unittest.TestCase):
 
     def test_every_figure_module_draws_something(self):
         used = {case.draw.__module__ for case in board_cases(self.board).values()}
-        self.assertEqual(used, {f"figures.{module}" for module in BOARD_MODULES})
+        self.assertEqual(used, {f"torquescope.page.figures.{module}" for module in BOARD_MODULES})
 
     def test_misses_say_what_was_concealed_and_what_was_said(self):
         wrong = self.board.ours["misses"]

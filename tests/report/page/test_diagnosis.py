@@ -9,15 +9,13 @@ import types
 import unittest
 
 import support
-import build
-import diagnosed
+from torquescope.page import build, diagnosed
 import h5py
 import numpy as np
-import tables_of_diagnosis
-import words_of_diagnosis
-from figures import all_cases, diagnosed_trace, mismatch_map, parameters_before_after
-from read_result import Result, summary
-from study import Study
+from torquescope.page import tables_of_diagnosis, words_of_diagnosis
+from torquescope.page.figures import all_cases, diagnosed_trace, mismatch_map, parameters_before_after
+from torquescope.reader.read_result import Result, summary
+from torquescope.page.study import Study
 from vary_diagnosis import HOSTILE_WORDS
 
 LEAST_P = 1 / 201

@@ -7,11 +7,10 @@ import unittest
 from pathlib import Path
 
 import support
-import build
-import style
-from figures import DIAGNOSIS_MODULES, RECORDING_MODULES, STUDY_MODULES, all_cases
+from torquescope.page import build, style
+from torquescope.page.figures import DIAGNOSIS_MODULES, RECORDING_MODULES, STUDY_MODULES, all_cases
 
-SCRIPT = Path(build.__file__).with_name("figure.py")
+SCRIPT = Path(__file__).resolve().parents[3] / "scripts/report/figure.py"
 
 
 class Figures(unittest.TestCase):
@@ -28,12 +27,13 @@ class Figures(unittest.TestCase):
 
     def test_the_seed_study_uses_every_figure_module(self):
         used = {case.draw.__module__ for case in all_cases(support.study("crs")).values()}
-        self.assertEqual(used, {f"figures.{module}" for module in STUDY_MODULES + RECORDING_MODULES})
+        self.assertEqual(used, {f"torquescope.page.figures.{module}" for module in STUDY_MODULES + RECORDING_MODULES})
 
     @support.needs_diagnoses
     def test_a_diagnosis_uses_every_figure_module(self):
         used = {case.draw.__module__ for kind in ("named", "none") for case in all_cases(support.study(kind)).values()}
-        self.assertEqual(used, {f"figures.{module}" for module in DIAGNOSIS_MODULES + RECORDING_MODULES})
+        expected = DIAGNOSIS_MODULES + RECORDING_MODULES
+        self.assertEqual(used, {f"torquescope.page.figures.{module}" for module in expected})
 
     @support.needs_diagnoses
     def test_the_command_writes_the_map_of_a_diagnosis(self):

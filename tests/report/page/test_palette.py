@@ -8,7 +8,7 @@ import unittest
 
 import support
 import numpy as np
-import style
+from torquescope.page import style
 
 SEEN_BY = {
     "everybody": np.eye(3),

@@ -7,8 +7,7 @@ import zlib
 
 import support
 import numpy as np
-import thin
-import traces
+from torquescope.page import thin, traces
 
 
 def columns_covered(x, y, columns, start, stop):

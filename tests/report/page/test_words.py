@@ -8,13 +8,8 @@ import unittest
 import h5py
 import numpy as np
 import support
-import diagnosed
-import quantities as q
-import seed
-import tables
-import words
-import words_of_diagnosis
-from study import Study
+from torquescope.page import diagnosed, quantities as q, seed, tables, words, words_of_diagnosis
+from torquescope.page.study import Study
 
 
 def changed(kind, change):

@@ -1,0 +1,1 @@
+"""Identifies robot dynamics from recordings and names the physics a model lacks."""

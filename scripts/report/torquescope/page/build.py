@@ -1,0 +1,125 @@
+"""One self-contained page from a result: look first, read second, dig third.
+
+    build.py R.h5 [--out R.html]
+
+Nothing is fetched when it is opened: pictures, samples, style and script are inside.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import jinja2
+
+from ..errors import ResultError
+from . import diagnosed, quantities, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words, words_of_arm
+from . import words_of_diagnosis
+from .figures import all_cases
+from .study import Study
+
+HERE = Path(__file__).resolve().parent
+
+
+def page(study):
+    """The text of the page."""
+    body = (_of_diagnosis if study.diagnosis else _of_arm if study.arm else _of_study)(study)
+    return render(
+        all_cases(study),
+        study=study,
+        tables=tables,
+        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators],
+        **body,
+    )
+
+
+def render(cases, **said):
+    """A page of these figures ({name: figures.Case}): `parts` are its templates, the rest is what they say."""
+    lines = sum(len(case.traces.get("series", ())) for case in cases.values())
+    most = min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // max(1, lines))
+    figures, samples = {}, {}
+    for name, case in cases.items():
+        figures[name] = _figure(name, case, most)
+        if case.traces:
+            samples[name] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"], most)
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["script_json"] = script_json
+    return environment.get_template("page.html").render(
+        words=words, q=quantities, figures=figures, samples=samples, css=(HERE / "page.css").read_text(),
+        js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1), **said)
+
+
+def script_json(text):
+    """JSON as it may stand in a script element: nothing in it ends the element ("</script>") or hides its end
+    ("<!--<script>"). JSON has these letters in texts alone, where an escape means the same."""
+    for letter in "<>&\u2028\u2029":
+        text = text.replace(letter, f"\\u{ord(letter):04x}")
+    return jinja2.utils.markupsafe.Markup(text)
+
+
+def _of_study(study):
+    return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study),
+            "numbers": words.big_numbers(study), "verdict_json": ""}
+
+
+def _of_arm(study):
+    return {"parts": ["arm.html", "recording.html"], "verdict": words_of_arm.verdict(study),
+            "head": words_of_arm.head(study), "numbers": words_of_arm.big_numbers(study), "say": words_of_arm,
+            "lists": tables_of_arm, "verdict_json": ""}
+
+
+def _of_diagnosis(study):
+    joints = study.diagnosis.joints
+    parts = ["diagnosis.html"] if study.arm else ["diagnosis.html", "recording.html"]  # a recording of one joint
+    return {"parts": parts, "verdict": words_of_diagnosis.verdict(study),
+            "head": words_of_diagnosis.head(study),
+            "numbers": words_of_diagnosis.big_numbers(joints[0]) if len(joints) == 1 else [], "say": words_of_diagnosis,
+            "lists": tables_of_diagnosis, "diagnosed": diagnosed,
+            "verdict_json": study.diagnosis.verdict_json}
+
+
+def _figure(name, case, most):
+    drawn = []
+    for width, css_class in ((style.WIDE, "wide"), (style.SMALL, "narrow")) if case.wide else ((style.SMALL, "small"),):
+        figure = case.figure(width)
+        data = {"layout": figure.trace_layout, "samples": name} if case.traces else {}
+        drawn.append(svg.inline(figure, name, case.title, case.sentence, css_class, data))
+    thinned = case.traces and len(case.traces["time"]) > most
+    sentence = case.sentence + (
+        f" Zooming shows {quantities.whole(most)} of {quantities.whole(len(case.traces['time']))} "
+        f"samples: where the {case.traces['guided_by']} is lowest and highest in each stretch."
+        if thinned
+        else ""
+    )
+    return {
+        "title": case.title,
+        "sentence": sentence,
+        "svg": "".join(drawn),
+        "wide": case.wide,
+        "zooms": bool(case.traces),
+    }
+
+
+def _variables(theme):
+    return "".join(f"--{name}:{pair[theme]};" for name, pair in style.PALETTE.items())
+
+
+def _dashes(dashes):
+    return "" if dashes == "solid" else " ".join(str(length) for length in dashes[1])
+
+
+def main(arguments):
+    """0, or 65 where the result is at fault."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("result", help="R.h5, complete")
+    parser.add_argument("--out", help="R.html (default: the result's name)")
+    options = parser.parse_args(arguments)
+    out = Path(options.out or Path(options.result).with_suffix(".html"))
+    try:
+        text = page(Study(options.result))
+    except ResultError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 65
+    out.write_text(text, encoding="utf-8")
+    print(f"wrote  {out}  {out.stat().st_size / 1e6:.1f} MB")
+    return 0

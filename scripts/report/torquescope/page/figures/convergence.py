@@ -1,0 +1,68 @@
+"""How each search approached the least-squares optimum: MSE above the floor, every run thin, the median thick."""
+
+import numpy as np
+
+from .. import quantities, style
+from . import Case
+from ..study import held
+
+TITLE = "Convergence to the least-squares floor"
+MOST_RUNS = 60  # thin lines: more only make a smear
+LOWEST = 1e-18  # below this the quadratic form is rounding
+
+
+def draw(histories, unit, width=style.SMALL):
+    """histories: [(label, gap [run][G+1] in squared units, colour, dashes)]."""
+    canvas = style.Canvas(width, 240)
+    axes = canvas.axes(50, 30, width - 14, 196, yscale="log")
+    top, bottom = -np.inf, np.inf
+    medians = []
+    for label, gaps, colour, dashes in histories:
+        gaps = np.maximum(held(gaps), LOWEST)
+        generations = np.arange(gaps.shape[1])
+        for run in gaps[:MOST_RUNS]:
+            axes.plot(generations, run, color=colour, linewidth=0.7, alpha=0.28)
+        median = np.median(gaps, axis=0)
+        axes.plot(generations, median, color=colour, linestyle=dashes, linewidth=2.4)
+        medians.append((label, median, colour))
+        top, bottom = max(top, gaps.max()), min(bottom, gaps.min())
+    low, high = 10.0 ** np.floor(np.log10(bottom)), 10.0 ** np.ceil(np.log10(top))
+    last = max(len(median) for _, median, _ in medians) - 1
+    axes.set(xlim=(0, last), ylim=(low, high), xlabel="generation")
+    axes.xaxis.labelpad = 3
+    style.decades(axes.yaxis, low, high)
+    style.few_ticks(axes.xaxis, 4)
+    _label(axes, medians, low, high, last)
+    canvas.text(0, 16, f"MSE above the floor, {unit}")
+    return canvas.figure
+
+
+def _label(axes, medians, low, high, last):
+    # names where the curves have parted, each beside its own curve; the steepest is named below its curve, the others
+    # above
+    at = int(0.62 * last)
+    heights = [np.log10(median[min(at, len(median) - 1)]) for _, median, _ in medians]
+    decades = np.log10(high / low)
+    step = 16 * decades / 166  # 16 px
+    order = np.argsort(heights)
+    wanted = [h + (1.1 * step if i != order[0] or len(medians) == 1 else -1.1 * step) for i, h in enumerate(heights)]
+    for (label, _, colour), y in zip(
+        medians, style.spread(wanted, step, np.log10(low) + 0.6 * step, np.log10(high) - step)
+    ):
+        right = y > heights[[m[0] for m in medians].index(label)]
+        axes.text(at, 10.0**y, style.fit(label, 110), color=colour, fontweight="bold", va="center",
+                  ha="left" if right else "right")
+
+
+def cases(study):
+    histories = [(e.short, e.gap_history, e.ink, e.dashes) for e in study.searches if e.gap_history is not None]
+    if not histories:
+        return {}
+    runs = max(len(gaps) for _, gaps, _, _ in histories)
+    some = f" ({MOST_RUNS} of {quantities.whole(runs)} runs are drawn)" if runs > MOST_RUNS else ""
+    sentence = f"Each thin line is one run{some}, the thick line the median of all. A straight fall is a rate."
+    return {
+        "convergence": Case(
+            draw, {"histories": histories, "unit": quantities.square(study.effort_unit)}, TITLE, sentence
+        )
+    }

@@ -1,0 +1,101 @@
+"""The torque of a recording and what the model leaves of it before and after, in three aligned rows on one scale."""
+
+import math
+
+import numpy as np
+
+from .. import diagnosed, quantities, style, traces
+from . import Case
+
+WITHIN = ("velocity", "position", "time")  # axes whose value a trace holds sample by sample
+
+
+def draw(time, torque, before, after, floor, window, regions, effort, symbol, unit, width=style.WIDE):
+    """Arrays [n]; after: None without one; floor: half height of the band of what noise alone leaves, 0 unknown;
+    regions [k][2]: times between which the motion is inside a located region."""
+    measured = traces.Line("measured", torque, style.LIGHT["ink"], thickness=1.2)
+    rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured], 130, *traces.scale(torque))]
+    limit = 1.05 * float(np.nanmax(np.abs(before)))
+    for words, part, values, colour in (
+        ("residual before", "before", before, "baseline"),
+        ("residual after", "after", after, "augmented"),
+    ):
+        if values is not None:
+            line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1)
+            rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
+    return traces.draw(time, rows, window, traces.Line("measured", torque, style.LIGHT["ink"]), width, regions)
+
+
+def window_of_most_gain(time, before, after, length=traces.OPENED_S):
+    """(start, stop) of the `length` seconds in which the residual's energy falls most, or is largest without an
+    after."""
+    first, last = float(time[0]), float(time[-1])
+    if last - first <= 1.3 * length:
+        return first, last
+    gain = np.nan_to_num(before) ** 2 - (np.nan_to_num(after) ** 2 if after is not None else 0.0)
+    summed = np.concatenate([[0.0], np.cumsum(gain)])
+    ends = np.searchsorted(time, time + length, "right")
+    starts = np.arange(len(time))[time <= last - length]
+    start = max(round(float(time[starts[np.argmax(summed[ends[starts]] - summed[starts])]]), 1), first)
+    return start, start + length
+
+
+def times_inside(trace, intervals):
+    """[k][2]: when the motion is inside one of the intervals (of axes in WITHIN)."""
+    inside = np.zeros(len(trace.time), dtype=bool)
+    for interval in intervals:
+        values = getattr(trace, interval.axis)
+        if len(values):
+            inside |= (values >= interval.start) & (values <= interval.stop)
+    turns = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int))).reshape(-1, 2)
+    return [(float(trace.time[begin]), float(trace.time[end - 1])) for begin, end in turns if end - begin > 1]
+
+
+def cases(study):
+    found = {}
+    for joint in study.diagnosis.joints:
+        regions = [e.region for e in joint.effects] + [where for where, _ in joint.unexplained]
+        regions = [region for region in regions if region.axis in WITHIN]
+        for number, trace in enumerate(joint.traces, start=1):
+            if not len(trace.time) or not np.isfinite(trace.before).any():
+                continue
+            name = diagnosed.figure_name(study, joint, f"trace_{number}")
+            found[name] = _case(study, joint, trace, regions)
+    return found
+
+
+def _case(study, joint, trace, regions):
+    after = trace.after if diagnosed.has_after(joint) and np.isfinite(trace.after).any() else None
+    floor = _floor(joint, trace)
+    window = window_of_most_gain(trace.time, trace.before, after)
+    arguments = {
+        "time": trace.time,
+        "torque": trace.torque,
+        "before": trace.before,
+        "after": after,
+        "floor": 2 * floor,
+        "window": window,
+        "regions": times_inside(trace, regions),
+        "effort": study.effort,
+        "symbol": study.symbol,
+        "unit": quantities.unit(joint.unit_torque),
+    }
+    whole = window[1] - window[0] >= trace.time[-1] - trace.time[0]
+    opened = "" if whole else (" Opened on the six seconds that gain most." if after is not None
+                               else " Opened on the six seconds with most residual.")
+    sentence = f"Residuals on one scale, left out where the joint turns round.{opened}"
+    if floor:
+        sentence += " Band: ±2 sd of the floor."
+    if regions:
+        shaded = quantities.listed(dict.fromkeys(diagnosed.axis_title(r.axis) for r in regions))
+        sentence += f" Shaded: {shaded} in the located region."
+    series = {"measured": trace.torque, "before": trace.before} | ({"after": after} if after is not None else {})
+    return Case(draw, arguments, f"{study.effort.capitalize()} of {trace.recording}", sentence, wide=True,
+                traces={"time": trace.time, "series": series, "guide": trace.before, "guided_by": "residual"})
+
+
+def _floor(joint, trace):
+    """Standard deviation that a complete model would leave of this trace; 0 when it is not known."""
+    rows = np.isfinite(trace.before)
+    rms = float(np.sqrt(np.mean(trace.torque[rows] ** 2)))
+    return joint.floor_relerr * rms if math.isfinite(joint.floor_relerr) else 0.0

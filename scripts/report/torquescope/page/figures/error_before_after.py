@@ -1,0 +1,69 @@
+"""The relative error before and after, in training, in blocked cross-validation and unseen, with the floor; from
+zero."""
+
+import numpy as np
+
+from .. import diagnosed, quantities, style
+from . import Case
+
+ROW = 34
+
+
+def draw(rows, width=style.WIDE):
+    """rows: [(label, before, after, floor)] as fractions, NaN where not measured."""
+    narrow = width < style.WIDE
+    left, right = (96 if narrow else 150), width - (14 if narrow else 170)
+    bottom = 8 + ROW * len(rows)
+    canvas = style.Canvas(width, bottom + 46)
+    axes = canvas.axes(left, 4, right, bottom)
+    for index, (label, before, after, floor) in enumerate(rows):
+        y = -index
+        if np.isfinite(floor):
+            axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1)
+        if np.isfinite(after):
+            axes.plot([100 * before, 100 * after], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
+            axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4)
+        axes.plot(100 * before, y, marker="o", markersize=9, color=style.LIGHT["baseline"], zorder=3)
+        line = 4 + (bottom - 4) * (index + 0.5) / len(rows) + 4
+        canvas.text(0, line, label, color=style.LIGHT["ink"])
+        if not narrow:
+            words = quantities.percent(before, 3) + (f" → {quantities.percent(after, 3)}" if np.isfinite(after) else "")
+            canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
+    largest = 100 * np.nanmax([value for _, *values in rows for value in values])
+    axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
+    axes.set_xlabel("relative error (%)" if narrow else "relative error (% of the measured signal)", labelpad=3)
+    style.few_ticks(axes.xaxis, 4 if narrow else 8)
+    return canvas.figure
+
+
+def rows_of(joint):
+    """[(label, before, after, floor)] of what was measured."""
+    changed = diagnosed.has_after(joint)
+    # no floor was worked out for blocks of the training recording
+    rows = [("train", joint.train_relerr, joint.augmented_train_relerr, joint.train_floor_relerr),
+            ("blocked CV", joint.cv_relerr, joint.augmented_cv_relerr, np.nan),
+            ("unseen", joint.validation_relerr, joint.augmented_validation_relerr, joint.floor_relerr)]
+    return [
+        (label, before, after if changed else np.nan, floor)
+        for label, before, after, floor in rows
+        if np.isfinite(before)
+    ]
+
+
+def cases(study):
+    return {diagnosed.figure_name(study, joint, "error_before_after"): _case(rows_of(joint))
+            for joint in study.diagnosis.joints if rows_of(joint)}
+
+
+def _case(rows):
+    unseen = any(label == "unseen" for label, *_ in rows)
+    sentence = "Norm of the residual over norm of the measured signal"
+    if any(np.isfinite(floor) for *_, floor in rows):
+        sentence += "; grey bar: the floor, which a complete model would reach"
+    return Case(
+        draw,
+        {"rows": rows},
+        "Error in training and unseen" if unseen else "Error in training",
+        f"{sentence}.",
+        wide=True,
+    )

@@ -1,0 +1,45 @@
+"""Relative error of every estimator on the training and on the unseen recording; the axis starts at zero."""
+
+import numpy as np
+
+from .. import quantities, style
+from . import Case
+
+ROW = 34
+
+
+def draw(rows, width=style.WIDE):
+    """rows: [(label, train, unseen, colour)] as fractions; unseen NaN when there is none."""
+    canvas = style.Canvas(width, 34 + ROW * len(rows) + 46)
+    narrow = width < style.WIDE
+    left = 104 if narrow else 150
+    bottom = 34 + ROW * len(rows)
+    axes = canvas.axes(left, 26, width - (14 if narrow else 150), bottom)
+    largest = 100 * max(np.nanmax([train, unseen]) for _, train, unseen, _ in rows)
+    for index, (label, train, unseen, colour) in enumerate(rows):
+        y = -index
+        if np.isfinite(unseen):
+            axes.plot([100 * train, 100 * unseen], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
+            axes.plot(100 * unseen, y, marker="o", markersize=9, color=colour, zorder=4)
+        axes.plot(100 * train, y, marker="o", markersize=9, color=colour, markerfacecolor=style.LIGHT["background"],
+                  markeredgewidth=2, zorder=3)
+        line = 26 + (bottom - 26) * (index + 0.5) / len(rows) + 4
+        canvas.text(0, line, style.fit(label, left - 12), color=style.LIGHT["ink"])
+        if not narrow:
+            words = f"{quantities.percent(train, 3)}"
+            if np.isfinite(unseen):
+                words += f" → {quantities.percent(unseen, 3)}"
+            canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
+    axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
+    axes.set_xlabel(f"relative error (% of {'the signal' if narrow else 'the measured signal'})", labelpad=3)
+    style.few_ticks(axes.xaxis, 4 if narrow else 8)
+    canvas.text(left, 16, "○ training   ● unseen")
+    return canvas.figure
+
+
+def cases(study):
+    if study.validate is None:
+        return {}
+    rows = [(e.short, e.relerr_median, e.validation_relerr_median, e.ink) for e in study.estimators]
+    sentence = "Norm of the residual over norm of the measured signal; the median run of each search."
+    return {"relative_error": Case(draw, {"rows": rows}, "Training and unseen", sentence, wide=True)}

@@ -1,0 +1,40 @@
+"""How large are the errors? Histogram of the residual with the normal curve of the same standard deviation."""
+
+import numpy as np
+
+from .. import quantities, style
+from . import Case
+
+
+def draw(residual, unit, width=style.SMALL):
+    """residual [n]."""
+    canvas = style.Canvas(width, 240)
+    axes = canvas.axes(50, 30, width - 14, 196)
+    deviation = float(residual.std()) or 1.0
+    limit = min(float(np.abs(residual).max()), 5 * deviation) or 1.0
+    heights, edges = np.histogram(residual, bins=41, range=(-limit, limit))
+    share = 100 * heights / len(residual)
+    axes.stairs(share, edges, fill=True, color=style.LIGHT["measured"])
+    x = np.linspace(-limit, limit, 121)
+    normal = np.exp(-((x - residual.mean()) ** 2) / (2 * deviation**2)) / (deviation * np.sqrt(2 * np.pi))
+    axes.plot(x, 100 * normal * (edges[1] - edges[0]), color=style.LIGHT["ink"], linewidth=2)
+    axes.set(xlim=(-limit, limit), ylim=(0, None), xlabel=f"residual ({unit})")
+    axes.xaxis.labelpad = 3
+    style.few_ticks(axes.xaxis, 5)
+    style.few_ticks(axes.yaxis, 4)
+    canvas.text(0, 16, "share of the samples (%)")
+    return canvas.figure
+
+
+def cases(study):
+    e = study.ols or study.estimators[0]
+    residual = study.train.torque - study.train.prediction(e.chosen)
+    return {
+        "residual_distribution": Case(
+            draw,
+            {"residual": residual, "unit": quantities.unit(study.effort_unit)},
+            "How large are the errors?",
+            f"Histogram of what {e.short} leaves; the line is the normal curve of the same "
+            "standard deviation. Heavy tails ask for a robust loss.",
+        )
+    }

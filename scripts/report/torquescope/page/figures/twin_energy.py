@@ -1,0 +1,29 @@
+"""The recording among its clean twins: how much residual energy each of them has beside it."""
+
+import numpy as np
+
+from .. import diagnosed, quantities, style
+from . import Case
+
+
+def draw(energies, width=style.SMALL):
+    """energies [twin]: residual energy of each twin over that of the recording."""
+    canvas = style.Canvas(width, 238)
+    axes = canvas.axes(54, 24, width - 14, 188)
+    energies = energies[np.isfinite(energies)]
+    last = 1.12 * max(1.0, float(energies.max()))
+    axes.hist(energies, bins=np.linspace(0, last, 41), color=style.LIGHT["measured"])
+    axes.axvline(1, color=style.LIGHT["baseline"], linewidth=2.4)
+    axes.set(xlim=(0, last))
+    axes.set_xlabel("residual energy (recording = 1)", labelpad=3)
+    style.few_ticks(axes.xaxis, 4)
+    style.few_ticks(axes.yaxis, 4)
+    canvas.text(0, 12, "clean twins")
+    return canvas.figure
+
+
+def cases(study):
+    return {diagnosed.figure_name(study, joint, "twin_energy"):
+            Case(draw, {"energies": joint.twin_energy}, "Among its clean twins",
+                 f"Residual energy of {quantities.count(len(joint.twin_energy), 'clean twin')}; line: the recording.")
+            for joint in study.diagnosis.joints if np.isfinite(joint.twin_energy).any()}

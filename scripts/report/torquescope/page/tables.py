@@ -1,0 +1,142 @@
+"""The tables of the page as rows of finished words; page.html only sets them."""
+
+import re
+
+from . import quantities as q, seed, words
+
+
+def equation(study):
+    """The stored line with signs people use: 'ddq' as q̈, and so on."""
+    text = study.model.equation or ""
+    for plain, sign in (("ddq", "q\u0308"), ("dq", "q\u0307"), ("tau", "τ")):
+        text = re.sub(rf"\b{plain}\b", sign, text)
+    return text
+
+
+def parameters(study):
+    """{"head": [...], "rows": [[...]]}: value and intervals of every estimator for every parameter."""
+    head = ["parameter", "unit"] + (["truth"] if study.truth_known else [])
+    for e in study.estimators:
+        head.append(e.label)
+        if e.standard_error is not None:
+            head += ["± 95 %, HAC", "± if white"]
+    rows = []
+    for index, (name, unit) in enumerate(zip(study.model.names, study.model.units)):
+        e = study.ols or study.estimators[0]
+        error = words.Z95 * e.standard_error[0][index] if e.standard_error is not None else None
+        # enough to show four digits of a value, however wide its interval
+        decimals = max(q.decimals_for(error), q.decimals_for(None, e.chosen[index]))
+        row = [name.replace("_", " "), q.unit(unit)]
+        row += [q.fixed(study.model.truth[index], decimals)] if study.truth_known else []
+        for e in study.estimators:
+            row.append(q.fixed(e.chosen[index], decimals))
+            if e.standard_error is not None:
+                row += [q.fixed(words.Z95 * e.standard_error[0][index], decimals),
+                        q.fixed(words.Z95 * e.standard_error_naive[0][index], decimals)]
+        rows.append(row)
+    return {"head": head, "rows": rows}
+
+
+def joint_form(study):
+    """The same friction as viscous, Coulomb and offset; None when the terms do not allow it."""
+    names, e = study.model.joint_form_names, study.ols
+    if names is None or e is None or e.joint_form is None:
+        return None
+    said = []
+    for name, unit, value, error in zip(
+        names, study.model.joint_form_units, e.joint_form[0], e.joint_form_standard_error[0]
+    ):
+        decimals = q.decimals_for(words.Z95 * error, value)
+        said.append(f"{name.replace('_', ' ')} {q.fixed(value, decimals)} ± "
+                    + q.with_unit(q.fixed(words.Z95 * error, decimals), unit))
+    return q.listed(said)
+
+
+def correlation(study):
+    names = [name.replace("_", " ") for name in study.model.names]
+    return {
+        "head": [""] + names,
+        "rows": [[name] + [q.fixed(value, 2) for value in row] for name, row in zip(names, study.health.correlation)],
+    }
+
+
+def estimators(study):
+    square = q.square(study.effort_unit)
+    head = [
+        "estimator",
+        f"MSE, median {square}",
+        "above the floor",
+        "best MSE",
+        "worst MSE",
+        "std over runs",
+        "evaluations",
+        "runs ended by",
+    ]
+    rows = []
+    for e in study.estimators:
+        several = int(e.runs) > 1
+        rows.append([e.label, q.number(e.mse_median, 4), q.number(max(e.gap_median, 0.0), 2),
+                     q.number(e.mse_best, 4) if several else "–", q.number(e.mse_worst, 4) if several else "–",
+                     q.number(e.mse_std, 2) if several else "–",
+                     q.whole(e.evaluations_total) if e.evaluations_total else "–", words.stop_reasons(e)])
+    return {"head": head, "rows": rows}
+
+
+def beside_the_paper(study):
+    """Tables 3 and 4 of the paper with ours in them; None when this job is not a study of it."""
+    if not study.is_seed_study:
+        return None
+    ours = {label: next((e for e in study.estimators if e.kind == label.lower()), None) for label in seed.TABLE_3}
+    labels = list(seed.TABLE_3)
+    third = {"head": ["parameter", "unit"] + [f"{label}, paper" for label in labels]
+             + [f"{label}, here" for label in labels if ours[label]], "rows": []}
+    for index, (name, unit) in enumerate(zip(study.model.names, study.model.units)):
+        third["rows"].append(
+            [name.replace("_", " "), q.unit(unit)]
+            + [q.fixed(seed.TABLE_3[label][index], 4) for label in labels]
+            + [q.fixed(ours[label].parameters_mean[index], 4) for label in labels if ours[label]]
+        )
+    fourth = {
+        "head": ["", "MSE, paper", "std, paper", "std at most", "MSE, here", "std of the residual, here"],
+        "rows": [],
+    }
+    for label in labels:
+        mse, deviation = seed.TABLE_4[label]
+        e = ours[label]
+        fourth["rows"].append([label, q.fixed(mse, 5), q.fixed(deviation, 3), q.fixed(seed.largest_deviation(label), 3),
+                               q.fixed(e.mse_median, 5) if e else "–", q.fixed(e.residual_std_median, 3) if e else "–"])
+    return {"third": third, "fourth": fourth, "most": q.listed(row[3] for row in fourth["rows"]),
+            "claimed": q.listed(row[2] for row in fourth["rows"]),
+            "fade_change": q.percent(seed.TABLE_4["FADE"][0] / seed.TABLE_4["OLS"][0] - 1)}
+
+
+def provenance(study):
+    """[(what, value)] for the fold at the end."""
+    p = study.provenance
+    told = [("program", study.creator), ("started", p.started), ("finished", p.finished),
+            ("took", q.seconds(p.seconds) if p.seconds is not None else None), ("machine", p.host),
+            ("threads", f"{p.threads} ({p.threads_reason})" if p.threads_reason else p.threads),
+            ("vector instructions", p.vector_target), ("version", p.version), ("compiler", p.compiler),
+            ("build", p.build_type), ("HDF5", p.hdf5_version), ("Eigen", p.eigen_version), ("seed", study.job.seed),
+            ("job sha256", study.job.sha256), ("result sha256", study.digest)]
+    for which, data in (("training", study.train), ("unseen", study.validate)):
+        if data is not None:
+            told += [
+                (f"{which} data", f"{name}, sha256 {digest}") for name, digest in zip(data.recordings, data.sha256)
+            ]
+    return [(what, value) for what, value in told if value not in (None, "")]
+
+
+def filters(study):
+    """How the samples were made from the recording."""
+    data = study.train
+    said = []
+    if data.cutoff_hz:
+        said.append(
+            f"motion low-passed at {q.tick(data.cutoff_hz)} Hz" + (f", order {data.order}" if data.order else "")
+        )
+    if data.parallel_cutoff_hz:
+        said.append(f"both sides of the equation at {q.tick(data.parallel_cutoff_hz)} Hz")
+    if data.kept_rate_hz and data.rate_hz and data.kept_rate_hz != data.rate_hz:
+        said.append(f"kept at {q.tick(data.kept_rate_hz)} Hz of {q.tick(data.rate_hz)} Hz")
+    return (said[0][0].upper() + said[0][1:] + "".join(f"; {text}" for text in said[1:]) + ".") if said else ""

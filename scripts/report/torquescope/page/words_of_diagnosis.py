@@ -1,0 +1,263 @@
+"""What the page of a diagnosis says in sentences. The verdict's own sentences are those of the file; these set them."""
+
+import math
+import re
+
+from . import diagnosed, quantities as q
+from .words import head_of_recordings
+
+# verdict: mark, word, tone (a colour of page.css)
+VERDICTS = {
+    "named": ("●", "Missing physics named", "blue"),
+    "class": ("◍", "Missing physics: one of {count}", "blue"),
+    "partly": ("◐", "Missing physics partly explained", "blue"),
+    "none": ("○", "Nothing missing", "ink"),
+    "unexplained": ("◌", "Something else", "ochre"),
+    "insufficient": ("▽", "Recording too poor", "ochre"),
+    "data_fault": ("✕", "Recording at fault", "ochre"),
+}
+MOST_HEADLINES = 2
+_SENTENCE = re.compile(r"(?<=[.!?]) (?=[A-Z0-9])")
+_HOW_SURE = re.compile(r" \(([^()]*p [<=][^()]*)\)(?=\.$)")
+
+
+def verdict(study):
+    """mark, word, tone, sentence (what, where, how much), evidence (how sure, what it buys): all of the reason, set in
+    two sizes."""
+    found = study.diagnosis
+    mark, word, tone = VERDICTS.get(found.verdict, ("◌", diagnosed.plain(found.verdict), "ochre"))
+    # the class that keeps the verdict from a single name
+    several = [1 + len(effect.equivalent) for joint in found.joints for effect in joint.effects if effect.equivalent]
+    headlines, evidence = _set(found)
+    if found.verdict == "none" and any(diagnosed.looks_at_less_than_half(joint) for joint in found.joints):
+        word += " on the rows looked at"
+    word = word.format(count=q.count_word(several[0]) if several else "several")
+    if found.verdict in ("named", "class", "partly") and any(
+        diagnosed.is_fault(effect) for joint in found.joints for effect in joint.effects
+    ):
+        word += ", and a fault of the recording"
+    return {"mark": mark, "word": word, "tone": tone,
+            "sentence": " ".join(headlines), "headlines": [kept_together(line) for line in headlines],
+            "evidence": kept_together(" ".join(evidence))}
+
+
+def joint_verdict(joint):
+    """Of one joint among others: "Missing physics named"."""
+    mark, word, _ = VERDICTS[joint.verdict]
+    several = [1 + len(effect.equivalent) for effect in joint.effects if effect.equivalent]
+    return f"{mark} " + word.format(count=q.count_word(several[0]) if several else "several")
+
+
+def kept_together(text):
+    """A number stays on one line with its unit, a p with its value."""
+    text = re.sub(r"(?<=\d) (?=%|[kmµ]?(?:N|rad|s|m|Hz|A|V|kg|K)\b)", "\u00a0", text)
+    return re.sub(r"\bp ([<=]) ", "p\u00a0\\1\u00a0", text.replace("N m", "N\u00a0m"))
+
+
+def _set(found):
+    sentences = _SENTENCE.split(found.reason)
+    effects = {name: effect for joint in found.joints for effect in joint.effects for name in [effect.sentence.strip()]}
+    headlines, evidence = [], []
+    for number, sentence in enumerate(sentences):
+        is_effect = sentence in effects
+        if (is_effect or number == 0) and len(headlines) < MOST_HEADLINES:
+            sure = _HOW_SURE.search(sentence)
+            headlines.append(_HOW_SURE.sub("", sentence))
+            if sure:
+                of = f"{diagnosed.plain(effects[sentence].name)}: " if is_effect and len(effects) > 1 else ""
+                evidence.append(_capital(f"{of}{sure[1]}."))
+        else:
+            evidence.append(sentence)
+    twins = max((joint.twins for joint in found.joints), default=0)
+    if twins and "twins" not in found.reason:
+        evidence.append(f"p from {q.whole(twins)} clean twins.")
+    return headlines, evidence
+
+
+def _capital(text):
+    # "p < 0.005" is a formula and stays as it is
+    return text if text.startswith("p ") else text[:1].upper() + text[1:]
+
+
+def head(study):
+    joints = study.diagnosis.joints
+    which = diagnosed.which_joint(joints[0]) if len(joints) == 1 else q.count(len(joints), "joint")
+    return head_of_recordings(study, f"{which}, {study.model.joint}")
+
+
+def big_numbers(joint):
+    """[(number, unit, caption)]: at most four, without what was not measured."""
+    before, after, floor = diagnosed.unseen_errors(joint)
+    unseen = math.isfinite(joint.validation_relerr)
+    where = "on the unseen recording" if unseen else "in training"
+    found = []
+    if diagnosed.has_after(joint) and math.isfinite(after):
+        found.append((f"{q.number(100 * before, 2)} → {q.percent(after)}", "", f"error {where}"))
+    elif math.isfinite(before):
+        found.append((q.percent(before), "", f"error of the baseline {where}"))
+    if math.isfinite(floor):
+        error = after if diagnosed.has_after(joint) and math.isfinite(after) else before
+        reached = diagnosed.is_at_floor(error, floor)
+        found.append(
+            (f"about {q.percent(floor)}", "", "floor: it is reached")
+            if reached and not diagnosed.is_below_floor(error, floor)
+            else (
+                (f"about {q.percent(floor)}", "", "floor, as clean twins have it on average: the error is below")
+                if reached
+                else (q.percent(floor), "", "floor: what a complete model would leave")
+            )
+        )
+    closed = diagnosed.share_closed(joint)
+    if math.isfinite(joint.explained_share):
+        found.append((q.percent(joint.explained_share), "",
+                      f"of what is missing on held-out rows is explained{_interval_words(joint)}"))
+    elif math.isfinite(closed):
+        found.append((q.percent(closed), "", "of the closable gap is closed"))
+    as_far = diagnosed.twins_as_far(joint)
+    if as_far is not None:
+        found.append((q.whole(as_far), f"of {q.whole(joint.twins)}", "clean twins look like this"))
+    return found
+
+
+def _interval_words(joint):
+    """Of the share that is explained; empty where no interval is known."""
+    ends = joint.explained_low, joint.explained_high
+    return f"; 95 %: {q.percent(ends[0])} to {q.percent(ends[1])}" if all(map(math.isfinite, ends)) else ""
+
+
+def map_answer(joint):
+    rows = diagnosed.rows_drawn(joint)
+    if not rows:
+        return "Not measured: no map could be made from this recording."
+    located = [row for row in rows if row.regions]
+    if not located:
+        return f"Nowhere: no stretch of the {q.count_word(len(rows))} axes holds more than the clean twins do."
+    located.sort(key=lambda row: -row.energy_share if math.isfinite(row.energy_share) else 0.0)
+    where = q.listed(diagnosed.axis_title(row.axis) for row in located)
+    most = q.percent(located[0].energy_share)
+    others = len(rows) - len(located)
+    quiet = f"; nothing is located on the other {q.count_word(others) if others > 1 else 'one'}" if others else ""
+    return f"Located on {where}, where up to {most} of the residual's energy is beyond the clean twins{quiet}."
+
+
+def candidates_answer(joint):
+    tested = sum(one.decision != "not tested" for one in joint.candidates)
+    named = [one for one in joint.candidates if one.decision == "named"]
+    said = "No candidate was tested"
+    if tested:
+        said = (f"{q.count(tested, 'candidate')} tested, smallest p first, equal p by z; "
+                + ("what is named stands on top" if named else "none is named"))
+    return (
+        f"{said}. Grey: what 95 % of the clean twins stay below. CV gain: share of the mismatch that is predicted on "
+        "blocks of "
+        "time that nothing was fitted to; –: not tried."
+    )
+
+
+def left_out_note(joint):
+    """What the mask leaves out of the errors, and the errors with it; empty where nothing is left out."""
+    said = []
+    for name, where in (("train", "training"), ("validation", "unseen")):
+        time, energy = getattr(joint, f"{name}_left_out_time"), getattr(joint, f"{name}_left_out_energy")
+        before = getattr(joint, f"{name}_relerr_all_rows")
+        after = getattr(joint, f"augmented_{name}_relerr_all_rows")
+        if not time > 0 or not math.isfinite(energy):
+            continue
+        errors = q.percent(before) + (f" before, {q.percent(after)} after"
+                                      if math.isfinite(after) and after != before else "")
+        said.append(f"{where}: {q.percent(time)} of the time with {q.percent(energy)} of the residual's energy; "
+                    f"error over all rows {errors}")
+    where = "near reversals, at rest or outside the motion of training"
+    return f"Left out of these errors {where}, {'; '.join(said)}." if said else ""
+
+
+def fit_answer(study, joint):
+    if not math.isfinite(joint.validation_relerr):
+        given = "was not judged" if study.validate is not None else "was not given"
+        return f"An unseen recording {given}: whether the model holds on another motion, this file cannot say."
+    refitted = f" Refitted on the head of the unseen recording: {q.listed(joint.nuisances)}." if joint.nuisances else ""
+    if not diagnosed.has_after(joint):
+        at = _floor_words(joint.validation_relerr, joint.floor_relerr)
+        return (
+            f"Nothing was put into the model; its error unseen is {q.percent(joint.validation_relerr)}{at}." + refitted
+        )
+    before, after, floor = diagnosed.unseen_errors(joint)
+    to = _floor_words(after, floor)
+    return f"Unseen error {q.percent(before)} before, {q.percent(after)} after{to}.{refitted}"
+
+
+def _floor_words(error, floor):
+    """Unseen, as the verdict's sentence has it (engine/words/error_words.hpp)."""
+    if not math.isfinite(floor):
+        return ""
+    if diagnosed.is_below_floor(error, floor):
+        return f", at the floor (about {q.percent(floor)}: what clean twins leave on average)"
+    return (
+        f", at the floor (about {q.percent(floor)})"
+        if diagnosed.is_at_floor(error, floor)
+        else f", floor {q.percent(floor)}"
+    )
+
+
+def title(effect):
+    return _capital(effect.title or diagnosed.plain(effect.name))
+
+
+def effect_line(joint, effect):
+    """The evidence for one effect in one line."""
+    p = diagnosed.p_cell(effect.p, effect.p_is_bound)
+    said = [f"z {q.fixed(effect.z, 1)}", f"p {p.replace('<', '< ') if p.startswith('<') else '= ' + p}"]
+    gains = [
+        (effect.gain_train, "in training"),
+        (effect.gain_cv, "cross-validated"),
+        (effect.gain_validation, "unseen"),
+    ]
+    gains = [f"{diagnosed.share_words(gain)} {where}" for gain, where in gains if math.isfinite(gain)]
+    if gains:
+        said.append(f"of the residual's energy it takes {q.listed(gains)}")
+    if math.isfinite(effect.region_gain):
+        said.append(f"{q.percent(effect.region_gain)} of that where the effect is strong")
+    if math.isfinite(effect.peak):
+        said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
+    if effect.equivalent:
+        said.append(f"cannot be told from {q.listed(diagnosed.plain(name) for name in effect.equivalent)}")
+    fault = "A fault of the recording, not physics of the joint. " if diagnosed.is_fault(effect) else ""
+    return fault + "; ".join(said) + "."
+
+
+def forward_answer(joint):
+    one = joint.forward[0]
+    if not diagnosed.has_after(joint) or not math.isfinite(one.after_rms):
+        return ("The model in a closed loop, driven by the recording's reference: "
+                "how far its position strays from the measured one.")
+    return ("The model in a closed loop, driven by the recording's reference: its position strays "
+            f"{q.with_unit(q.number(one.before_rms, 2), joint.unit_position)} before, "
+            f"{q.with_unit(q.number(one.after_rms, 2), joint.unit_position)} after.")
+
+
+def next_steps(study, joint):
+    """[sentence]: what to record or mend; empty when nothing is open."""
+    said = [_capital(study.diagnosis.way_out.rstrip(".")) + "."] if study.diagnosis.way_out else []
+    for advice in joint.advice:
+        apart = [diagnosed.plain(name) for name in advice.would_separate]
+        to = f" to tell {q.listed(apart)} apart" if len(apart) > 1 else ""
+        if len(apart) == 1:
+            to = f" to tell whether it is {apart[0]}, which came closest"
+        said.append(f"{_capital(advice.lacks.rstrip('.'))}{to}.")
+    return said
+
+
+def how_found(joint):
+    """[(what, value)] for the fold: the twins and the loop they were simulated with."""
+    told = [("clean twins", q.whole(joint.twins) if joint.twins else "not made"), ("samples", joint.rows),
+            ("control loop", joint.loop_source),
+            ("about the loop", joint.loop_remark)]
+    for what, value in (("torque noise", joint.torque_noise), ("disturbance", joint.disturbance),
+                        ("mismatch beyond the twins, rms", joint.mismatch_rms), ("the same after", joint.left_rms)):
+        measured = math.isfinite(value) and joint.twins
+        told.append((what, q.with_unit(q.number(value), joint.unit_torque) if measured else "not measured"))
+    if math.isfinite(joint.friction_wander) and joint.twins:
+        told.append(("dry friction wanders in a minute by", q.percent(joint.friction_wander * math.sqrt(60.0))))
+    if joint.shape_evaluations:
+        told.append(("evaluations of shapes", q.whole(joint.shape_evaluations)))
+    return [(what, value) for what, value in told if value]
