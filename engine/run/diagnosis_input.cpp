@@ -17,14 +17,16 @@ std::vector<Recording> other_recordings(Experiment::Parts const& parts) {
   return others;
 }
 
-// of the position, as the file calls it; a simulated recording has none
+// of the position, as the file calls it: it names the joint. A simulated recording has none, and one that is called
+// "position" names no joint
 std::string position_column(Job const& job) {
   Section const recording = section_or_empty(job, "recording");
   Setting const* columns = recording.find("columns");
   if (columns == nullptr) return {};
   auto const* names = std::get_if<std::map<std::string, std::string>>(&columns->value);
   auto const position = names ? names->find("position") : std::map<std::string, std::string>::const_iterator{};
-  return names && position != names->end() ? position->second : std::string();
+  bool const is_a_name = names && position != names->end() && position->second != "position";
+  return is_a_name ? position->second : std::string();
 }
 
 // what a job asks of one joint and of an arm alike
