@@ -17,6 +17,7 @@ import numpy as np
 
 WRITER, SCRIPTS = sys.argv[1:3]
 sys.path.insert(0, SCRIPTS)
+import torquescope as ts  # noqa: E402
 from torquescope.reader import Result, ResultError, summary  # noqa: E402
 from torquescope.reader.content_digest import content_sha256  # noqa: E402
 
@@ -93,6 +94,14 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         text = "\n".join(summary(self.result))
         for word in ("crs_a465_joint", "300 samples of a.csv, b.csv", "inertia", "0.0036", "ols", "fade"):
             self.assertIn(word, text)
+
+    def test_the_package_opens_it_without_an_engine(self):
+        with ts.open(self.name) as result:
+            result.verify()
+            self.assertEqual(list(result.parameters), list(result.model.names))
+            self.assertRegex(repr(result), r"^<Result 'crs_a465_joint': 2 parameters; ols, fade")
+            self.assertIn("inertia", result._repr_html_())
+            self.assertIsNone(result.verdict)
 
     def test_command_line(self):
         script = pathlib.Path(SCRIPTS) / "read_result.py"

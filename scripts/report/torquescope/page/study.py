@@ -100,11 +100,12 @@ class Estimator(View):
 
 
 class Study:
-    """One result file. Estimators in the order of the job; none in the file of a diagnosis."""
+    """One result file, by its path or opened already. Estimators in the order of the job; none in the file of a
+    diagnosis."""
 
-    def __init__(self, path):
-        self._result = Result(path)
-        self.path = str(path)
+    def __init__(self, source):
+        self._result = source if isinstance(source, Result) else Result(source)
+        self.path = self._result.path
         self.creator, self.digest = self._result.get("creator", ""), self._result.get("content_sha256", "")
         self.job, self.model = View(self._result.job), View(self._result.model)
         self.job_text = str(np.atleast_1d(self.job.text)[0])
@@ -113,7 +114,7 @@ class Study:
         self.train = Recording(self._result.train)
         is_arm = "arm" in self._result
         if not self.train.has("joint_1" if is_arm else "torque"):
-            raise ResultError(f"{path} keeps no samples to draw: its job says [output] samples = false")
+            raise ResultError(f"{self.path} keeps no samples to draw: its job says [output] samples = false")
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
         self.arm = Arm(self._result) if is_arm else None
         self.health = View(self._result.data.regressor_health)

@@ -21,6 +21,7 @@ its digest.
 import argparse
 import contextlib
 import json
+import os
 import sys
 
 import h5py
@@ -159,8 +160,11 @@ class Result(Group):
     `result.data.regressor_health`. Use it in a `with` block, or close() it.
     """
 
-    def __init__(self, name):
-        look_first(name)
+    def __init__(self, name, is_ours=False):
+        """is_ours: this process has just made the file, and need not look for traps in it."""
+        self.path = os.fspath(name)
+        if not is_ours:
+            look_first(name)
         try:
             # the file is never changed once it has its name, so a lock would protect nothing
             self._file = h5py.File(name, "r", locking=False)
@@ -199,6 +203,11 @@ class Result(Group):
     def validate(self):
         """Unseen data, laid out as `train`; None when the job has none."""
         return Group(self._file["data/validate"]) if "data/validate" in self._file else None
+
+    @property
+    def units(self):
+        """Of the parameters; files of early versions have none."""
+        return self.model.get("units", [""] * len(self.model.names))
 
     @property
     def diagnosis(self):
@@ -243,14 +252,13 @@ def _table(rows):
         yield "  ".join(cells).rstrip()
 
 
-def _parameter_table(result):
+def parameter_table(result):
     """Parameters in rows; the truth, where it is known, and the mean over runs of each estimator in columns."""
     truth = result.model.get("truth")
     truth = truth if truth is not None and not np.all(np.isnan(truth)) else None
     estimators = {name: e for name, e in result.estimators.items() if "parameters" in e}
     rows = [["parameter", "unit", *(["truth"] if truth is not None else []), *estimators]]
-    units = result.model.get("units", [""] * len(result.model.names))
-    for i, (name, unit) in enumerate(zip(result.model.names, units)):
+    for i, (name, unit) in enumerate(zip(result.model.names, result.units)):
         known = [_number(truth[i])] if truth is not None else []
         rows.append([name, unit, *known, *(_number(np.nanmean(e.parameters[:, i])) for e in estimators.values())])
     return rows
@@ -283,7 +291,7 @@ def summary(result):
         yield from _diagnosis_summary(result.diagnosis)
     if not result.estimators:
         return
-    yield from _table(_parameter_table(result))
+    yield from _table(parameter_table(result))
     yield ""
     columns = ["mse_median", "gap_median", "relerr_median", "validation_relerr_median"]
     rows = [["estimator", "kind", "runs", *columns]]
