@@ -138,6 +138,19 @@ void forget_channels(Recording& recording) {
     *channel = Eigen::VectorXd();
 }
 
+// what a motion is made of, out of a recording that keeps its name, its warnings and whatever else stands in it
+Recording taken_channels(Recording& recording) {
+  Recording taken;
+  taken.rate_hz = recording.rate_hz;
+  taken.time_s = std::move(recording.time_s);
+  taken.position = std::move(recording.position);
+  taken.velocity = std::move(recording.velocity);
+  taken.acceleration = std::move(recording.acceleration);
+  taken.torque = std::move(recording.torque);
+  taken.left_out = std::move(recording.left_out);
+  return taken;
+}
+
 // the rows of the fit, and what the motion can tell; excitation's warnings join those of the recording
 void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
   Section const filter = section_or_empty(parts.job, "filter");
@@ -151,7 +164,7 @@ void prepare(DataSet& set, Experiment::Parts const& parts, Channels channels) {
     set.n_samples.push_back(static_cast<std::size_t>(recording.time_s.size()));
     auto facts = measure_channels(recording);
     Motion motion = channels == Channels::kept ? differentiate(recording, parts.filter, filter)
-                                               : differentiate(std::move(recording), parts.filter, filter);
+                                               : differentiate(taken_channels(recording), parts.filter, filter);
     if (channels == Channels::taken) forget_channels(recording);
     measure_motion(motion, parts.filter, facts);
     for (auto const& warning : excitation_warnings(facts, unit)) recording.warnings.push_back(warning);
