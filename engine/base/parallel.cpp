@@ -68,6 +68,19 @@ ThreadChoice choose_threads(int requested) {
   return choice;
 }
 
+namespace {
+
+// of the Stoppable that this thread works under; nullptr: none
+thread_local std::function<bool()> const* stop_question = nullptr;
+
+}  // namespace
+
+Stoppable::Stoppable(std::function<bool()> const& must_stop) : before_(stop_question) {
+  if (must_stop) stop_question = &must_stop;
+}
+
+Stoppable::~Stoppable() { stop_question = before_; }
+
 void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, int)> const& task) {
   std::mutex guard;
   std::exception_ptr failure;
@@ -76,14 +89,18 @@ void parallel_for(std::size_t n, int threads, std::function<void(std::size_t, in
   std::atomic<std::size_t> next{0};
   int const team = static_cast<int>(
       std::min<std::size_t>(static_cast<std::size_t>(std::max(1, threads)), std::max<std::size_t>(1, n)));
+  std::function<bool()> const* const question = stop_question;
+  std::function<bool()> const nothing_to_ask;
 #pragma omp parallel num_threads(team)
   {
+    Stoppable const stoppable(question != nullptr ? *question : nothing_to_ask);
     int const thread = omp_get_thread_num();
     // relaxed: tasks are independent, and an order the counter gave them by chance would hide a race from the sanitizer
     while (!stop.load(std::memory_order_relaxed)) {
       std::size_t const index = next.fetch_add(1, std::memory_order_relaxed);
       if (index >= n) break;
       try {
+        if (question != nullptr && (*question)()) throw Stopped();
         task(index, thread);
       } catch (...) {
         std::lock_guard const lock(guard);

@@ -171,6 +171,7 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
     if (shard && shard->is_finished()) throw TwinsAbandoned();
     stages(stage, done, total);
   };
+  Stoppable const stoppable(request.stop_requested);
   try {
     Diagnosis const diagnosis = diagnose_into_file(
         experiment, request, [&] { return diagnose_examined(experiment, request.threads.count, exchange, sink); });
@@ -180,6 +181,8 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
       if (request.tell) request.tell("warning", warning);
     return diagnosis;
   } catch (TwinsAbandoned const&) {
+    throw stopped(request, shard ? &*shard : nullptr);
+  } catch (Stopped const&) {
     throw stopped(request, shard ? &*shard : nullptr);
   }
 }

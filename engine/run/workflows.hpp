@@ -143,7 +143,7 @@ JobStatus read_status(std::filesystem::path const& segment_folder);
 struct DiagnoseRequest {
   ThreadChoice threads{};
   std::filesystem::path output{};
-  std::function<bool()> stop_requested{};  // polled between twins and effects; true: Error 75, nothing published
+  std::function<bool()> stop_requested{};  // asked from any thread, between twins and laws; true: Error 75
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "warning"
   bool allow_full_disk = false;   // begin although the result does not seem to fit
   ShardChoice shard{};            // of the twins; every shard makes the whole result

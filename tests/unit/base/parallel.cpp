@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -25,6 +26,39 @@ TEST(ParallelFor, RethrowsAfterTheRegion) {
                               if (i == 13) throw std::runtime_error("thirteen");
                             }),
                std::runtime_error);
+}
+
+TEST(Stoppable, BeginsNoTaskOnceItIsToStop) {
+  for (int threads : {1, 2}) {
+    std::atomic<int> begun{0};
+    std::function<bool()> const after_ten = [&] { return begun.load() >= 10; };
+    Stoppable const stoppable(after_ten);
+    EXPECT_THROW(parallel_for(1000, threads, [&](std::size_t, int) { ++begun; }), Stopped);
+    EXPECT_LT(begun.load(), 10 + threads);
+  }
+}
+
+TEST(Stoppable, IsAskedBeforeTheTasksOfATask) {
+  std::atomic<bool> is_to_stop{false};
+  std::atomic<int> inner{0};
+  std::function<bool()> const question = [&] { return is_to_stop.load(); };
+  Stoppable const stoppable(question);
+  EXPECT_THROW(parallel_for(2, 2,
+                            [&](std::size_t, int) {
+                              is_to_stop.store(true);
+                              parallel_for(5, 1, [&](std::size_t, int) { ++inner; });
+                            }),
+               Stopped);
+  EXPECT_EQ(inner.load(), 0);
+}
+
+TEST(Stoppable, EndsWithItsScope) {
+  std::function<bool()> const at_once = [] { return true; };
+  {
+    Stoppable const stoppable(at_once);
+    EXPECT_THROW(parallel_for(3, 2, [](std::size_t, int) {}), Stopped);
+  }
+  EXPECT_NO_THROW(parallel_for(3, 2, [](std::size_t, int) {}));
 }
 
 TEST(ChooseThreads, FollowsTheOrderOfReasons) {
