@@ -20,6 +20,7 @@ from typing import Any, NamedTuple, Union
 
 from .errors import Error, UsageError
 from .job_text import job_text
+from .native import compiled
 from .recording import Recording, common_section
 from .result import Result
 from .robot import Robot
@@ -74,14 +75,14 @@ def identify(recordings: Recordings | Path, *, validate: Recordings = (), model:
 def check(recordings: Recordings | Path, *, validate: Recordings = (), model: Model = None,
           estimators: Estimators = "ols", threads: int = 0, **sections: Section) -> list[CheckLine]:
     """Everything that `torquescope check` says before a run."""
-    from . import _engine
+    _engine = compiled()
     order = _order(recordings, validate, model, estimators, sections)
     return [CheckLine(*line) for line in _engine.check(*order, threads)]
 
 
 def simulate(job: Mapping[str, Any] | Path) -> Recording:
     """The recording that [simulate] of a job describes: of a job file, or of {"simulate": {...}, "model": {...}}."""
-    from . import _engine
+    _engine = compiled()
     path, text = (UNNAMED, job_text(job)) if isinstance(job, Mapping) else (os.fspath(job), None)
     with tempfile.TemporaryDirectory(prefix="torquescope_") as folder:
         file = os.path.join(folder, "simulated.csv")
@@ -92,7 +93,7 @@ def simulate(job: Mapping[str, Any] | Path) -> Recording:
 
 def describe(name: str | None = None) -> None:
     """Prints what a job can name: effects, optimisers, sections with their keys; all names without one."""
-    from . import _engine
+    _engine = compiled()
     entries = _engine.catalogue()
     known = [entry for entry in entries if name in (None, entry[0])]
     if not known:
@@ -159,7 +160,7 @@ def _named(recordings):
 
 
 def _carry_out(order, diagnoses, out, threads, progress):
-    from . import _engine
+    _engine = compiled()
     folder = None
     if out is None:
         folder = tempfile.mkdtemp(prefix="torquescope_")

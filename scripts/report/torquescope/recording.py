@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import DataError, UsageError
+from .native import compiled
 
 if TYPE_CHECKING:
     import pandas
@@ -39,7 +40,7 @@ class Recording:
     def from_file(cls, path: str | os.PathLike[str], joint: int = 0, **options: Any) -> Recording:
         """A file of any format that the program reads; columns and units are guessed as `torquescope init` does, and
         .remarks says how. joint: of a file with several, counted from 1. Further options are keys of [recording]."""
-        from . import _engine
+        _engine = compiled()
         text, guesses, warnings = _engine.draft_job(os.fspath(path), joint)
         drafted = _toml(text)["recording"]
         columns = {**drafted.pop("columns", {}), **options.pop("columns", {})}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
+from .native import compiled
+
 
 @dataclass(frozen=True)
 class RobotJoint:
@@ -30,7 +32,7 @@ class Robot:
     """
 
     def __init__(self, path: str | os.PathLike[str]):
-        from . import _engine
+        _engine = compiled()
         self.path = os.path.abspath(path)
         facts = _engine.robot_facts(self.path)
         self.name, self.mass, self.remarks = facts["name"], facts["mass"], facts["remarks"]
