@@ -1,8 +1,7 @@
 #pragma once
 // What a loaded job asks a diagnosis for, in the words of the diagnose layer.
 //
-// Training   parameters are fitted to the first recording; further ones are predicted, each in its own loop, like those
-//            of validation: a law must serve them all
+// Training   replicates are simulated with the fit of the first recording; one fit to all of them is what is reported
 // Lives      looks into `parts`, which outlive it; stays where it is made
 
 #include <vector>
