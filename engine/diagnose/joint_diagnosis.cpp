@@ -25,6 +25,7 @@
 #include "engine/twin/echoed_reference.hpp"
 #include "engine/unseen/unseen_nuisances.hpp"
 #include "engine/unseen/unseen_record.hpp"
+#include "engine/words/arm_sentences.hpp"
 #include "engine/words/error_words.hpp"
 #include "engine/words/excitation_advice.hpp"
 #include "engine/words/name_list.hpp"
@@ -115,6 +116,7 @@ class JointWork {
     // an arm's fit has seen the rows of training: what is not known of it shows in none of them
     for (std::size_t i = 0; i < others_.training; ++i) others_.all[i].load_errors = {};
     setting.trained = std::make_shared<TrainedMotion const>(trained_motion_of(setting, others_.others().training));
+    leave_out_unjudged(setting);
     // its faults are known by now: what stops the search is a motion that cannot carry it
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       search_ = search_in_time(setting, recording, others_, {selection, levels()}, torque_late_s_, progress_);
@@ -136,6 +138,20 @@ class JointWork {
     decide();
     if (!joint_.effects.empty()) laws_ = law_torques();
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
+  }
+
+  // recordings to predict of which hardly a row can be judged
+  void leave_out_unjudged(StageSetting const& setting) {
+    std::vector<std::string> names;
+    auto const first = others_.all.begin() + static_cast<std::ptrdiff_t>(others_.training);
+    others_.all.erase(std::remove_if(first, others_.all.end(),
+                                     [&](Recording const& one) {
+                                       if (judged_rows(setting, one) >= fewest_rows) return false;
+                                       names.push_back(one.name);
+                                       return true;
+                                     }),
+                      others_.all.end());
+    if (!names.empty()) joint_.remarks.push_back(too_few_rows_sentence(names));
   }
 
   static bool is_named(KeptModel const& kept) {

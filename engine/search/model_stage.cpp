@@ -127,17 +127,31 @@ RecordPipeline pipeline_for(StageSetting const& setting, Recording const& record
   return pipeline;
 }
 
-RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage) {
-  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
-  pipeline.bound_effects(stage.pipeline->bounds_effects());
-  if (!setting.trained || &recording == &setting.recording) return pipeline;
+namespace {
+
+void leave_out_new_motion(StageSetting const& setting, Recording const& recording, RecordPipeline& pipeline) {
+  if (!setting.trained || &recording == &setting.recording) return;
   std::vector<bool> outside =
       samples_outside(*setting.trained, setting.regressor.columns(pipeline.motion_of(recording)),
                       mask_reach(recording.rate_hz, pipeline.cutoff_hz()));
   auto const saturated = saturated_samples(recording, pipeline.cutoff_hz());
   std::transform(outside.begin(), outside.end(), saturated.begin(), outside.begin(), std::logical_or<>());
   pipeline.leave_out(std::move(outside));
+}
+
+}  // namespace
+
+RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, stage.model());
+  pipeline.bound_effects(stage.pipeline->bounds_effects());
+  leave_out_new_motion(setting, recording, pipeline);
   return pipeline;
+}
+
+Eigen::Index judged_rows(StageSetting const& setting, Recording const& recording) {
+  RecordPipeline pipeline = pipeline_for(setting, recording, setting.regressor);
+  leave_out_new_motion(setting, recording, pipeline);
+  return static_cast<Eigen::Index>(pipeline.own_rows(pipeline.motion_of(recording)).size());
 }
 
 TrainedMotion trained_motion_of(StageSetting const& setting, std::span<Recording const> further) {

@@ -81,6 +81,9 @@ struct ModelStage {
 // the same for the stage's model, and its fits bounded as the stage's are
 RecordPipeline pipeline_for(StageSetting const& setting, Recording const& recording, ModelStage const& stage);
 
+// of a recording that is predicted: that move one way within the motion of training
+Eigen::Index judged_rows(StageSetting const& setting, Recording const& recording);
+
 // nothing when the twins run away: such a model is none of this joint
 // Errors     Error 65 as the pipeline and the twins, for a model without effects only
 std::optional<ModelStage> make_stage(StageSetting const& setting, JointModel model);

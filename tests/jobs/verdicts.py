@@ -115,6 +115,14 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
             self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
 
+    def test_an_unseen_recording_with_too_few_rows_is_left_out_and_told(self):
+        sprung = self.with_spring(self.rows)
+        alone = self.said_of(sprung)
+        said = self.said_of(sprung, unseen=self.with_spring(self.other_rows)[:len(self.other_rows) // 10])
+        self.assertEqual(said["verdict"], "named", said["reason"])
+        self.assertIn("too few rows", said["reason"])
+        self.assertEqual(said["joints"][0]["augmented"]["cv_relerr"], alone["joints"][0]["augmented"]["cv_relerr"])
+
     def test_a_wave_of_the_clock_is_not_carried_to_another_recording(self):
         """Its phase belongs to the clock of the training recording: there it is kept, elsewhere it says nothing."""
         sprung = self.with_spring(self.rows)
