@@ -18,8 +18,8 @@
 namespace torquescope {
 
 struct DiagnosisInput {
-  Recording const& train;                  // that parameters are fitted to
-  std::vector<Recording> const& validate;  // that they predict
+  Recording const& train;                  // the first of training: replicates are simulated with its fit
+  std::vector<Recording> const& validate;  // all others: further ones of training, then those to predict
   Regressor const& regressor;
   FilterOptions const& filter;
   Section const& filter_section;
@@ -32,13 +32,13 @@ struct DiagnosisInput {
   ReversalRows reversals = ReversalRows::both;
   int joint = 1;                     // its number
   std::string joint_name{};          // for texts: of the position column
-  std::size_t further_training = 0;  // of those to predict, the first so many belong to training
+  std::size_t further_training = 0;  // so many of the others
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
 struct JointOutcome {
   Diagnosis diagnosis;
-  // torque of what was named, per sample: of the training recording, then of each one to predict; empty: no name
+  // torque of what was named, per sample: of the first training recording, then of each other; empty: no name
   std::vector<Eigen::VectorXd> laws{};
 };
 

@@ -60,22 +60,21 @@ void drop_wrong_signs(OrthonormalGroup const& group, Eigen::MatrixXd const& coef
 Evidence::Evidence(StageSetting const& setting, ModelStage const& stage, OtherRecordings const& others)
     : stage_(&stage), training_(stage, CandidateColumns::none) {
   std::uint32_t index = 1;
-  // weights: of each recording; found: those that replicates could be made of
-  auto const evidence_of = [&](std::span<Recording const> recordings, auto& weights) {
-    std::vector<UnseenEvidence> found;
-    for (auto const& recording : recordings) {
-      auto one = unseen_evidence(setting, stage, columns(), recording, index++);
-      weights.push_back(one ? one->pipeline->weights() : nullptr);
-      if (one)
-        found.push_back(std::move(*one));
-      else
-        without_replicates_.push_back(unseen_residual(setting, stage, recording));
-    }
-    return found;
+  auto const evidence_of = [&](Recording const& recording) {
+    auto one = unseen_evidence(setting, stage, columns(), recording, index++);
+    if (!one) without_replicates_.push_back(unseen_residual(setting, stage, recording));
+    return one;
   };
-  training_.add(evidence_of(others.training, weights_further_), CandidateColumns::none);
+  std::vector<UnseenEvidence> further;
+  for (auto const& recording : others.training)
+    if (auto one = evidence_of(recording)) further.push_back(std::move(*one));
+  training_.add(std::move(further), CandidateColumns::none);
   fill_folds();
-  for (auto& one : evidence_of(others.unseen, weights_unseen_)) add_unseen(std::move(one));
+  for (auto const& recording : others.unseen) {
+    auto one = evidence_of(recording);
+    weights_unseen_.push_back(one ? one->pipeline->weights() : nullptr);
+    if (one) add_unseen(std::move(*one));
+  }
 }
 
 Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_), training_(*of.stage_, without) {

@@ -66,8 +66,7 @@ class Evidence {
   CandidateColumns const& columns(DrivenBy motion = DrivenBy::twin) const { return training_.columns(motion); }
   TrainingRows const& training() const { return training_; }
   std::size_t n_unseen() const { return unseen_.size(); }
-  // one for each further training recording, and for each unseen one; none where no replicates of it could be made
-  std::vector<std::shared_ptr<NoiseWeights const>> const& weights_further() const { return weights_further_; }
+  // one for each unseen recording; none where no replicates of it could be made
   std::vector<std::shared_ptr<NoiseWeights const>> const& weights_unseen() const { return weights_unseen_; }
 
   // what the model leaves: folds and blocks of unseen rows x (1 + M)
@@ -133,7 +132,7 @@ class Evidence {
   Eigen::MatrixXd left_unseen_{};         // blocks x (1 + M)
   std::vector<UnseenEvidence> unseen_{};  // nuisance: of the basis of training
   std::vector<UnseenResidual> without_replicates_{};
-  std::vector<std::shared_ptr<NoiseWeights const>> weights_further_{}, weights_unseen_{};
+  std::vector<std::shared_ptr<NoiseWeights const>> weights_unseen_{};
   std::vector<Eigen::MatrixXd> unseen_left_{};  // of each: n x (1 + M), less the step of training's nuisance columns
 };
 

@@ -56,7 +56,7 @@ def diagnose(recordings: Recordings | Path, *, validate: Recordings = (), model:
              threads: int = 0, progress: bool | None = None, **sections: Section) -> Result:
     """Finds the physics that a model of the recordings lacks.
 
-    recordings  a Recording, several (parameters are fitted to the first, the others are predicted), or a job file
+    recordings  a Recording, several (one fit to all of them, each in its own loop), or a job file
     validate    recordings that no fit sees: they judge
     model       {"joint": "revolute", "terms": [...]}, or a Robot
     """
