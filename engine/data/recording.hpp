@@ -51,6 +51,9 @@ struct Recording {
   Eigen::VectorXd gear_load{};
   // what is not known of it: n x k, independent errors of one standard deviation each; none
   Eigen::MatrixXd load_errors{};
+  // other joints of the file that move, where OtherJoints::kept asked for them: n x their columns, units as position
+  Eigen::MatrixXd other_positions{};
+  std::vector<std::string> other_columns{};
   // what the other joints of an arm do to this one; no channel: a diagnosis fills it
   std::shared_ptr<GivenSignals const> given{};
   std::vector<DataWarning> warnings{};

@@ -16,6 +16,7 @@ Recording part_of(Recording const& whole, Eigen::Index first, Eigen::Index count
        {&Recording::time_s, &Recording::position, &Recording::torque, &Recording::reference, &Recording::velocity,
         &Recording::acceleration, &Recording::simulated_torque, &Recording::gear_load})
     if ((whole.*channel).size() > 0) part.*channel = (whole.*channel).segment(first, count).eval();
+  if (whole.other_positions.size() > 0) part.other_positions = whole.other_positions.middleRows(first, count);
   double const from_s = static_cast<double>(first) / whole.rate_hz;
   double const length_s = static_cast<double>(count) / whole.rate_hz;
   part.name = fmt::format("{} ({:.4g} to {:.4g} s)", whole.name, from_s, from_s + length_s);

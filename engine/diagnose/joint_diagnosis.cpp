@@ -12,6 +12,7 @@
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
+#include "engine/diagnose/neighbour_load.hpp"
 #include "engine/diagnose/search_in_time.hpp"
 #include "engine/inference/kept_model.hpp"
 #include "engine/inference/verdict_table.hpp"
@@ -134,6 +135,8 @@ class JointWork {
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (!selection_.accepted.empty()) account_for_effects();
     account_for_unseen();
+    if (!search_->states.front().adequacy.holds())
+      neighbours_ = neighbour_load(setting.recording, *baseline().pipeline, baseline().comparison.recording);
     budget();
     decide();
     if (!joint_.effects.empty()) laws_ = law_torques();
@@ -329,8 +332,15 @@ class JointWork {
     facts.all_on_channel =
         !joint_.effects.empty() && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
     facts.is_motion_poor = blamed_for_silence().has_value();
+    facts.others_predict_better = others_predict_better();
     facts.has_relation = !first_look_.limits().has_no_relation || selection_.is_gate_open;
     return facts;
+  }
+
+  bool others_predict_better() const {
+    if (!neighbours_ || neighbours_->gain.change != HeldOutChange::lower) return false;
+    double const least = selection_.accepted.empty() ? joint_.cv_relerr : joint_.augmented_cv_relerr;
+    return neighbours_->relerr < std::min(least, (1.0 - levels().least_fall) * joint_.cv_relerr);
   }
 
   // a motion that could not have shown much, or a noise that hides what is not small
@@ -358,6 +368,8 @@ class JointWork {
       if (!joint_.effects.empty()) withdraw(decided.reason);
       return;
     }
+    if (decided.reason == VerdictReason::other_joints)
+      joint_.other_joints = other_joints_sentence(joint_, neighbours_->columns, neighbours_->relerr);
     if (!kept_.state.adequacy.holds()) {
       auto const& final = final_stage();
       joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));
@@ -389,6 +401,7 @@ class JointWork {
       joint_.refutation = too_little_clause(joint_, 1.0 - kept_.held_out.gain.after / kept_.held_out.gain.before);
       why = "it explains less than half";
     }
+    if (reason == VerdictReason::other_joints) why = "the motion of other joints predicts better";
     std::vector<std::string> closest;
     for (auto const& effect : joint_.effects) closest.push_back(effect.name);
     joint_.excitation = advice_to_confirm(closest.empty() ? closest_of(joint_.candidates) : closest);
@@ -413,6 +426,7 @@ class JointWork {
   bool has_reference_ = false;      // one that tells a loop
   double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)
   bool unseen_twins_ran_away_ = false;
+  std::optional<NeighbourLoad> neighbours_{};
   std::unique_ptr<StepwiseSearch const> search_{};
   KeptModel kept_{};
 };

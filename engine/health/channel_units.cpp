@@ -83,23 +83,28 @@ void examine_units(Examination& exam) {
   examine_command(exam);
 }
 
-void find_other_joints(Examination& exam) {
+std::vector<std::size_t> other_joint_columns(Examination& exam) {
   constexpr double moves = 0.02;  // of the range of the joint that was asked for
   std::string const& column = exam.channels.at("position").column;
   auto const own = around_number(column);
-  if (!own) return;
+  if (!own) return {};
   double const range = range_of(exam.values("position"));
-  std::string others;
-  std::int64_t count = 0;
+  std::vector<std::size_t> others;
   for (std::size_t c = 0; c < exam.table.names.size(); ++c) {
     auto const& name = exam.table.names[c];
     if (name == column || around_number(name) != own) continue;
-    if (range_of(exam.table.columns[c]) <= moves * range) continue;
-    others += (others.empty() ? "" : ", ") + name;
-    ++count;
+    if (range_of(exam.table.columns[c]) > moves * range) others.push_back(c);
   }
-  if (count == 0) return;
-  exam.add(FindingKind::other_joints_move, Grade::note, Repair::none, "position", {}, 0.0, others).count = count;
+  return others;
+}
+
+void find_other_joints(Examination& exam) {
+  auto const found = other_joint_columns(exam);
+  if (found.empty()) return;
+  std::string others;
+  for (std::size_t c : found) others += (others.empty() ? "" : ", ") + exam.table.names[c];
+  exam.add(FindingKind::other_joints_move, Grade::note, Repair::none, "position", {}, 0.0, others).count =
+      static_cast<std::int64_t>(found.size());
 }
 
 }  // namespace torquescope

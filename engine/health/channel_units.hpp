@@ -11,6 +11,9 @@
 namespace torquescope {
 
 void examine_units(Examination& exam);
+
+// columns of the table that are called as the position but for their number, and move
+std::vector<std::size_t> other_joint_columns(Examination& exam);
 void find_other_joints(Examination& exam);
 
 }  // namespace torquescope

@@ -181,6 +181,20 @@ Eigen::VectorXd on_grid(KnownValues const& known, Sampling const& sampling, std:
   return Eigen::Map<Eigen::VectorXd const>(found.data(), n);
 }
 
+void take_other_joints(Examination& exam, Sampling const& sampling, std::vector<std::size_t> const& sampled,
+                       std::vector<double> const& grid, Recording& recording) {
+  auto const found = other_joint_columns(exam);
+  recording.other_positions.resize(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(found.size()));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    std::vector<double> in_time_order;
+    for (std::size_t row : exam.order) in_time_order.push_back(exam.table.columns[found[k]][row]);
+    auto const known = known_values(exam, in_time_order, sampling, sampled);
+    recording.other_positions.col(static_cast<Eigen::Index>(k)) =
+        on_grid(known, sampling, grid, 0.0) * exam.options.position_per_unit;
+    recording.other_columns.push_back(exam.table.names[found[k]]);
+  }
+}
+
 Eigen::Index count_resampled(Sampling const& sampling, std::vector<double> const& grid) {
   if (sampling.even) return 0;
   constexpr double coincident_steps = 0.005;
@@ -284,7 +298,8 @@ void report_left_out(Examination& exam, std::vector<Stretch> const& stretches) {
 
 }  // namespace
 
-Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section) {
+Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section,
+                         OtherJoints others) {
   check_options(options, section);
   Examination exam{table, options, section, pick_channels(table, options, section)};
   check_rows(table);
@@ -325,6 +340,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   take("velocity", recording.velocity, 0.0);
   take("acceleration", recording.acceleration, 0.0);
   take("simulated_torque", recording.simulated_torque, 0.0);
+  if (others == OtherJoints::kept) take_other_joints(exam, sampling, sampled, grid, recording);
   recording.left_out = merged(std::move(recording.left_out));
   report_left_out(exam, recording.left_out);
 

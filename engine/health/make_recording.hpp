@@ -13,7 +13,11 @@
 
 namespace torquescope {
 
+// positions of joints beside the one that was asked for (Recording::other_positions)
+enum class OtherJoints { ignored, kept };
+
 // `section` is the job's [recording]: its places stand in the messages
-Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section);
+Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section,
+                         OtherJoints others = OtherJoints::ignored);
 
 }  // namespace torquescope

@@ -50,7 +50,9 @@ void examine_reference(Examination& exam) {
       if (double const error = moments.error(factor); error < best.error)
         best = {factor, error, &known, is_of_position};
     }
-  if (best.known == nullptr || !(before >= levels::factor_worth_saying * best.error)) return;
+  // and the position follows: a joint that lags far behind its reference tells no unit
+  bool const follows = levels::factor_worth_saying * best.error <= 1.0;
+  if (best.known == nullptr || !follows || !(before >= levels::factor_worth_saying * best.error)) return;
   bool const is_unit_of_position = best.is_of_position && !exam.writes("position_per_unit");
   auto& finding = is_unit_of_position
                       ? exam.add(FindingKind::position_factor, Grade::fault, Repair::none, "position", {},

@@ -27,6 +27,8 @@ std::string word(VerdictReason reason) {
       return "nothing_fits";
     case VerdictReason::no_relation:
       return "no_relation";
+    case VerdictReason::other_joints:
+      return "other_joints";
     case VerdictReason::not_held_out:
       return "not_held_out";
     case VerdictReason::too_small:
@@ -42,6 +44,8 @@ std::string word(VerdictReason reason) {
 }
 
 VerdictOf verdict_of(VerdictFacts const& facts) {
+  if (facts.others_predict_better && !facts.is_baseline_adequate)
+    return {Verdict::unexplained, VerdictReason::other_joints};
   if (facts.laws == 0) return without_laws(facts);
   // nothing is left beyond chance, and what was found in it is of no use for other rows
   if (!facts.is_held_out_lower && facts.is_baseline_adequate) return without_laws(facts);

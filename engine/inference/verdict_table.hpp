@@ -10,6 +10,8 @@
 //            -   | some | no  | yes | no  -> unexplained
 //            no  | some | -   | no  | -   -> unexplained
 //            yes | some | -   | no  | -   -> as without laws
+// Before     where the baseline is not adequate and the motion of other joints predicts held-out rows better than the
+//            laws do: unexplained
 // Threads    pure functions
 // Source     engine/inference/THEORY.md, Verdict
 
@@ -21,16 +23,17 @@
 namespace torquescope {
 
 struct VerdictFacts {
-  bool is_baseline_adequate = false;  // in training and unseen
-  std::size_t laws = 0;               // of the last model of the search
-  bool is_adequate = false;           // that model, in training and unseen
-  bool is_held_out_lower = false;     // its held-out error: clearly
-  bool is_worth_naming = true;        // it falls by as much as a verdict names
-  bool explains_most = false;         // of the mismatch on held-out rows, more than it leaves
-  bool has_class = false;             // some law cannot be told from others
-  bool all_on_channel = false;        // all laws, and all that they cannot be told from, are faults of a channel
-  bool is_motion_poor = false;        // the motion could not have shown what is looked for
-  bool has_relation = true;           // the model, or some law beyond chance, has something of the torque
+  bool is_baseline_adequate = false;   // in training and unseen
+  std::size_t laws = 0;                // of the last model of the search
+  bool is_adequate = false;            // that model, in training and unseen
+  bool is_held_out_lower = false;      // its held-out error: clearly
+  bool is_worth_naming = true;         // it falls by as much as a verdict names
+  bool explains_most = false;          // of the mismatch on held-out rows, more than it leaves
+  bool has_class = false;              // some law cannot be told from others
+  bool all_on_channel = false;         // all laws, and all that they cannot be told from, are faults of a channel
+  bool is_motion_poor = false;         // the motion could not have shown what is looked for
+  bool others_predict_better = false;  // other joints' motion than all laws, and clearly than none
+  bool has_relation = true;            // the model, or some law beyond chance, has something of the torque
 };
 
 enum class VerdictReason {
@@ -38,6 +41,7 @@ enum class VerdictReason {
   motion_poor,      // nothing is left, and the motion could not have shown much
   nothing_fits,     // something is left, and no law of the catalogue predicts it
   no_relation,      // the torque has nothing to do with the motion
+  other_joints,     // what is left goes with the motion of other joints
   not_held_out,     // laws fit the training rows and do not predict others better
   too_small,        // laws make the model adequate, and the error hardly falls by them
   most_is_left,     // laws predict better and leave more than they explain

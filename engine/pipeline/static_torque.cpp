@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/data/levels.hpp"
 #include "engine/statistics/blocked_cv.hpp"
 #include "engine/statistics/held_out_gain.hpp"
 
 namespace torquescope {
+
+// convention: what a joint's friction and inertia make of its torque at least; a torque that position explains less
+// well may have them
+constexpr double least_of_a_joint = 0.05;
 
 std::optional<Hopeless> check_static_torque(ProcessedRecord const& record, RecordPipeline const& pipeline,
                                             MotionLimits const& limits) {
@@ -27,7 +30,7 @@ std::optional<Hopeless> check_static_torque(ProcessedRecord const& record, Recor
   Eigen::VectorXd const without = blocked_residuals(record.torque, record.columns(Eigen::all, of_position), memory);
   Eigen::VectorXd const with = blocked_residuals(record.torque, record.columns, memory);
   double const relerr = without.norm() / record.torque.norm();
-  if (relerr > levels::no_relation) return std::nullopt;
+  if (relerr > least_of_a_joint) return std::nullopt;
   if (held_out_gain(held_out_blocks(without, with, memory)).change != HeldOutChange::not_lower) return std::nullopt;
   return Hopeless{
       Verdict::data_fault,

@@ -2,7 +2,7 @@
 // Whether a recorded torque is a function of the position alone, as a controller computes it to hold a weight.
 //
 // Why        a joint that moves has an inertia and friction; a torque without either did not move it
-// Rule       the model's terms of position and constants explain the torque (relerr below levels::no_relation), and its
+// Rule       the model's terms of position and constants explain the torque but for what friction may be, and its
 //            terms of velocity and acceleration do not make it predict rows clearly better that it was not fitted to
 //            (held_out_gain.hpp: blocks, paired, one-sided, level 5 %)
 // Asked      of recordings whose motion goes both ways at several speeds: elsewhere friction may be one with the offset

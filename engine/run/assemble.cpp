@@ -69,12 +69,12 @@ void check_sources(Job const& job, RecordingOptions const& recording, std::vecto
 
 std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> const& files,
                                        RecordingOptions const& options, Section const& section,
-                                       RecordedTables const& tables) {
+                                       RecordedTables const& tables, OtherJoints others) {
   std::vector<Recording> recordings;
   for (auto const& file : files) {
     RawTable const table = table_of_job(job, file, section, tables);
     refuse_huge_samples(table, options);
-    recordings.push_back(make_recording(table, options, section));
+    recordings.push_back(make_recording(table, options, section, others));
   }
   return recordings;
 }
@@ -120,10 +120,13 @@ void use_simulation(Experiment::Parts& parts, SimulationPlan const& plan, Channe
       if (name == names[i]) parts.truth[static_cast<Eigen::Index>(i)] = value;
 }
 
-void use_files(Experiment::Parts& parts, RecordingOptions const& options, RecordedTables const& tables) {
+void use_files(Experiment::Parts& parts, RecordingOptions const& options, RecordedTables const& tables,
+               Channels channels) {
   Section const section = section_or_empty(parts.job, "recording");
-  parts.train.recordings = read_recordings(parts.job, options.train, options, section, tables);
-  std::vector<Recording> unseen = read_recordings(parts.job, options.validate, options, section, tables);
+  auto const others = channels == Channels::kept ? OtherJoints::kept : OtherJoints::ignored;
+  parts.train.recordings = read_recordings(parts.job, options.train, options, section, tables, others);
+  std::vector<Recording> unseen =
+      read_recordings(parts.job, options.validate, options, section, tables, OtherJoints::ignored);
   split_off_unseen(parts.train.recordings, unseen, options.train_share);
   double const rate_hz = rate_of_job(parts.train.recordings, unseen);
   bring_to_rate(parts.train.recordings, rate_hz);
@@ -321,7 +324,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     if (simulates)
       use_simulation(*parts, plan, channels);
     else
-      use_files(*parts, recording, tables);
+      use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
     prepare(parts->train, *parts, channels);
     if (parts->validate) prepare(*parts->validate, *parts, channels);

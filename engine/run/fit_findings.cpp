@@ -33,7 +33,11 @@ std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOpt
   Eigen::VectorXd const signs = passive_signs(*parts.regressor);
   if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
 
-  bool const takes_work_out = work(rows) < 0.0;
+  // a joint that its neighbours load may well give work away
+  auto const& known = parts.train.recordings.front().findings;
+  bool const is_loaded = std::any_of(known.begin(), known.end(),
+                                     [](Finding const& one) { return one.kind == FindingKind::other_joints_move; });
+  bool const takes_work_out = work(rows) < 0.0 && !is_loaded;
   double const surely = takes_work_out ? levels::negative_beside_negative_work : levels::surely_negative;
   auto const fit = fit_with_errors(rows, parameters);
   Finding finding{FindingKind::less_than_none, takes_work_out ? Grade::fault : Grade::warning};

@@ -193,6 +193,7 @@ struct JointDiagnosis {
   Budget budget{};
   std::vector<UnexplainedPart> unexplained{};
   std::string verdict_reason{};  // word of the row of the verdict table (inference/verdict_table.hpp); not stored
+  std::string other_joints{};    // that what is left goes with their motion: a sentence of the reason, not stored
   std::string refutation{};      // why validation refuted the effects: a clause of the reason, not stored
   std::vector<ExcitationAdvice> excitation{};
   std::vector<std::string> nuisances{};  // what was refitted on the first 5 % of a validation recording

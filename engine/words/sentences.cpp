@@ -216,7 +216,8 @@ std::string unexplained_reason(JointDiagnosis const& joint) {
   std::string const nothing_fits = !joint.refutation.empty() ? joint.refutation
                                    : tested > 0              ? fmt::format("none of {} known effects fits it", tested)
                                                              : std::string("no known effect fits it");
-  std::string text;
+  std::string text = joint.other_joints;
+  if (!text.empty()) return text;
   if (joint.unexplained.empty()) {
     text = unlikeness_sentence(joint, nothing_fits);
   } else {

@@ -32,6 +32,16 @@ std::string too_small_clause(JointDiagnosis const& joint) {
                      names.size() == 1 ? "takes" : "take", before_and_after(joint));
 }
 
+std::string other_joints_sentence(JointDiagnosis const& joint, std::vector<std::string> const& columns, double relerr) {
+  return fmt::format(
+      "What is missing at {} goes with the motion of {}, which {} the cross-validated relerr from {} to {}, further "
+      "than "
+      "any effect at this joint: other joints load it. Diagnose the arm as a whole (model.robot = \"ARM.toml\" or its "
+      "URDF).",
+      which_joint(joint), fmt::join(columns, " and "), columns.size() == 1 ? "takes" : "take",
+      percent_text(joint.cv_relerr), percent_text(relerr));
+}
+
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away) {
   auto const names = names_of(joint);
   bool const is_one = names.size() == 1;

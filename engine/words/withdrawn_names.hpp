@@ -5,6 +5,7 @@
 // Threads    pure functions
 
 #include <string>
+#include <vector>
 
 #include "engine/verdict/diagnosis.hpp"
 
@@ -16,6 +17,8 @@ namespace torquescope {
 std::string refutation_clause(JointDiagnosis const& joint, bool twins_ran_away);
 // because hardly anything is won: "cogging takes the unseen relerr from 2.22 % to 2.14 %: too little to be a finding"
 std::string too_small_clause(JointDiagnosis const& joint);
+// because the joint is one of a moving arm: a sentence. Columns: of the joints that load it; relerr: with their motion
+std::string other_joints_sentence(JointDiagnosis const& joint, std::vector<std::string> const& columns, double relerr);
 // because of what they leave: "backlash, the closest of 29 known effects, explains 37 % of what is missing". Share: 0
 // to 1
 std::string too_little_clause(JointDiagnosis const& joint, double share);

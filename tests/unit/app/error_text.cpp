@@ -149,7 +149,7 @@ TEST(ErrorJson, HasTheStableKeysAndNullsForWhatIsUnknown) {
 }
 
 TEST(ErrorJson, SurvivesBytesThatAreNoText) {
-  EXPECT_NO_THROW(nlohmann::json::parse(error_json({Problem{ExitCode::bad_data, "bad \xff byte"}})));
+  EXPECT_TRUE(nlohmann::json::accept(error_json({Problem{ExitCode::bad_data, "bad \xff byte"}})));
 }
 
 }  // namespace error_text_test

@@ -325,6 +325,35 @@ TEST(UnitExamination, NamesThatSayAnotherUnitAskForTheFactor) {
   EXPECT_TRUE(is_fault(*found(recording, FindingKind::unit_of_current)));
 }
 
+// a soft position loop under a weight: the joint goes a tenth of the way that it is sent
+TEST(ReferenceExamination, AJointThatDoesNotFollowTellsNoUnit) {
+  auto table = sample_table();
+  auto options = sample_options();
+  auto const& position = table.columns[1];
+  std::size_t const lag = position.size() / 20;
+  std::vector<double> reference(position.size());
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    reference[i] = 10.0 * position[std::min(i + lag, position.size() - 1)];
+  table.names.push_back("goal");
+  table.columns.push_back(std::move(reference));
+  options.columns["reference"] = "goal";
+  auto const recording = make_recording(table, options, job_section());
+  EXPECT_EQ(found(recording, FindingKind::position_factor), nullptr);
+  EXPECT_EQ(found(recording, FindingKind::reference_factor), nullptr);
+}
+
+TEST(MotionExamination, PositionsOfOtherJointsAreKeptForWhoAsks) {
+  auto table = sample_table();
+  auto options = sample_options();
+  table.names = {"t_s", "q1_rad", "tau_Nm", "q2_rad"};
+  options.columns["position"] = "q1_rad";
+  EXPECT_EQ(make_recording(table, options, job_section()).other_positions.size(), 0);
+  auto const kept = make_recording(table, options, job_section(), OtherJoints::kept);
+  EXPECT_EQ(kept.other_columns, std::vector<std::string>{"q2_rad"});
+  ASSERT_EQ(kept.other_positions.rows(), kept.position.size());
+  EXPECT_LT(largest_difference(kept.other_positions.col(0), table.columns[3]), 1e-9);
+}
+
 TEST(MotionExamination, OtherJointsAndStandstillAreSaid) {
   auto table = sample_table();
   auto options = sample_options();

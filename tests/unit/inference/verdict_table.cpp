@@ -99,11 +99,25 @@ TEST(VerdictTable, OfALawThatIsTooSmallToBeAFinding) {
   expect(facts, Verdict::none, VerdictReason::too_small, false);
 }
 
+// one joint of a moving arm: the load of its neighbours is no effect of the joint
+TEST(VerdictTable, OfAJointThatOthersLoad) {
+  for (bool const has_laws : {false, true}) {
+    VerdictFacts facts = has_laws ? explained() : VerdictFacts{};
+    facts.others_predict_better = true;
+    expect(facts, Verdict::unexplained, VerdictReason::other_joints, false);
+    facts.has_relation = false;
+    expect(facts, Verdict::unexplained, VerdictReason::other_joints, false);
+    facts.is_baseline_adequate = true;
+    EXPECT_NE(verdict_of(facts).reason, VerdictReason::other_joints);
+  }
+}
+
 TEST(VerdictTable, WordsOfReasonsDiffer) {
   std::set<std::string> words;
-  for (auto const reason : {VerdictReason::nothing_left, VerdictReason::motion_poor, VerdictReason::nothing_fits,
-                            VerdictReason::no_relation, VerdictReason::not_held_out, VerdictReason::most_is_left,
-                            VerdictReason::explained, VerdictReason::partly_explained, VerdictReason::too_small})
+  for (auto const reason :
+       {VerdictReason::nothing_left, VerdictReason::motion_poor, VerdictReason::nothing_fits,
+        VerdictReason::no_relation, VerdictReason::not_held_out, VerdictReason::most_is_left, VerdictReason::explained,
+        VerdictReason::partly_explained, VerdictReason::too_small, VerdictReason::other_joints})
     EXPECT_TRUE(words.insert(word(reason)).second) << word(reason);
 }
 
