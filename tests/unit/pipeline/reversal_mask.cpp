@@ -57,9 +57,18 @@ TEST(ReversalMask, FindsAReversalBetweenTwoFastSamples) {
 // a recording that begins with the drive back to where the test starts
 TEST(ReversalMask, KeepsASlowTestBehindOneFastMove) {
   Eigen::VectorXd dq = Eigen::VectorXd::Ones(1000);
-  dq.head(40).setConstant(-300.0);
+  dq.head(40).setConstant(-150.0);
   auto const moving = moving_samples(dq, rate_hz, 0.0);
   for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k != 40) << k;
+}
+
+// the noise of the speed is no motion, however long it lasts
+TEST(ReversalMask, DropsTheRestRoundOneShortMove) {
+  Eigen::VectorXd dq(2000);
+  for (Eigen::Index k = 0; k < dq.size(); ++k) dq[k] = k % 3 == 0 ? 1e-3 : -5e-4;
+  dq.segment(1000, 60).setOnes();
+  auto const moving = moving_samples(dq, rate_hz, 0.0);
+  for (std::size_t k = 0; k < moving.size(); ++k) EXPECT_EQ(moving[k], k >= 1000 && k < 1060) << k;
 }
 
 TEST(ReversalMask, DropsAJointThatNeverMoves) {
