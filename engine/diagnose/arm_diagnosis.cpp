@@ -1,10 +1,14 @@
 #include "engine/diagnose/arm_diagnosis.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "engine/diagnose/arm_simulator.hpp"
+#include "engine/diagnose/beside_shared_arm.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/rigid_rows.hpp"
 #include "engine/pipeline/held_torque.hpp"
@@ -39,38 +43,49 @@ JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
   return {std::move(diagnosis), {}};
 }
 
+// of each joint that has laws which the rigid arm is fitted beside: their torque in each training recording
+using LawsOfJoints = std::vector<std::vector<Eigen::VectorXd>>;
+
+// the rigid arm beside laws, and every joint's recordings without it
+struct ArmBesideLaws {
+  LawsOfJoints laws{};  // [N]
+  FittedArm fitted{};
+  std::vector<std::vector<Recording>> train{}, unseen{};  // [file][N] joints alone
+};
+
+// whether a joint's own rows may correct the rigid arm (rigid_corrections.hpp)
+enum class RigidArm { shared, corrected };
+
 class ArmWork {
  public:
   ArmWork(ArmDiagnosisInput const& input, StageSink const& progress)
-      : input_(input), progress_(progress), laws_(input.model.joints()) {}
+      : input_(input), progress_(progress), filter_{input.filter, input.filter_section} {
+    if (has_simulator(input.train)) apart_ = without_simulator(input.model, input.train, input.validate, filter_);
+  }
 
   Diagnosis run() {
-    fit();
-    std::vector<JointOutcome> outcomes(input_.model.joints());
-    std::vector<Eigen::VectorXd> searched_on(outcomes.size());
-    auto const search = [&] {
-      for (std::size_t j = 0; j < outcomes.size(); ++j) {
-        if (!has_moved(j, searched_on[j])) continue;
-        outcomes[j] = searched(j);
-        searched_on[j] = train_.front()[j].gear_load;
-      }
-    };
-    search();
-    for (auto strongest = strongest_new(outcomes); strongest; strongest = strongest_new(outcomes)) {
-      laws_[*strongest] = outcomes[*strongest].laws;
-      fit();
-      search();
-    }
+    std::size_t const n = input_.model.joints();
+    arm_ = beside(LawsOfJoints(n));
+    for (std::size_t j = 0; j < n; ++j) alone_.push_back(searched(j, RigidArm::shared));
+    outcomes_ = alone_;
+    searched_on_.resize(n);
+    for (std::size_t j = 0; j < n; ++j) searched_on_[j] = arm_.train.front()[j].gear_load;
+    take_laws_in_turn();
+    for (std::size_t j = 0; j < n; ++j)
+      if (outcomes_[j].diagnosis.verdict == Verdict::unexplained && try_beside_pilot(j)) take_laws_in_turn();
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
     diagnosis.q = input_.selection.q;
-    for (auto& outcome : outcomes) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
+    for (auto& outcome : outcomes_) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
     diagnosis.verdict = verdict_of_arm(diagnosis.joints);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
   }
 
  private:
+  std::vector<RecordedArm> const& train_files() const { return apart_ ? apart_->train : input_.train; }
+  std::vector<RecordedArm> const& unseen_files() const { return apart_ ? apart_->validate : input_.validate; }
+
   static JointDiagnosis joint_of(Diagnosis& made) {
     JointDiagnosis joint = std::move(made.joints.front());
     joint.verdict = made.verdict;
@@ -78,38 +93,118 @@ class ArmWork {
     return joint;
   }
 
-  // the rigid arm beside what was taken so far, and every joint's recordings without it
-  void fit() {
-    ArmFilter const filter{input_.filter, input_.filter_section};
-    std::vector<RecordedArm> beside_laws = input_.train;
-    for (std::size_t j = 0; j < laws_.size(); ++j)
-      for (std::size_t k = 0; k < beside_laws.size() && !laws_[j].empty(); ++k)
-        beside_laws[k].joints[j].torque -= torque_to_hold(laws_[j][k]);
-    fitted_ = fit_arm(input_.model, beside_laws, filter);
-    train_.clear();
-    unseen_.clear();
-    for (auto const& recording : input_.train) train_.push_back(joints_alone(input_.model, fitted_, recording, filter));
-    for (auto const& recording : input_.validate)
-      unseen_.push_back(joints_alone(input_.model, fitted_, recording, filter));
+  std::vector<RecordedArm> less(LawsOfJoints const& laws) const {
+    std::vector<RecordedArm> left = train_files();
+    for (std::size_t j = 0; j < laws.size(); ++j)
+      for (std::size_t k = 0; k < left.size() && !laws[j].empty(); ++k)
+        left[k].joints[j].torque -= torque_to_hold(laws[j][k]);
+    return left;
+  }
+
+  // The laws of a joint beside those of the others, as large as a fit of them and the arm together has them: beside an
+  // arm that was fitted without them they come out too small
+  LawsOfJoints with_laws(std::size_t j, std::vector<Eigen::VectorXd> const& found) const {
+    LawsOfJoints laws = arm_.laws;
+    Eigen::VectorXd const& noise = arm_.fitted.noise;
+    auto const left_beside = [&](double size) {
+      laws[j].clear();
+      for (auto const& torque : found) laws[j].emplace_back(size * torque);
+      auto const recordings = less(laws);
+      double left = 0.0;
+      auto const energies =
+          joint_energies(input_.model, fit_arm(input_.model, recordings, filter_, noise), recordings, filter_);
+      for (std::size_t i = 0; i < energies.size(); ++i) {
+        double const own = noise[static_cast<Eigen::Index>(i)];
+        left += energies[i].left / (own * own);
+      }
+      return left;
+    };
+    // the energy is a parabola in the size: three points tell its lowest one
+    double const none = left_beside(0.0), once = left_beside(1.0), twice = left_beside(2.0);
+    double const curvature = none - 2.0 * once + twice;
+    double const best = curvature > 0.0 ? 1.0 + 0.5 * (none - twice) / curvature : 1.0;
+    laws[j].clear();
+    for (auto const& torque : found) laws[j].emplace_back(std::max(1.0, best) * torque);
+    return laws;
+  }
+
+  ArmBesideLaws beside(LawsOfJoints laws) const {
+    ArmBesideLaws arm;
+    arm.fitted = fit_arm(input_.model, less(laws), filter_);
+    arm.laws = std::move(laws);
+    for (auto const& recording : train_files())
+      arm.train.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
+    for (auto const& recording : unseen_files())
+      arm.unseen.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
+    return arm;
+  }
+
+  // the laws of one joint after the other, the strongest first, until none is new to the fit of the arm
+  void take_laws_in_turn() {
+    for (auto strongest = strongest_new(); strongest; strongest = strongest_new()) {
+      arm_ = beside(with_laws(*strongest, outcomes_[*strongest].laws));
+      search_those_that_moved();
+    }
+  }
+
+  void search_those_that_moved() {
+    for (std::size_t j = 0; j < outcomes_.size(); ++j) {
+      if (!has_moved(j)) continue;
+      outcomes_[j] = searched_beside_laws(j);
+      searched_on_[j] = arm_.train.front()[j].gear_load;
+    }
+  }
+
+  JointOutcome searched_beside_laws(std::size_t j) const {
+    JointOutcome outcome = searched(j, RigidArm::shared);
+    if (outcome.diagnosis.joints.front().effects.empty()) return outcome;
+    return beside_shared_arm(alone_[j], std::move(outcome), input_.levels, filter_memory());
+  }
+
+  // rows that the parallel filter couples, of the joints' rows
+  Eigen::Index filter_memory() const {
+    RecordPipeline const pipeline(own_terms(input_.model, 0), input_.filter, train_files().front().joints[0].rate_hz,
+                                  train_files().front().joints[0].position.size(), input_.filter_section);
+    return guard_rows(pipeline);
+  }
+
+  // A law that is missing bends the rigid arm, which then hides it. Where a joint stays unexplained, a search that may
+  // correct the arm at that joint is the pilot: beside what it finds the arm is fitted anew, and the joint is judged
+  // beside that arm. Whether names came of it
+  bool try_beside_pilot(std::size_t j) {
+    JointOutcome const pilot = searched(j, RigidArm::corrected);
+    if (pilot.tried.empty()) return false;
+    ArmBesideLaws before = arm_;
+    arm_ = beside(with_laws(j, pilot.tried));
+    JointOutcome again = searched_beside_laws(j);
+    if (again.laws.empty() || !names_physics(again.diagnosis.verdict)) {
+      arm_ = std::move(before);
+      return false;
+    }
+    outcomes_[j] = std::move(again);
+    searched_on_[j] = arm_.train.front()[j].gear_load;
+    arm_.laws[j].clear();  // to be taken as they were found last
+    return true;
   }
 
   // Whether the joint's rigid torque differs from the one it was last searched with, by more than a tenth of its noise
-  bool has_moved(std::size_t j, Eigen::VectorXd const& before) const {
+  bool has_moved(std::size_t j) const {
     constexpr double tenth = 0.1;
-    if (before.size() == 0) return true;
-    double const moved = (train_.front()[j].gear_load - before).norm() / std::sqrt(static_cast<double>(before.size()));
-    return moved > tenth * fitted_.noise[static_cast<Eigen::Index>(j)];
+    Eigen::VectorXd const& before = searched_on_[j];
+    double const moved =
+        (arm_.train.front()[j].gear_load - before).norm() / std::sqrt(static_cast<double>(before.size()));
+    return moved > tenth * arm_.fitted.noise[static_cast<Eigen::Index>(j)];
   }
 
   // Of joints whose laws are not yet taken out of the fit, the one whose laws are largest relative to its noise: these
   // bias the shared parameters most
-  std::optional<std::size_t> strongest_new(std::vector<JointOutcome> const& outcomes) const {
+  std::optional<std::size_t> strongest_new() const {
     std::optional<std::size_t> strongest;
     double most = 0.0;
-    for (std::size_t j = 0; j < outcomes.size(); ++j) {
-      if (!laws_[j].empty() || outcomes[j].laws.empty()) continue;
-      double const noise = fitted_.noise[static_cast<Eigen::Index>(j)];
-      double const size = outcomes[j].laws.front().squaredNorm() / (noise * noise);
+    for (std::size_t j = 0; j < outcomes_.size(); ++j) {
+      if (!arm_.laws[j].empty() || outcomes_[j].laws.empty()) continue;
+      double const noise = arm_.fitted.noise[static_cast<Eigen::Index>(j)];
+      double const size = outcomes_[j].laws.front().squaredNorm() / (noise * noise);
       if (size <= most) continue;
       most = size;
       strongest = j;
@@ -117,19 +212,24 @@ class ArmWork {
     return strongest;
   }
 
-  JointOutcome searched(std::size_t j) const {
+  JointOutcome searched(std::size_t j, RigidArm rigid) const {
     std::vector<Recording> others;
-    for (std::size_t k = 1; k < train_.size(); ++k) others.push_back(train_[k][j]);
+    for (std::size_t k = 1; k < arm_.train.size(); ++k) others.push_back(arm_.train[k][j]);
     std::vector<std::string> too_short;
-    for (auto const& recording : unseen_) {
-      bool const is_long = rows_one_way(recording[j], {input_.filter, input_.filter_section}) >= fewest_rows;
+    for (auto const& recording : arm_.unseen) {
+      bool const is_long = rows_one_way(recording[j], filter_) >= fewest_rows;
       if (is_long)
         others.push_back(recording[j]);
       else
         too_short.push_back(recording[j].name);
     }
-    Regressor const regressor = own_terms(input_.model, j);
-    DiagnosisInput joint{train_.front()[j], others, regressor, input_.filter, input_.filter_section};
+    Regressor regressor = own_terms(input_.model, j);
+    std::unique_ptr<Effect const> term;
+    if (RigidCorrections const& free = arm_.fitted.corrections[j]; rigid == RigidArm::corrected && free.size() > 0) {
+      term = correction_term(free.size());
+      regressor = regressor.beside(*term);
+    }
+    DiagnosisInput joint{arm_.train.front()[j], others, regressor, input_.filter, input_.filter_section};
     joint.selection = input_.selection;
     joint.selection.candidates = input_.candidates[j];
     joint.selection.q = input_.selection.q / static_cast<double>(input_.model.joints());  // Bonferroni over joints
@@ -140,8 +240,9 @@ class ArmWork {
     joint.ablation = input_.ablation;
     joint.reversals = input_.reversals;
     joint.joint = static_cast<int>(j) + 1;
-    joint.further_training = train_.size() - 1;
+    joint.further_training = arm_.train.size() - 1;
     joint.exchange = input_.exchange;
+    if (apart_) joint.parameter_share = apart_->parameter_share[j];
     JointOutcome outcome;
     // a joint that hardly moves in one recording is no reason to say nothing of the others
     auto const why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
@@ -155,9 +256,11 @@ class ArmWork {
 
   ArmDiagnosisInput const& input_;
   StageSink const& progress_;
-  std::vector<std::vector<Eigen::VectorXd>> laws_;  // [N] that the rigid arm was fitted beside
-  FittedArm fitted_{};
-  std::vector<std::vector<Recording>> train_, unseen_;  // [file][N] joints alone
+  ArmFilter filter_;
+  std::optional<ArmWithoutSimulator> apart_{};
+  ArmBesideLaws arm_{};
+  std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without laws; as it is told
+  std::vector<Eigen::VectorXd> searched_on_{};      // [N] rigid torque of the last search
 };
 
 }  // namespace

@@ -105,9 +105,8 @@ constexpr ArmLaw table[] = {
 
 }  // namespace
 
-std::vector<std::shared_ptr<GivenSignals const>> arm_law_signals(ArmModel const& model,
-                                                                 Eigen::VectorXd const& parameters,
-                                                                 std::vector<Motion> const& motion) {
+std::vector<GivenSignals> arm_law_signals(ArmModel const& model, Eigen::VectorXd const& parameters,
+                                          std::vector<Motion> const& motion) {
   MovingArm const arm{model.chain(), model.base().to_standard(parameters.head(model.base().size())), motion};
   std::vector<GivenSignals> signals(motion.size());
   for (ArmLaw const& law : table) {
@@ -115,9 +114,7 @@ std::vector<std::shared_ptr<GivenSignals const>> arm_law_signals(ArmModel const&
     for (std::size_t j = 0; j < columns.size(); ++j)
       if (columns[j].size() > 0) signals[j].laws.push_back({law.name, std::move(columns[j])});
   }
-  std::vector<std::shared_ptr<GivenSignals const>> shared;
-  for (auto& of_joint : signals) shared.push_back(std::make_shared<GivenSignals const>(std::move(of_joint)));
-  return shared;
+  return signals;
 }
 
 }  // namespace torquescope

@@ -8,7 +8,6 @@
 // Units      SI
 // Threads    free function
 
-#include <memory>
 #include <vector>
 
 #include "engine/data/given_signals.hpp"
@@ -18,8 +17,7 @@
 namespace torquescope {
 
 // parameters: [R] of the model; motion: of each joint
-std::vector<std::shared_ptr<GivenSignals const>> arm_law_signals(ArmModel const& model,
-                                                                 Eigen::VectorXd const& parameters,
-                                                                 std::vector<Motion> const& motion);
+std::vector<GivenSignals> arm_law_signals(ArmModel const& model, Eigen::VectorXd const& parameters,
+                                          std::vector<Motion> const& motion);
 
 }  // namespace torquescope

@@ -21,7 +21,8 @@ Eigen::VectorXd beside_the_level(ModelStage const& stage, Effect const& effect, 
   Eigen::MatrixXd levels(torque.size(), 0);
   for (std::size_t k = 0; k < regressor.size(); ++k) {
     auto const& owner = regressor.column_owners()[k];
-    bool const is_constant = !owner.needs_position && !owner.needs_velocity && !owner.needs_acceleration;
+    bool const is_constant = !owner.needs_position && !owner.needs_velocity && !owner.needs_acceleration &&
+                             !regressor.terms()[owner.term]->is_given();
     if (!is_constant && !regressor.terms()[owner.term]->is_dry_friction()) continue;
     levels.conservativeResize(Eigen::NoChange, levels.cols() + 1);
     levels.rightCols(1) = model_columns.col(static_cast<Eigen::Index>(k));
@@ -57,8 +58,9 @@ ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& c
   auto const& [effect, shape] = stage.model().effects()[i];
   Motion const& motion = stage.comparison.common.motion;
   RecordPipeline const& pipeline = *stage.pipeline;
-  Eigen::VectorXd const torque = beside_the_level(stage, *effect, stage.model().regressor().columns(motion),
-                                                  columns.signals(*effect, shape) * parameters_of(stage, i));
+  Eigen::VectorXd const torque =
+      beside_the_level(stage, *effect, stage.model().regressor().columns(motion, stage.model().reference().given.get()),
+                       columns.signals(*effect, shape) * parameters_of(stage, i));
   MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
   Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
   Eigen::Index const n = torque.size();

@@ -60,8 +60,11 @@ void FirstLook::merge_constants(Recording const& recording) {
   if (dropped.empty()) return;
   std::vector<std::string> terms;
   for (auto const* term : input_.regressor.terms())
-    if (std::find(dropped.begin(), dropped.end(), term->name()) == dropped.end()) terms.push_back(term->name());
+    if (!term->is_given() && std::find(dropped.begin(), dropped.end(), term->name()) == dropped.end())
+      terms.push_back(term->name());
   merged_.emplace(terms, input_.regressor.joint(), input_.regressor.velocity_deadband());
+  for (auto const* term : input_.regressor.terms())
+    if (term->is_given()) merged_ = merged_->beside(*term);
   remarks_.push_back(merged_sentence(dropped));
 }
 

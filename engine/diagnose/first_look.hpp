@@ -32,7 +32,7 @@ std::optional<Hopeless> verdict_of(Verdict verdict, Work const& work) {
 
 class FirstLook {
  public:
-  explicit FirstLook(DiagnosisInput const& input) : input_(input) {}
+  explicit FirstLook(DiagnosisInput const& input) : input_(input), parameter_share_(input.parameter_share) {}
 
   // may replace the torque by what the simulator cannot say; an answer: no diagnosis
   std::optional<Hopeless> look(Recording& recording);
@@ -59,7 +59,7 @@ class FirstLook {
   Excitation excitation_{};
   MotionLimits limits_{};
   std::optional<Regressor> merged_{};  // none: as given
-  double relerr_ = unknown, parameter_share_ = 0.0;
+  double relerr_ = unknown, parameter_share_;
   Eigen::VectorXd simulator_parameters_{};  // of the terms; empty: no simulator
   std::vector<std::string> remarks_{};
   std::optional<Hopeless> static_torque_{};

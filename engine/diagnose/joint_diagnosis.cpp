@@ -72,13 +72,11 @@ class JointWork {
   JointOutcome run() {
     diagnose();
     joint_.verdict = diagnosis_.verdict;
-    diagnosis_.joints.push_back(std::move(joint_));
-    diagnosis_.reason = reason_sentence(diagnosis_);
-    if (diagnosis_.finding.empty())
-      for (auto const& remark : diagnosis_.joints.front().remarks) diagnosis_.reason += " " + remark;
     if (selection_.baseline && !has_reference_)
-      diagnosis_.reason += " " + without_reference_sentence(input_.train.reference.size() > 0);
-    return {std::move(diagnosis_), std::move(laws_)};
+      joint_.reference_remark = without_reference_sentence(input_.train.reference.size() > 0);
+    diagnosis_.joints.push_back(std::move(joint_));
+    diagnosis_.reason = whole_reason(diagnosis_);
+    return {std::move(diagnosis_), std::move(laws_), std::move(tried_)};
   }
 
  private:
@@ -139,7 +137,8 @@ class JointWork {
       neighbours_ = neighbour_load(setting.recording, *baseline().pipeline, baseline().comparison.recording);
     budget();
     decide();
-    if (!joint_.effects.empty()) laws_ = law_torques();
+    if (!selection_.accepted.empty()) tried_ = law_torques();
+    if (!joint_.effects.empty()) laws_ = tried_;
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
@@ -421,7 +420,7 @@ class JointWork {
   JointDiagnosis joint_;
   Selection selection_;
   OwnedRecordings others_;  // torque in time with that of the first
-  std::vector<Eigen::VectorXd> laws_;
+  std::vector<Eigen::VectorXd> laws_, tried_;
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop
   double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)

@@ -33,6 +33,7 @@ struct DiagnosisInput {
   int joint = 1;                     // its number
   std::string joint_name{};          // for texts: of the position column
   std::size_t further_training = 0;  // so many of the others
+  double parameter_share = 0.0;      // SimulatorGap of an arm, whose recordings are without their simulator by now
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
@@ -40,6 +41,8 @@ struct JointOutcome {
   Diagnosis diagnosis;
   // torque of what was named, per sample: of the first training recording, then of each other; empty: no name
   std::vector<Eigen::VectorXd> laws{};
+  // the same of all laws of the search, whether or not the verdict keeps them
+  std::vector<Eigen::VectorXd> tried{};
 };
 
 JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress);

@@ -1,6 +1,7 @@
 #include "engine/diagnose/rigid_rows.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "engine/data/filter_checks.hpp"
 #include "engine/diagnose/arm_laws.hpp"
@@ -62,16 +63,33 @@ Eigen::MatrixXd rigid_torque(ArmModel const& model, Eigen::MatrixXd const& param
   return rows * of_joint;
 }
 
+std::vector<RigidCorrections> corrections_of(ArmModel const& model, FittedArm const& fitted,
+                                             std::span<RecordedArm const> recordings,
+                                             std::vector<FilteredGram> const& grams, ArmFilter const& filter) {
+  std::vector<CorrectionSums> sums(model.joints());
+  for (auto const& recording : recordings) {
+    auto const motion = motion_of(recording, filter);
+    auto const rows = model.rows(motion, recording.payload);
+    for (std::size_t j = 0; j < sums.size(); ++j)
+      sums[j].add(motion[j], rigid_torque(model, fitted.white_errors, j, rows[j]));
+  }
+  std::vector<RigidCorrections> corrections;
+  for (std::size_t j = 0; j < sums.size(); ++j)
+    corrections.push_back(sums[j].corrections(fitted.noise[static_cast<Eigen::Index>(j)], grams[j].rows));
+  return corrections;
+}
+
 }  // namespace
 
-FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter) {
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
+                  std::optional<Eigen::VectorXd> const& deviation) {
   std::vector<RecordedRows> rows;
   for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
   auto const grams = filtered_grams(rows, model);
   auto const n_parameters = static_cast<Eigen::Index>(model.size());
-  NoiseLevels const noise = noise_levels(grams, n_parameters);
   FittedArm fitted;
-  RegressionData const stacked = stack_rows(rows, ArmRowChoice::moving, model, noise.deviation, filter.section);
+  fitted.noise = deviation ? *deviation : noise_levels(grams, n_parameters).deviation;
+  RegressionData const stacked = stack_rows(rows, ArmRowChoice::moving, model, fitted.noise, filter.section);
   // a joint that stands still leaves parameters that nothing tells: the others are searched all the same
   bool const tells_all = !too_few_rows(stacked) && regressor_health(stacked).identifiable;
   if (tells_all) {
@@ -79,13 +97,36 @@ FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings
     LeastSquaresFit const fit = plain_least_squares(stacked, automatic_lags);
     fitted.parameters = fit.parameters;
     fitted.errors = covariance_root(fit.covariance_hac);
+    fitted.white_errors = covariance_root(fit.covariance_naive);
   } else {
-    fitted.parameters = shortest_fit(grams, n_parameters, noise.deviation);
+    fitted.parameters = shortest_fit(grams, n_parameters, fitted.noise);
     fitted.errors.resize(n_parameters, 0);
+    fitted.white_errors.resize(n_parameters, 0);
   }
-  fitted.noise = noise.deviation;
   fitted.inertia = mean_inertias(model, fitted.parameters, recordings);
+  fitted.corrections = corrections_of(model, fitted, recordings, grams, filter);
   return fitted;
+}
+
+std::vector<JointEnergies> joint_energies(ArmModel const& model, FittedArm const& fitted,
+                                          std::span<RecordedArm const> recordings, ArmFilter const& filter) {
+  std::vector<RecordedRows> rows;
+  for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
+  std::vector<JointEnergies> energies;
+  for (auto const& gram : filtered_grams(rows, model))
+    energies.push_back({gram.torque_energy(), gram.residual_energy(fitted.parameters)});
+  return energies;
+}
+
+std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, FittedArm const& fitted,
+                                            RecordedArm const& recording, ArmFilter const& filter) {
+  auto const rows = model.rows(motion_of(recording, filter), recording.payload);
+  std::vector<Eigen::VectorXd> torques;
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    torques.emplace_back(rows[j] * fitted.parameters(model.parameters_of(j)));
+    if (recording.payload) torques.back() += model.known_torque(j, rows[j], *recording.payload);
+  }
+  return torques;
 }
 
 Eigen::Index rows_one_way(Recording const& joint, ArmFilter const& filter) {
@@ -102,17 +143,23 @@ std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitt
   auto const motion = motion_of(recording, filter);
   auto const rows = model.rows(motion, recording.payload);
   std::vector<Recording> alone = recording.joints;
-  auto const laws = arm_law_signals(model, fitted.parameters, motion);
+  auto laws = arm_law_signals(model, fitted.parameters, motion);
   for (std::size_t j = 0; j < alone.size(); ++j) {
     Eigen::VectorXd beside = rigid_torque(model, fitted.parameters, j, rows[j]);
     if (recording.payload) beside += model.known_torque(j, rows[j], *recording.payload);
     beside -= fitted.inertia[static_cast<Eigen::Index>(j)] * motion[j].ddq;
     alone[j].torque -= torque_to_hold(beside);
+    // of an arm with a simulator, what that knows beyond the model passes the gear as well
+    if (alone[j].gear_load.size() > 0) beside += alone[j].gear_load;
     alone[j].gear_load = std::move(beside);
-    alone[j].given = laws[j];
     constexpr double matters = 0.1;  // of the noise: what is less adds half a per cent to it
     alone[j].load_errors = largest_parts(rigid_torque(model, fitted.errors, j, rows[j]),
                                          matters * fitted.noise[static_cast<Eigen::Index>(j)]);
+    if (RigidCorrections const& free = fitted.corrections[j]; free.size() > 0)
+      laws[j].laws.push_back(
+          {corrections_name,
+           correction_columns(free, motion[j], rigid_torque(model, fitted.white_errors, j, rows[j]))});
+    alone[j].given = std::make_shared<GivenSignals const>(std::move(laws[j]));
   }
   return alone;
 }

@@ -9,17 +9,19 @@
 //            1997, doi:10.1109/ROBOT.1997.606794), where a joint moves one way
 //            Where rows cannot tell all parameters apart: the least-norm solution (shortest_fit.hpp)
 // Accuracy   errors of the fitted parameters go with every recording as Recording::load_errors, those above a tenth of
-//            the joint's noise
+//            the joint's noise; what a joint may correct (rigid_corrections.hpp) as a law of Recording::given
 // Laws       of several joints: their columns go with every recording as Recording::given (arm_laws.hpp)
 // Units      SI
 // Errors     those of the filters
 // Threads    free functions
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/data/motion.hpp"
+#include "engine/diagnose/rigid_corrections.hpp"
 #include "engine/problem/arm_model.hpp"
 #include "engine/problem/recorded_arm.hpp"
 
@@ -32,13 +34,28 @@ struct ArmFilter {
 };
 
 struct FittedArm {
-  Eigen::VectorXd parameters;  // [R] of the model
-  Eigen::MatrixXd errors;      // [R][r] independent errors of the parameters, each of one standard deviation (HAC)
-  Eigen::VectorXd inertia;     // [N] J_j
-  Eigen::VectorXd noise;       // [N] standard deviation of what is left of each joint
+  Eigen::VectorXd parameters;    // [R] of the model
+  Eigen::MatrixXd errors;        // [R][r] independent errors of the parameters, each of one standard deviation (HAC)
+  Eigen::MatrixXd white_errors;  // the same if residuals were white: by the rows that tell a parameter alone
+  Eigen::VectorXd inertia;       // [N] J_j
+  Eigen::VectorXd noise;         // [N] standard deviation of what is left of each joint
+  std::vector<RigidCorrections> corrections{};  // [N]
 };
 
-FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter);
+// deviation: [N], of the weights; none: the noise of the recordings
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
+                  std::optional<Eigen::VectorXd> const& deviation = {});
+
+// of each joint the energy of its torque, and what the fitted parameters leave of it, on the rows of the fit
+struct JointEnergies {
+  double torque = 0.0, left = 0.0;
+};
+std::vector<JointEnergies> joint_energies(ArmModel const& model, FittedArm const& fitted,
+                                          std::span<RecordedArm const> recordings, ArmFilter const& filter);
+
+// of each joint, n samples at the full rate: what the fitted arm with its frictions and its payload needs
+std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, FittedArm const& fitted,
+                                            RecordedArm const& recording, ArmFilter const& filter);
 
 // each joint of a recording, also of one that nothing was fitted to, as a recording of its own
 std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitted, RecordedArm const& recording,

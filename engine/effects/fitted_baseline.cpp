@@ -49,7 +49,7 @@ JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_
 }
 
 FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double const> parameters, Motion const& motion,
-                               double cutoff_hz, double encoder_step) {
+                               double cutoff_hz, double encoder_step, GivenSignals const* given) {
   TORQUESCOPE_EXPECT(parameters.size() == regressor.size());
   FittedBaseline baseline;
 
@@ -62,7 +62,7 @@ FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double cons
   scales.gravity_sin = parameter_named(regressor, parameters, "gravity_sin");
   scales.gravity_cos = parameter_named(regressor, parameters, "gravity_cos");
 
-  Eigen::MatrixXd const phi = regressor.columns(motion);
+  Eigen::MatrixXd const phi = regressor.columns(motion, given);
   baseline.load_torque.setZero(phi.rows());
   baseline.model_torque.setZero(phi.rows());
   scales.bears_only_inertia = true;

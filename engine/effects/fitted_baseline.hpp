@@ -32,6 +32,6 @@ JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_
 
 // cutoff_hz of the parallel filter; encoder_step 0: unknown; parameters: regressor.size()
 FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double const> parameters, Motion const& motion,
-                               double cutoff_hz, double encoder_step);
+                               double cutoff_hz, double encoder_step, GivenSignals const* given = nullptr);
 
 }  // namespace torquescope

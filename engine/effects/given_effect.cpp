@@ -34,4 +34,6 @@ std::unique_ptr<EffectRunner> GivenEffect::runner(std::span<double const>, Joint
   throw Error(problem);
 }
 
+double GivenEffect::torque(JointState const&, std::span<double const>, JointScales const&) const { return 0.0; }
+
 }  // namespace torquescope

@@ -17,6 +17,8 @@ class GivenEffect final : public Effect {
   bool has_memory() const override { return false; }
   void columns(EffectInput const& input, std::span<double const> shape, Eigen::Ref<Eigen::MatrixXd> out) const override;
   std::unique_ptr<EffectRunner> runner(std::span<double const> parameters, JointScales const& scales) const override;
+  // 0: the joint's own state tells nothing of it
+  double torque(JointState const& state, std::span<double const> parameters, JointScales const& scales) const override;
 };
 
 // of all joints of an arm; find_effect() knows them too

@@ -133,6 +133,15 @@ Regressor::Regressor(std::vector<std::string> const& terms, JointKind joint, dou
   if (!problems.empty()) throw Error(std::move(problems));
 }
 
+Regressor Regressor::beside(Effect const& given) const {
+  TORQUESCOPE_EXPECT(given.is_given());
+  Regressor both = *this;
+  both.terms_.push_back(&given);
+  for (auto const& parameter : given.parameters())
+    both.columns_.push_back({parameter.name, parameter.unit_for(joint_), terms_.size()});
+  return both;
+}
+
 std::vector<std::string> Regressor::names() const {
   std::vector<std::string> names;
   for (auto const& column : columns_) names.push_back(column.name);
@@ -158,23 +167,28 @@ double Regressor::seen_velocity(Effect const& effect, double velocity) const {
   return at_rest ? 0.0 : velocity;
 }
 
-void Regressor::columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out) const {
+void Regressor::columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out,
+                                GivenSignals const* given) const {
   TORQUESCOPE_EXPECT(motion.q.size() == motion.dq.size() && motion.q.size() == motion.ddq.size() &&
                      motion.q.size() == motion.time_s.size());
   auto const& effect = *terms_[term];
-  if (!effect.is_dry_friction() || velocity_deadband_ == 0.0) return effect.columns({motion}, {}, out);
+  if (!effect.is_dry_friction() || velocity_deadband_ == 0.0) {
+    EffectInput input{motion};
+    input.given = given;
+    return effect.columns(input, {}, out);
+  }
   Motion deadened = motion;
   for (double& velocity : deadened.dq) velocity = seen_velocity(effect, velocity);
   effect.columns({deadened}, {}, out);
 }
 
-Eigen::MatrixXd Regressor::columns(Motion const& motion) const {
+Eigen::MatrixXd Regressor::columns(Motion const& motion, GivenSignals const* given) const {
   Eigen::MatrixXd phi(motion.q.size(), static_cast<Eigen::Index>(size()));
   in_huge_pages(phi);
   Eigen::Index first = 0;
   for (std::size_t term = 0; term < terms_.size(); ++term) {
     auto const count = static_cast<Eigen::Index>(terms_[term]->n_linear());
-    columns_of_term(motion, term, phi.middleCols(first, count));
+    columns_of_term(motion, term, phi.middleCols(first, count), given);
     first += count;
   }
   return phi;

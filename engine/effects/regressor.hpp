@@ -36,6 +36,9 @@ class Regressor {
   Regressor(std::vector<std::string> const& terms, JointKind joint, double velocity_deadband = 0.0,
             Section const& model = {});
 
+  // the same beside a term whose columns come with a recording (given_effect.hpp); it outlives the regressor
+  Regressor beside(Effect const& given) const;
+
   std::size_t size() const { return columns_.size(); }  // parameters
   JointKind joint() const { return joint_; }
   double velocity_deadband() const { return velocity_deadband_; }
@@ -45,9 +48,11 @@ class Regressor {
   std::vector<std::string> units() const;
   std::string equation() const;  // "tau = J ddq + Fv dq + Fc sign(dq)"
 
-  Eigen::MatrixXd columns(Motion const& motion) const;
+  // given: of the recording; none: zeros in columns of a given term
+  Eigen::MatrixXd columns(Motion const& motion, GivenSignals const* given = nullptr) const;
   // those of one term only; a term is an instant's: any stretch of the motion gives its rows
-  void columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out) const;
+  void columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out,
+                       GivenSignals const* given = nullptr) const;
   double torque(JointState const& state, std::span<double const> parameters) const;
 
  private:

@@ -19,6 +19,7 @@ std::shared_ptr<Eigen::VectorXd const> gear_load_of(Recording const& recording) 
 void JointModel::load_as_in(Recording const& recording) {
   reference_.gear_load = gear_load_of(recording);
   reference_.given = recording.given;
+  reference_.rate_hz = recording.rate_hz;
 }
 
 std::size_t JointModel::size() const { return first_parameter(effects_.size()); }
@@ -67,9 +68,9 @@ MotorTorque JointModel::motor_torque(Motion const& motion, Motion const& drive,
 }
 
 Eigen::MatrixXd JointModel::columns(Motion const& motion, Motion const& drive) const {
-  if (effects_.empty()) return regressor_->columns(motion);
+  if (effects_.empty()) return regressor_->columns(motion, reference_.given.get());
   Eigen::MatrixXd all(motion.q.size(), static_cast<Eigen::Index>(size()));
-  all.leftCols(static_cast<Eigen::Index>(regressor_->size())) = regressor_->columns(motion);
+  all.leftCols(static_cast<Eigen::Index>(regressor_->size())) = regressor_->columns(motion, reference_.given.get());
   FittedBaseline const baseline = on_motion(*regressor_, reference_, motion);
   EffectInput input = baseline.input(motion);
   input.given = reference_.given.get();
@@ -93,17 +94,23 @@ std::vector<double> JointModel::effect_parameters(std::size_t effect, Eigen::Vec
 TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == size());
   TwinJoint joint = make_twin_joint(*regressor_, parameters.head(static_cast<Eigen::Index>(regressor_->size())));
+  LaneBaseline const beside{joint.lanes, reference_.gear_load, reference_.rate_hz, reference_.given};
+  double const* value = parameters.data();
+  for (auto const* term : regressor_->terms()) {
+    double const* const own = value;
+    value += term->n_linear();
+    if (term->is_given()) joint.effects.push_back(lane_effect(*term, {own, value}, reference_.scales, beside));
+  }
   for (std::size_t i = 0; i < effects_.size(); ++i)
     joint.effects.push_back(
-        lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales,
-                    {joint.lanes, reference_.gear_load, reference_.scales.rate_hz, reference_.given}));
+        lane_effect(*effects_[i].effect, effect_parameters(i, parameters), reference_.scales, beside));
   return joint;
 }
 
 FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion) {
   FittedBaseline baseline =
       fitted_baseline(regressor, {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())},
-                      motion, reference.scales.cutoff_hz, reference.scales.encoder_step);
+                      motion, reference.scales.cutoff_hz, reference.scales.encoder_step, reference.given.get());
   baseline.scales = reference.scales;
   if (reference.gear_load) {
     TORQUESCOPE_EXPECT(reference.gear_load->size() == baseline.load_torque.size());

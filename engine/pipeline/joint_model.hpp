@@ -32,6 +32,7 @@ struct BaselineReference {
   // per sample: load that passes the gear beside the regressor's (Recording::gear_load); none
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
   std::shared_ptr<GivenSignals const> given{};  // the recording's; none
+  double rate_hz = 0.0;                         // of both
 };
 
 // one per sample

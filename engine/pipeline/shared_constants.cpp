@@ -55,7 +55,7 @@ std::vector<std::string> terms_to_drop(Regressor const& regressor, ProcessedReco
     Effect const* term = regressor.terms()[owners[k].term];
     if (std::find(dropped.begin(), dropped.end(), term->name()) != dropped.end()) continue;
     bool const is_absent = prepared.columns.col(at).isZero(0.0);  // friction of the direction that is not there
-    if (term->n_linear() == 1 && (is_absent || is_constant(prepared.columns.col(at))))
+    if (term->n_linear() == 1 && !term->is_given() && (is_absent || is_constant(prepared.columns.col(at))))
       constants.push_back({term, at});
     else
       others.push_back(at);

@@ -29,14 +29,11 @@ void bridge(Eigen::VectorXd& values, std::vector<bool> const& known) {
   values.tail(values.size() - 1 - before).setConstant(values[before]);
 }
 
-// torque of the simulator that its terms do not give, at the full rate. Where the joint rests or turns the sign of a
-// noisy velocity says nothing about friction and both chatter, each in its own way: bridged, no row sees those samples
+// torque of the simulator that its terms do not give, at the full rate; no row sees the samples that are bridged
 Eigen::VectorXd beyond_terms(Recording const& recording, Motion const& motion, Regressor const& regressor,
                              Eigen::VectorXd const& parameters) {
-  Eigen::VectorXd beyond = recording.simulated_torque - regressor.columns(motion) * parameters;
-  constexpr double no_margin = 0.0;
-  bridge(beyond, moving_samples(motion.dq, recording.rate_hz, no_margin));
-  return beyond;
+  return bridged_over_rests(recording.simulated_torque - regressor.columns(motion) * parameters, motion.dq,
+                            recording.rate_hz);
 }
 
 Recording less(Eigen::VectorXd beyond, Recording recording) {
@@ -47,6 +44,12 @@ Recording less(Eigen::VectorXd beyond, Recording recording) {
 }
 
 }  // namespace
+
+Eigen::VectorXd bridged_over_rests(Eigen::VectorXd torque, Eigen::VectorXd const& dq, double rate_hz) {
+  constexpr double no_margin = 0.0;
+  bridge(torque, moving_samples(dq, rate_hz, no_margin));
+  return torque;
+}
 
 SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& pipeline) {
   TORQUESCOPE_EXPECT(recording.simulated_torque.size() == recording.torque.size());

@@ -28,6 +28,10 @@ struct SimulatorGap {
 
 SimulatorGap gap_to_simulator(Recording const& recording, RecordPipeline const& pipeline);
 
+// Where the joint rests or turns the sign of a noisy velocity says nothing about friction, and two models chatter, each
+// in its own way: straight from the last sample before such a stretch to the first one after it
+Eigen::VectorXd bridged_over_rests(Eigen::VectorXd torque, Eigen::VectorXd const& dq, double rate_hz);
+
 // another recording, told apart by the parameters of the training recording's gap; as it is without a simulated torque
 // pipeline: of that recording, without effects
 Recording without_simulator(Recording recording, RecordPipeline const& pipeline,

@@ -13,13 +13,16 @@ Eigen::MatrixXd covariance_root(Eigen::MatrixXd const& covariance) {
   return error.asDiagonal() * axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
+Eigen::MatrixXd largest_axes(Eigen::MatrixXd const& gram, double least_energy) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(gram);
+  Eigen::Index k = 0;
+  while (k < gram.cols() && axes.eigenvalues()[gram.cols() - 1 - k] > least_energy) ++k;
+  return axes.eigenvectors().rightCols(k).rowwise().reverse();
+}
+
 Eigen::MatrixXd largest_parts(Eigen::MatrixXd const& columns, double least) {
   if (columns.cols() == 0) return columns;
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(columns.transpose() * columns);
-  double const energy = least * least * static_cast<double>(columns.rows());
-  Eigen::Index k = 0;
-  while (k < columns.cols() && axes.eigenvalues()[columns.cols() - 1 - k] > energy) ++k;
-  return columns * axes.eigenvectors().rightCols(k).rowwise().reverse();
+  return columns * largest_axes(columns.transpose() * columns, least * least * static_cast<double>(columns.rows()));
 }
 
 }  // namespace torquescope

@@ -14,5 +14,7 @@ namespace torquescope {
 Eigen::MatrixXd covariance_root(Eigen::MatrixXd const& covariance);
 // columns: n x r; n x k, the largest first
 Eigen::MatrixXd largest_parts(Eigen::MatrixXd const& columns, double least);
+// r x k: the axes of a Gram matrix with more energy than that, the largest first
+Eigen::MatrixXd largest_axes(Eigen::MatrixXd const& gram, double least_energy);
 
 }  // namespace torquescope

@@ -175,9 +175,12 @@ ModelEstimate estimate_parameters(ModelStage const& stage) {
   auto const& model = stage.model();
   ModelEstimate result;
   auto const owners = model.regressor().column_owners();
-  for (std::size_t k = 0; k < owners.size(); ++k)
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    // corrections of what a recording came without are nobody's parameters
+    if (model.regressor().terms()[owners[k].term]->is_given()) continue;
     result.baseline.push_back(estimate(owners[k].name, owners[k].unit, stage.estimate()[static_cast<Eigen::Index>(k)],
                                        half[static_cast<Eigen::Index>(k)]));
+  }
   Eigen::Index shape_at = columns.model_columns().cols();
   for (std::size_t i = 0; i < model.effects().size(); ++i) {
     auto const& effect = *model.effects()[i].effect;

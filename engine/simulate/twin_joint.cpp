@@ -50,6 +50,11 @@ TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& par
   double const* value = parameters.data();
   for (auto const* effect : regressor.terms()) {
     std::size_t const count = effect->n_linear();
+    // what comes with a recording is placed by who knows the recording (JointModel::twin_joint)
+    if (effect->is_given()) {
+      value += count;
+      continue;
+    }
     // a term of [model] needs nothing but the motion, so no scales of the data either
     if (!place(joint, effect->name(), value))
       joint.effects.push_back(lane_effect(*effect, {value, value + count}, JointScales{}));

@@ -202,6 +202,7 @@ struct JointDiagnosis {
   // how it was found
   std::string rows = "moving one way";  // or "with reversals": what errors and pictures are of
   std::vector<std::string> remarks{};   // what the motion closed or merged: sentences, in the reason, not stored
+  std::string reference_remark{};       // that no reference was recorded: a sentence of the reason, not stored
   std::string timing_sentence{};        // what was done to the torque channel's time; in the reason, not stored
   std::string loop_source;              // "identified", "approximated", "tracking"
   std::string loop_remark;

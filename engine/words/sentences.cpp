@@ -289,4 +289,13 @@ std::string reason_sentence(Diagnosis const& diagnosis) {
   return text;
 }
 
+std::string whole_reason(Diagnosis const& diagnosis) {
+  std::string text = reason_sentence(diagnosis);
+  JointDiagnosis const& joint = diagnosis.joints.front();
+  if (diagnosis.finding.empty())
+    for (auto const& remark : joint.remarks) text += " " + remark;
+  append(text, joint.reference_remark);
+  return text;
+}
+
 }  // namespace torquescope

@@ -22,6 +22,9 @@ std::string effect_sentence(JointDiagnosis const& joint, NamedEffect const& effe
 // is named; what to do when the recording cannot tell; whether the unseen recording is of another kind
 std::string reason_sentence(Diagnosis const& diagnosis);
 
+// the same with what the motion closed or merged, and what was not recorded
+std::string whole_reason(Diagnosis const& diagnosis);
+
 // "below 0.12 rad/s in both directions", "around 12 waves per turn"; "" for an interval without axis
 std::string place_phrase(JointDiagnosis const& joint, AxisInterval const& interval);
 // of one or two of the same axis: "above 0.40 rad/s in both directions"; "" for none

@@ -23,10 +23,11 @@ twins = 60
 """
 
 
-def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None):
-    """law: (q, dq, torque that the rigid joint needs) -> torque in addition; other: of the other joint's speed."""
+def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None, simulator=None, everywhere=None):
+    """law: (q, dq, torque that the rigid joint needs) -> torque in addition; other: of the other joint's speed.
+    simulator: (both motions) -> both torques, in two more columns; everywhere: the same, in addition to the truth."""
     noise = random.Random(7)
-    lines = ["t_s,q1_rad,q2_rad,i1_A,i2_A"]
+    lines = ["t_s,q1_rad,q2_rad,i1_A,i2_A" + (",s1_Nm,s2_Nm" if simulator else "")]
     for k in range(int(seconds * rate_hz)):
         t = k / rate_hz
         moves = (arm_cli.two_sines(t, 0.9, 1.7, 0.3, 4.1, 0.4), arm_cli.two_sines(t, 1.1, 2.3, 0.25, 5.3, 1.9))
@@ -39,17 +40,33 @@ def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None):
             tau[joint - 1] += law(q, dq, tau[joint - 1] - rub)
         if other:
             tau[joint - 1] += other(moves[2 - joint][1])
+        if everywhere:
+            tau = [value + more for value, more in zip(tau, everywhere(moves))]
         current = [value / gain + noise.gauss(0.0, 0.02) for value, gain in zip(tau, arm_cli.GAIN)]
-        lines.append(f"{t:.4f},{moves[0][0]:.9f},{moves[1][0]:.9f},{current[0]:.7f},{current[1]:.7f}")
+        simulated = "".join(f",{value:.7f}" for value in simulator(moves)) if simulator else ""
+        lines.append(f"{t:.4f},{moves[0][0]:.9f},{moves[1][0]:.9f},{current[0]:.7f},{current[1]:.7f}{simulated}")
     return "\n".join(lines) + "\n"
+
+
+def shoulder_spring(moves):
+    """A law of the machine that its user knows: a counterbalance at the shoulder."""
+    return 6.0 * moves[0][0], 0.0
+
+
+def users_simulator(moves):
+    """Knows the counterbalance, and has some parameters of the arm wrong."""
+    (q1, _, ddq1), (_, dq2, ddq2) = moves
+    elbow = 0.05 * (ddq1 + ddq2)  # an inertia about its own axis
+    wrong = (0.3 * ddq1 + 0.4 * 9.81 * math.cos(q1) + elbow, 0.1 * dq2 + elbow)
+    return [tau + known + error for tau, known, error in zip(arm_cli.torques(*moves), shoulder_spring(moves), wrong)]
 
 
 class ArmDiagnosis(arm_cli.Arm):
     text = ""
 
-    def said_of(self, text):
+    def said_of(self, text, job=JOB):
         self.write("arm.csv", text)
-        self.write("arm.toml", JOB)
+        self.write("arm.toml", job)
         done = self.here("diagnose", "arm.toml", "--out", "told.h5", "--json", "told.json")
         self.assertEqual(done.code, 0, done.err)
         with open(os.path.join(self.folder, "told.json"), encoding="utf-8") as file:
@@ -82,6 +99,37 @@ class ArmDiagnosis(arm_cli.Arm):
         values = {one["name"]: one["value"] for one in second["effects"][0]["parameters"]}
         self.assertAlmostEqual(values["previous_viscous"], 0.3, delta=0.03)
         self.assertAlmostEqual(values["previous_coulomb"], 0.4, delta=0.04)
+
+    def test_a_law_that_the_rigid_arm_had_hidden_is_named(self):
+        _, told = self.said_of(recording(everywhere=shoulder_spring))
+        first, second = told["joints"]
+        self.assertEqual([one["name"] for one in first["effects"]], ["spring"], told["reason"])
+        self.assertEqual(second["effects"], [], told["reason"])
+        # before: the rigid arm as it is fitted without the law, which is not far off
+        self.assertLess(first["baseline"]["validation_relerr"], 0.012)
+        self.assertLess(first["augmented"]["validation_relerr"], 0.7 * first["baseline"]["validation_relerr"])
+        os.remove(os.path.join(self.folder, "told.h5"))
+
+    def test_what_the_users_simulator_knows_is_not_missing(self):
+        # the recording is of instants: half a sample before a torque that is held from its row on
+        simulated = JOB.replace("torque_per_unit",
+                                'simulated_torque = "s{j}_Nm"\ndelay_s = -0.0025\ntorque_per_unit')
+        _, told = self.said_of(recording(everywhere=shoulder_spring, simulator=users_simulator), simulated)
+        self.assertEqual([joint["verdict"] for joint in told["joints"]], ["none", "none"], told["reason"])
+        # nearly all that differs from the simulator are wrong parameters
+        for joint in told["joints"]:
+            self.assertGreater(joint["budget"]["parameter_error"], 0.9)
+        os.remove(os.path.join(self.folder, "told.h5"))
+
+        def load_friction(_q, dq, load):
+            return 0.15 * abs(load) * math.copysign(1.0, dq)
+
+        _, told = self.said_of(recording(load_friction, everywhere=shoulder_spring, simulator=users_simulator),
+                               simulated)
+        first, second = told["joints"]
+        self.assertEqual(first["effects"], [], told["reason"])
+        self.assertEqual([one["name"] for one in second["effects"]], ["load_dependent_friction"], told["reason"])
+        self.assertLess(second["budget"]["parameter_error"], 0.9)
 
     def test_a_law_of_several_joints_is_no_term_of_one(self):
         self.write("arm.csv", recording(seconds=1.0))

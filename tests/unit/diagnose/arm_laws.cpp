@@ -46,17 +46,17 @@ class ArmLaws : public testing::Test {
   Eigen::VectorXd const standard = standard_parameters(chain, DriveInertias::included);
   ArmModel const model{chain, ArmTerms{}, Section{}};
   std::vector<Motion> motion{};
-  std::vector<std::shared_ptr<GivenSignals const>> signals{};
+  std::vector<GivenSignals> signals{};
 };
 
 TEST_F(ArmLaws, TakeTheNeighboursMotionWhereThereIsANeighbour) {
-  EXPECT_EQ(signals[0]->of("friction_of_previous_joint"), nullptr);
-  EXPECT_EQ(signals.back()->of("inertia_of_next_joint"), nullptr);
-  auto const* friction = signals[0]->of("friction_of_next_joint");
+  EXPECT_EQ(signals[0].of("friction_of_previous_joint"), nullptr);
+  EXPECT_EQ(signals.back().of("inertia_of_next_joint"), nullptr);
+  auto const* friction = signals[0].of("friction_of_next_joint");
   ASSERT_NE(friction, nullptr);
   EXPECT_EQ(friction->col(0), motion[1].dq);
   EXPECT_EQ(friction->col(1), motion[1].dq.array().sign().matrix());
-  auto const* inertia = signals[2]->of("inertia_of_previous_joint");
+  auto const* inertia = signals[2].of("inertia_of_previous_joint");
   ASSERT_NE(inertia, nullptr);
   EXPECT_EQ(inertia->col(0), motion[1].ddq);
 }
@@ -65,7 +65,7 @@ TEST_F(ArmLaws, TakeTheNeighboursMotionWhereThereIsANeighbour) {
 TEST_F(ArmLaws, SayWhatAWrongZeroDoes) {
   constexpr double zero = 1e-4;
   for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(motion.size()); ++j) {
-    auto const* column = signals[static_cast<std::size_t>(j)]->of("joint_zero");
+    auto const* column = signals[static_cast<std::size_t>(j)].of("joint_zero");
     ASSERT_NE(column, nullptr);
     SerialChain wrong = chain;
     wrong.joints[static_cast<std::size_t>(j)].offset += zero;
@@ -88,7 +88,7 @@ TEST_F(ArmLaws, SayWhatATiltedBaseDoes) {
   for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(motion.size()); ++j) {
     if (std::abs(gravity_torque(chain, standard, at(&Motion::q, 7))[j]) < 1e-9) continue;
     ++weighed;
-    auto const* columns = signals[static_cast<std::size_t>(j)]->of("gravity_direction");
+    auto const* columns = signals[static_cast<std::size_t>(j)].of("gravity_direction");
     ASSERT_NE(columns, nullptr);
     Eigen::MatrixXd more(samples, 2);
     for (Eigen::Index k = 0; k < 2; ++k) {
@@ -115,13 +115,13 @@ TEST_F(ArmLaws, AreThoseOfTheCatalogue) {
   for (auto const* law : arm_law_choices()) {
     EXPECT_TRUE(law->is_given());
     EXPECT_EQ(find_effect(law->name()), law);
-    Eigen::MatrixXd const* columns = signals[1]->of(law->name());
+    Eigen::MatrixXd const* columns = signals[1].of(law->name());
     ASSERT_NE(columns, nullptr) << law->name();
     Eigen::MatrixXd out(samples, static_cast<Eigen::Index>(law->n_linear()));
     EffectInput input{motion[1]};
     law->columns(input, {}, out);
     EXPECT_EQ(out.norm(), 0.0) << "no recording tells of it";
-    input.given = signals[1].get();
+    input.given = &signals[1];
     law->columns(input, {}, out);
     EXPECT_EQ(out, *columns);
     EXPECT_FALSE(law->is_plain_term()) << "no term of a model";
