@@ -24,6 +24,7 @@
 #include "engine/search/channel_timing.hpp"
 #include "engine/search/detection_power.hpp"
 #include "engine/twin/echoed_reference.hpp"
+#include "engine/unseen/level_change.hpp"
 #include "engine/unseen/unseen_nuisances.hpp"
 #include "engine/unseen/unseen_record.hpp"
 #include "engine/words/arm_sentences.hpp"
@@ -72,6 +73,7 @@ class JointWork {
   JointOutcome run() {
     diagnose();
     joint_.verdict = diagnosis_.verdict;
+    for (auto const& change : level_changes_) joint_.remarks.push_back(level_change_sentence(joint_, change));
     if (selection_.baseline && !has_reference_)
       joint_.reference_remark = without_reference_sentence(input_.train.reference.size() > 0);
     diagnosis_.joints.push_back(std::move(joint_));
@@ -223,6 +225,9 @@ class JointWork {
       has_twins = has_twins || std::isfinite(result.promised);
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
+      auto const& residual = selection_.accepted.empty() ? result.trace.before : result.trace.after;
+      if (auto const change = level_change(result.trace, residual, result.memory_rows, levels().least_fall))
+        level_changes_.push_back(*change);
       joint_.traces.push_back(std::move(result.trace));
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
@@ -421,6 +426,7 @@ class JointWork {
   Selection selection_;
   OwnedRecordings others_;  // torque in time with that of the first
   std::vector<Eigen::VectorXd> laws_, tried_;
+  std::vector<LevelChange> level_changes_{};
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop
   double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)

@@ -170,6 +170,14 @@ struct HeldOutTest {
   std::size_t blocks = 0;
 };
 
+// another level of dry friction in a recording that was predicted (unseen/level_change.hpp)
+struct LevelChange {
+  std::string recording{};
+  bool goes_both_ways = true;  // false: friction or offset
+  double level = 0.0;          // torque, more than in training
+  double relerr_before = unknown, relerr_with = unknown;
+};
+
 struct JointDiagnosis {
   int joint = 1;
   Verdict verdict = Verdict::none;         // of this joint; of an arm, where each has its own

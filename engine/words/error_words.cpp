@@ -105,6 +105,15 @@ std::string unseen_is_other_sentence(JointDiagnosis const& joint) {
       percent_text(unseen), percent_text(train));
 }
 
+std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change) {
+  std::string const what = change.goes_both_ways ? "Dry friction differs" : "Friction or the offset differs";
+  return fmt::format(
+      "{} between recordings: in {} it is {} {} than in training, and with that the relerr there would be "
+      "{} instead of {} (warm-up, or another load).",
+      what, change.recording, quantity_text(std::abs(change.level), joint.unit_torque),
+      change.level < 0.0 ? "less" : "more", percent_text(change.relerr_with), percent_text(change.relerr_before));
+}
+
 std::string way_out_of_a_fault(JointDiagnosis const& joint) {
   std::string const mend = std::any_of(joint.effects.begin(), joint.effects.end(), comes_early)
                                ? "correct the channel, or record the torque that the drive gives instead of its command"

@@ -29,6 +29,10 @@ std::string gain_sentence(JointDiagnosis const& joint);
 // relerr 18.4 % there, 0.82 % here."; "" otherwise
 std::string unseen_is_other_sentence(JointDiagnosis const& joint);
 
+// "Dry friction differs between recordings: in tuesday.csv it is 0.35 N m less than in training, and with that the
+// relerr there would be 2.8 % instead of 5.0 % (warm-up, or another load)."
+std::string level_change_sentence(JointDiagnosis const& joint, LevelChange const& change);
+
 // where nothing is named but a fault of the recording: a clause. The model is called complete only where the unseen
 // recording agrees
 std::string way_out_of_a_fault(JointDiagnosis const& joint);

@@ -1,0 +1,44 @@
+#include "engine/unseen/level_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/statistics/blocked_cv.hpp"
+#include "engine/statistics/held_out_gain.hpp"
+#include "engine/statistics/scaled_solution.hpp"
+
+namespace torquescope {
+
+std::optional<LevelChange> level_change(TorqueTrace const& trace, Eigen::VectorXd const& residual, Eigen::Index memory,
+                                        double least_fall) {
+  constexpr double fifth = 0.2;  // of the rows in the rarer direction, or they tell no friction from an offset
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < residual.size(); ++i)
+    if (std::isfinite(residual[i])) rows.push_back(i);
+  auto const n = static_cast<Eigen::Index>(rows.size());
+  if (n < fewest_rows) return std::nullopt;
+  Eigen::VectorXd const left = residual(rows), sign = Eigen::VectorXd(trace.velocity(rows)).array().sign();
+  auto const forward = (sign.array() > 0.0).count();
+
+  LevelChange change;
+  change.recording = trace.recording;
+  change.goes_both_ways = static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
+  Eigen::MatrixXd const offset = Eigen::VectorXd::Ones(n);
+  Eigen::MatrixXd columns = offset;
+  if (change.goes_both_ways) {
+    columns.resize(n, 2);
+    columns << sign, offset;
+  }
+  Eigen::VectorXd const before = change.goes_both_ways ? blocked_residuals(left, offset, memory) : left;
+  Eigen::VectorXd const with = blocked_residuals(left, columns, memory);
+  if (held_out_gain(held_out_blocks(before, with, memory)).change != HeldOutChange::lower) return std::nullopt;
+  double const torque = Eigen::VectorXd(trace.torque(rows)).norm();
+  change.level = solve_scaled(columns, left)(0, 0);
+  change.relerr_before = left.norm() / torque;
+  change.relerr_with = with.norm() / torque;
+  if (change.relerr_with > (1.0 - least_fall) * change.relerr_before) return std::nullopt;
+  return change;
+}
+
+}  // namespace torquescope
