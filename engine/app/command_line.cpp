@@ -78,9 +78,18 @@ std::string plain_words(std::string text) {
   return text;
 }
 
+// "help run" is "run --help"
+std::vector<std::string> without_help_word(std::vector<std::string> const& words) {
+  if (words.size() < 2 || words.front() != "help") return words;
+  if (words.size() > 2)
+    throw usage_error(fmt::format("\"{}\" is one argument too many for help", words[2]), "torquescope help COMMAND");
+  return {words[1], "--help"};
+}
+
 }  // namespace
 
-void parse_command_line(std::vector<std::string> const& words, ParsedCommandLine& parsed) {
+void parse_command_line(std::vector<std::string> const& given, ParsedCommandLine& parsed) {
+  std::vector<std::string> const words = without_help_word(given);
   CLI::App app("", "torquescope");
   app.formatter(std::make_shared<HelpPage>());
   if (words.empty()) throw usage_error("no command", "torquescope --help shows them all");

@@ -15,8 +15,8 @@ struct ParsedCommandLine {
   ChosenCommand chosen{};
 };
 
-// `words` without the program's name. Errors: Error 64 (unknown command or option, missing or bad value)
-void parse_command_line(std::vector<std::string> const& words, ParsedCommandLine& parsed);
+// `given` without the program's name. Errors: Error 64 (unknown command or option, missing or bad value)
+void parse_command_line(std::vector<std::string> const& given, ParsedCommandLine& parsed);
 
 // --color and --json as far as they can be seen in words that may not parse: an error must already obey them
 SessionOptions session_options_of(std::vector<std::string> const& words);

@@ -29,11 +29,22 @@ std::string program_help() {
   torquescope describe NAME          what it does, every option
 
 start: torquescope run jobs/smoke.toml
-more:  torquescope COMMAND --help, torquescope --version
+more:  torquescope help COMMAND, torquescope --version
 exit:  0 done, 64 usage, 65 bad data, 66 no such file, 70 our fault,
        73 output exists, 74 disk, 75 stopped (run again), 78 bad job file
 )";
 }
+
+namespace {
+
+// "-o, --out"
+std::string shown_name(CLI::Option const& option) {
+  std::string text;
+  for (auto const& letter : option.get_snames()) text += "-" + letter + ", ";
+  return text + option.get_name();
+}
+
+}  // namespace
 
 std::string HelpPage::make_help(CLI::App const* command, std::string name, CLI::AppFormatMode) const {
   std::string text = hanging("", command->get_description());
@@ -62,7 +73,7 @@ std::string HelpPage::make_help(CLI::App const* command, std::string name, CLI::
     for (auto const* option : visible) {
       if (group_of(option) != group) continue;
       bool const is_flag = option->get_type_size() == 0 || option->get_positional();
-      table.row({option->get_name() + (is_flag ? "" : " " + option->get_type_name()), option->get_description()});
+      table.row({shown_name(*option) + (is_flag ? "" : " " + option->get_type_name()), option->get_description()});
     }
   }
   std::string const rows = table.text(page_width);

@@ -62,7 +62,7 @@ void add_excite(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope excite arm.toml --out motion.csv --threads 4\n"
       "  torquescope describe excite\n");
   command->add_option("JOB.toml", arguments->job, "job file with model.robot, TOML")->required();
-  command->add_option("--out", arguments->out, "motion: t_s, q1_rad, dq1_rad_s, ddq1_rad_s2, q2_rad, ...")
+  command->add_option("-o,--out", arguments->out, "motion: t_s, q1_rad, dq1_rad_s, ddq1_rad_s2, q2_rad, ...")
       ->type_name("MOTION.csv")
       ->required()
       ->group("results");

@@ -89,7 +89,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       ->check(CLI::Range(1, 1000))
       ->type_name("N")
       ->group("recording");
-  command->add_option("--out", arguments->out, "the job, a file that does not exist yet [standard output]")
+  command->add_option("-o,--out", arguments->out, "the job, a file that does not exist yet [standard output]")
       ->type_name("JOB.toml")
       ->group("results");
   add_quiet_option(*command, chosen);

@@ -47,7 +47,7 @@ void add_report(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope report lab.h5 --out lab_monday.html\n"
       "  xdg-open $(torquescope report lab.h5)\n");
   command->add_option("R.h5", arguments->result, "result file of torquescope run or diagnose, HDF5")->required();
-  command->add_option("--out", arguments->out, "the page, HTML [R.html beside R.h5]")
+  command->add_option("-o,--out", arguments->out, "the page, HTML [R.html beside R.h5]")
       ->type_name("R.html")
       ->group("results");
   add_quiet_option(*command, chosen);

@@ -61,7 +61,7 @@ void add_progress_option(CLI::App& command, ChosenCommand& chosen) {
 }
 
 void add_quiet_option(CLI::App& command, ChosenCommand& chosen) {
-  command.add_flag("--quiet", chosen.session.quiet, "print nothing but errors and verdicts")->group("terminal");
+  command.add_flag("-q,--quiet", chosen.session.quiet, "print nothing but errors and verdicts")->group("terminal");
 }
 
 void add_json_option(CLI::App& command, ChosenCommand& chosen) {
@@ -71,7 +71,7 @@ void add_json_option(CLI::App& command, ChosenCommand& chosen) {
 }
 
 void add_result_option(CLI::App& command, std::string& out) {
-  command.add_option("--out", out, "result file, HDF5 [NAME.h5 in this folder]")
+  command.add_option("-o,--out", out, "result file, HDF5 [NAME.h5 in this folder]")
       ->type_name("R.h5")
       ->check([](std::string const& name) {
         return name == "-"
@@ -82,7 +82,7 @@ void add_result_option(CLI::App& command, std::string& out) {
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
+  command.add_option("-j,--threads", threads, "threads [OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, all]")
       ->type_name("N")
       ->check(no_whole_number_from_one)
       ->group("machine");

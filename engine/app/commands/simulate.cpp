@@ -46,7 +46,7 @@ void add_simulate(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope simulate lab.toml --out lab.h5\n"
       "  torquescope describe simulate\n");
   command->add_option("JOB.toml", arguments->job, "job file with [simulate], TOML")->required();
-  command->add_option("--out", arguments->out, "recording; CSV or HDF5 by its ending")
+  command->add_option("-o,--out", arguments->out, "recording; CSV or HDF5 by its ending")
       ->type_name("REC.csv|REC.h5")
       ->required()
       ->group("results");

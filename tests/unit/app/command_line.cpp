@@ -11,6 +11,7 @@ namespace torquescope {
 namespace command_line_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> const commands{"init",   "check",    "run",    "diagnose", "show",
                                         "report", "simulate", "excite", "list",     "describe"};
@@ -53,6 +54,11 @@ TEST(CommandLine, RefusesWithCode64) {
                                                 {"simulate", "a"},
                                                 {"excite", "a"},
                                                 {"run", "a", "--out"},
+                                                {"run", "a", "-o"},
+                                                {"run", "a", "-j", "0"},
+                                                {"run", "a", "-x"},
+                                                {"help", "rum"},
+                                                {"help", "run", "show"},
                                                 {"show", "a", "--progress", "bar"}}) {
     Problem const problem = problem_of(words);
     EXPECT_EQ(problem.code, ExitCode::usage) << problem.what;
@@ -69,6 +75,20 @@ TEST(CommandLine, LeavesTheWorkOfTheChosenCommand) {
   EXPECT_EQ(parsed.chosen.session.json, "-");
   EXPECT_EQ(parsed.chosen.session.colour, ColourChoice::never);
   EXPECT_EQ(parsed.chosen.session.progress, ProgressChoice::none);
+}
+
+TEST(CommandLine, TakesTheLettersOfCommonOptions) {
+  ParsedCommandLine parsed;
+  parse_command_line({"run", "lab.toml", "-q", "-j4", "-o", "lab.h5"}, parsed);
+  EXPECT_TRUE(parsed.chosen.work);
+  EXPECT_TRUE(parsed.chosen.session.quiet);
+  for (std::string const name : {"init", "check", "run", "diagnose", "show", "report", "export", "merge", "status",
+                                 "submit", "simulate", "excite"}) {
+    std::string const page = text_of({name, "--help"});
+    EXPECT_THAT(page, HasSubstr("\n  -q, --quiet ")) << name;
+    for (char const* alone : {"\n  --quiet ", "\n  --out ", "\n  --threads "})
+      EXPECT_THAT(page, Not(HasSubstr(alone))) << name;
+  }
 }
 
 TEST(CommandLine, AnErrorAlreadyObeysJsonAndColor) {
@@ -105,9 +125,16 @@ TEST(Help, OfEveryCommandHasThreeExamplesBeforeItsOptions) {
   }
 }
 
+TEST(Help, OfACommandIsItsPage) {
+  for (auto const& command : commands) EXPECT_EQ(text_of({"help", command}), text_of({command, "--help"}));
+  EXPECT_EQ(text_of({"help", "--help"}), text_of({"--help"}));
+  EXPECT_EQ(text_of({"help"}), text_of({"--help"}));
+  EXPECT_EQ(problem_of({"help", "diagnos"}).what, "unknown command \"diagnos\"; did you mean \"diagnose\"?");
+}
+
 TEST(Help, OfRunNamesItsOptions) {
   std::string const page = text_of({"run", "--help"});
-  for (char const* option : {"--out", "--threads", "--json", "--progress", "--quiet", "--color"})
+  for (char const* option : {"-o, --out R.h5", "-j, --threads N", "--json", "--progress", "-q, --quiet", "--color"})
     EXPECT_THAT(page, HasSubstr(option));
 }
 
