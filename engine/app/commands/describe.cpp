@@ -8,6 +8,8 @@
 #include <memory>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/result/catalogue_json.hpp"
+#include "engine/app/result/robot_json.hpp"
 #include "engine/app/result/robot_text.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
@@ -54,11 +56,14 @@ std::string entry_text(CatalogueEntry const& entry, Ink const& ink) {
 ExitCode describe_entry(std::string const& name, Session const& session) {
   std::string text;
   std::vector<std::string> names;
+  std::vector<CatalogueEntry> described;  // several where kinds share a name
   for (auto const& entry : catalogue()) {
     names.push_back(entry.name);
-    if (entry.name == name) text += (text.empty() ? "" : "\n") + entry_text(entry, session.result_ink());
+    if (entry.name != name) continue;
+    text += (text.empty() ? "" : "\n") + entry_text(entry, session.result_ink());
+    described.push_back(entry);
   }
-  validate(!text.empty(), [&] {
+  validate(!described.empty(), [&] {
     Problem problem;
     problem.code = ExitCode::usage;
     problem.what = fmt::format("nothing is called \"{}\"", name);
@@ -68,6 +73,7 @@ ExitCode describe_entry(std::string const& name, Session const& session) {
     return problem;
   });
   session.result(text);
+  session.document(describe_json(described));
   return ExitCode::ok;
 }
 
@@ -81,7 +87,9 @@ ExitCode describe(std::string const& name, Session const& session) {
   bool const is_entry =
       std::any_of(catalogue().begin(), catalogue().end(), [&](auto const& one) { return one.name == name; });
   if (is_entry || !is_file_name(name)) return describe_entry(name, session);
-  session.result(robot_text(describe_robot(name), session.result_ink()));
+  RobotDescription const robot = describe_robot(name);
+  session.result(robot_text(robot, session.result_ink()));
+  session.document(robot_json(robot));
   return ExitCode::ok;
 }
 
@@ -92,10 +100,11 @@ void add_describe(CLI::App& app, ChosenCommand& chosen) {
   CLI::App* command = app.add_subcommand("describe", "Explains one name with every option, or the robot in a file.");
   command->footer(
       "  torquescope describe fade\n"
-      "  torquescope describe recording\n"
+      "  torquescope describe recording --json - | jq -r .entries[].options[].key\n"
       "  torquescope describe jobs/robots/ur10e.toml\n");
   command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator, job section, or a robot file")
       ->required();
+  add_json_option(*command, chosen);
   add_colour_option(*command, chosen);
   command->callback(
       [name, &chosen] { chosen.work = [name](Session const& session) { return describe(*name, session); }; });

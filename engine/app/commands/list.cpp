@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/result/catalogue_json.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/run/catalogue.hpp"
@@ -45,13 +46,18 @@ std::string kind_of_word(std::string const& word) {
 
 ExitCode list_entries(std::string const& word, Session const& session) {
   std::vector<std::string> const kinds = word.empty() ? kinds_present() : std::vector<std::string>{kind_of_word(word)};
+  std::vector<CatalogueEntry> listed;
   using Align = TextTable::Align;
   for (auto const& kind : kinds) {
     TextTable table({Align::left, Align::left}, "  ");
-    for (auto const& entry : catalogue())
-      if (entry.kind == kind) table.row({entry.name, entry.title});
+    for (auto const& entry : catalogue()) {
+      if (entry.kind != kind) continue;
+      table.row({entry.name, entry.title});
+      listed.push_back(entry);
+    }
     session.result(session.result_ink().bold(plural(kind)) + "\n" + table.text(page_width));
   }
+  session.document(list_json(listed));
   session.note("more: torquescope describe NAME\n");
   return ExitCode::ok;
 }
@@ -65,8 +71,9 @@ void add_list(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope list\n"
       "  torquescope list effects\n"
-      "  torquescope describe fade\n");
+      "  torquescope list effects --json - | jq -r .entries[].name\n");
   command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections, robots");
+  add_json_option(*command, chosen);
   add_colour_option(*command, chosen);
   command->callback(
       [word, &chosen] { chosen.work = [word](Session const& session) { return list_entries(*word, session); }; });
