@@ -1,16 +1,22 @@
 #include "engine/app/help_page.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <vector>
 
+#include "engine/app/exit_codes.hpp"
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 
 namespace torquescope {
 
 std::string program_help() {
+  std::string codes;
+  for (auto const& [code, words] : exit_codes())
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), words);
   return R"(Torquescope identifies robot joints from recordings of position and torque.
 
   torquescope init     REC.csv > JOB.toml    a job for your own recording
@@ -30,9 +36,7 @@ std::string program_help() {
 
 start: torquescope run jobs/smoke.toml
 more:  torquescope help COMMAND, torquescope --version
-exit:  0 done, 64 usage, 65 bad data, 66 no such file, 70 our fault,
-       73 output exists, 74 disk, 75 stopped (run again), 78 bad job file
-)";
+)" + hanging("exit:  ", codes);
 }
 
 namespace {

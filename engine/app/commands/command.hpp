@@ -35,6 +35,8 @@ void add_describe(CLI::App& app, ChosenCommand& chosen);
 void add_colour_option(CLI::App& command, ChosenCommand& chosen);
 void add_quiet_option(CLI::App& command, ChosenCommand& chosen);
 void add_json_option(CLI::App& command, ChosenCommand& chosen);
+// --exit-code of the commands that print a verdict
+void add_exit_code_option(CLI::App& command, bool& exit_code);
 void add_progress_option(CLI::App& command, ChosenCommand& chosen);
 // --out of the commands that write a result file
 void add_result_option(CLI::App& command, std::string& out);

@@ -13,6 +13,7 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/commands/shard_choice.hpp"
+#include "engine/app/exit_codes.hpp"
 #include "engine/app/phase_times.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
@@ -41,11 +42,9 @@ struct DiagnoseArguments {
   bool exit_code = false;
 };
 
-// whatever the verdict, the diagnosis itself succeeded: that the recording is to blame is told by a code only where
-// somebody asks
+// whatever the verdict, the diagnosis itself succeeded: a code tells the verdict only where somebody asks
 ExitCode code_of(DiagnoseArguments const& arguments, Diagnosis const& diagnosis) {
-  bool const is_blamed = diagnosis.verdict == Verdict::data_fault || diagnosis.verdict == Verdict::insufficient;
-  return arguments.exit_code && is_blamed ? ExitCode::bad_data : ExitCode::ok;
+  return arguments.exit_code ? code_of(diagnosis.verdict) : ExitCode::ok;
 }
 
 constexpr StopWords words_of_one{
@@ -192,11 +191,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   add_result_option(*command, arguments->out);
   add_json_option(*command, chosen);
   command->add_flag("--all", arguments->all, "show every effect that was weighed")->group("results");
-  command
-      ->add_flag("--exit-code", arguments->exit_code,
-                 "end with 65 when the verdict blames the recording (data fault, insufficient); 0 otherwise, also "
-                 "where effects explain only a part, or nothing fits")
-      ->group("results");
+  add_exit_code_option(*command, arguments->exit_code);
   command
       ->add_option("--columns", arguments->columns,
                    "write the columns of every effect on the job's recordings here (HDF5) and make no diagnosis: for "

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/exit_codes.hpp"
 
 namespace torquescope {
 
@@ -68,6 +69,13 @@ void add_json_option(CLI::App& command, ChosenCommand& chosen) {
   command.add_option("--json", chosen.session.json, "the same as data; - is stdout, without the tables")
       ->type_name("FILE")
       ->group("results");
+}
+
+void add_exit_code_option(CLI::App& command, bool& exit_code) {
+  std::string codes;
+  for (auto const& [code, words] : verdict_codes())
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : "; ", static_cast<int>(code), words);
+  command.add_flag("--exit-code", exit_code, "the verdict as exit code: " + codes)->group("results");
 }
 
 void add_result_option(CLI::App& command, std::string& out) {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/exit_codes.hpp"
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/paper_tables.hpp"
 #include "engine/app/result/result_json.hpp"
@@ -24,9 +25,10 @@ struct ShowArguments {
   std::string file;
   bool all = false;
   bool verify = false;
+  bool exit_code = false;
 };
 
-void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments, Session const& session) {
+Verdict show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments, Session const& session) {
   look_at_result(summary.file, [](ResultReader const& there) {
     read_diagnosis(there);
     read_verdict_json(there);
@@ -39,6 +41,7 @@ void show_diagnosis(ResultSummary const& summary, ShowArguments const& arguments
   session.result(evidence_text(diagnosis, {.all_candidates = arguments.all, .utf8 = session.utf8()}, ink));
   session.result("\n" + diagnosed_model_text(diagnosis, ink) + "\n" + origin_lines(summary, ink));
   session.document(read_verdict_json(reader));
+  return diagnosis.verdict;
 }
 
 ExitCode show_verification(ShowArguments const& arguments, Session const& session) {
@@ -63,9 +66,14 @@ ExitCode show_result(ShowArguments const& arguments, Session const& session) {
   ResultSummary const summary = read_summary(arguments.file);
   Ink const& ink = session.result_ink();
   if (summary.has_diagnosis) {
-    show_diagnosis(summary, arguments, session);
-    return ExitCode::ok;
+    Verdict const verdict = show_diagnosis(summary, arguments, session);
+    return arguments.exit_code ? code_of(verdict) : ExitCode::ok;
   }
+  validate(!arguments.exit_code, [&] {
+    return Problem{.code = ExitCode::usage,
+                   .what = arguments.file + " holds the runs of a job: there is no verdict for --exit-code",
+                   .help = "torquescope diagnose JOB.toml gives one"};
+  });
   session.result(result_table(summary, ink) + paper_tables(summary, ink));
   session.result("\n" + estimator_lines(summary, ink) + "\n" + origin_lines(summary, ink));
   session.document(result_json(summary));
@@ -85,6 +93,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
   command->add_flag("--all", arguments->all, "of a diagnosis, every effect that was weighed")->group("results");
   command->add_flag("--verify", arguments->verify, "read all of it and compare every checksum; exit code 65: damaged")
       ->group("results");
+  add_exit_code_option(*command, arguments->exit_code);
   add_json_option(*command, chosen);
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/app/commands/command.hpp"
+#include "engine/app/exit_codes.hpp"
 #include "engine/app/result/result_summary.hpp"
 #include "engine/run/diagnosis_json.hpp"
 #include "engine/run/diagnosis_reader.hpp"
@@ -74,16 +77,24 @@ class DiagnoseCommand : public ::testing::Test {
     return outcome;
   }
 
-  // torquescope show R.h5
-  std::string shown() const {
+  // torquescope show R.h5 ...
+  Outcome show(std::vector<std::string> const& more = {}) const {
     CLI::App app("", "torquescope");
     ChosenCommand chosen;
     add_show(app, chosen);
-    std::vector<std::string> reversed{result().string(), "show"};
+    std::vector<std::string> reversed(more.rbegin(), more.rend());
+    reversed.insert(reversed.end(), {result().string(), "show"});
     app.parse(reversed);
     CaptureStdout();
-    chosen.work(Session(chosen.session));
-    return GetCapturedStdout();
+    Outcome outcome;
+    try {
+      outcome.code = chosen.work(Session(chosen.session));
+    } catch (Error const& error) {
+      outcome.code = error.code();
+      outcome.err = error.what();
+    }
+    outcome.out = GetCapturedStdout();
+    return outcome;
   }
 
   std::filesystem::path result() const { return folder / "R.h5"; }
@@ -143,20 +154,32 @@ TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
   EXPECT_EQ(run({"--shard", "0/1"}).code, ExitCode::stopped) << "of no shard it is a stop";
 }
 
-TEST_F(DiagnoseCommand, EndsWithACodeForABlamedRecordingWhereSomebodyAsks) {
-  for (auto const& [diagnosis, is_blamed] :
-       std::vector<std::pair<Diagnosis, bool>>{{example::invented_diagnosis(), false},
-                                               {example::invented_partly(), false},
-                                               {example::invented_none(), false},
-                                               {example::invented_unexplained(), false},
-                                               {example::invented_insufficient(), true},
-                                               {example::invented_data_fault(), true}}) {
+TEST_F(DiagnoseCommand, EndsWithTheCodeOfItsVerdictWhereSomebodyAsks) {
+  // the numbers themselves: scripts depend on them
+  for (auto const& [diagnosis, code] : std::vector<std::pair<Diagnosis, int>>{{example::invented_none(), 0},
+                                                                              {example::invented_diagnosis(), 10},
+                                                                              {example::invented_partly(), 12},
+                                                                              {example::invented_unexplained(), 13},
+                                                                              {example::invented_insufficient(), 65},
+                                                                              {example::invented_data_fault(), 65}}) {
     std::filesystem::remove(result());
     found = diagnosis;
-    ExitCode const code = is_blamed ? ExitCode::bad_data : ExitCode::ok;
-    EXPECT_EQ(run({"--exit-code"}).code, code) << word(diagnosis.verdict);
-    EXPECT_EQ(run({"--exit-code"}).code, code) << "shown again";
+    EXPECT_EQ(static_cast<int>(run({"--exit-code"}).code), code) << word(diagnosis.verdict);
+    EXPECT_EQ(static_cast<int>(run({"--exit-code"}).code), code) << "kept";
     EXPECT_EQ(run().code, ExitCode::ok);
+    EXPECT_EQ(static_cast<int>(show({"--exit-code"}).code), code);
+    EXPECT_EQ(show().code, ExitCode::ok);
+  }
+  EXPECT_EQ(static_cast<int>(code_of(Verdict::one_of_class)), 11);
+}
+
+TEST_F(DiagnoseCommand, EveryVerdictHasACodeThatTheHelpPageExplains) {
+  for (auto const verdict : {Verdict::none, Verdict::named, Verdict::one_of_class, Verdict::partly,
+                             Verdict::unexplained, Verdict::insufficient, Verdict::data_fault}) {
+    auto const explained = verdict_codes();
+    EXPECT_TRUE(std::any_of(explained.begin(), explained.end(), [&](auto const& one) {
+      return one.code == code_of(verdict);
+    })) << word(verdict);
   }
 }
 
@@ -225,6 +248,9 @@ TEST_F(DiagnoseCommand, DoesNotTakeTheRunsOfAJobForItsDiagnosis) {
   Outcome const outcome = run();
   EXPECT_EQ(outcome.code, ExitCode::exists);
   EXPECT_THAT(outcome.err, HasSubstr("holds the runs of this job, not its diagnosis"));
+  EXPECT_EQ(show().code, ExitCode::ok);
+  EXPECT_EQ(show({"--exit-code"}).code, ExitCode::usage);
+  EXPECT_THAT(show({"--exit-code"}).err, HasSubstr("there is no verdict"));
 }
 
 TEST_F(DiagnoseCommand, TheFileHoldsJobDataOptionsAndProvenance) {
@@ -256,7 +282,7 @@ TEST_F(DiagnoseCommand, NothingIsLeftBehindWhenTheWorkFails) {
 
 TEST_F(DiagnoseCommand, ShowPrintsTheSamePageFromTheFile) {
   Outcome const made = run();
-  std::string const page = shown();
+  std::string const page = show().out;
   EXPECT_THAT(page, StartsWith(made.out));
   EXPECT_THAT(page, HasSubstr("model of joint 1"));
   EXPECT_THAT(page, HasSubstr("\nmade\n"));
@@ -267,7 +293,7 @@ TEST_F(DiagnoseCommand, ShowsWhatExplainsAPartWithItsParametersAndErrors) {
   Outcome const made = run({"--progress", "none"});
   EXPECT_THAT(made.out, HasSubstr("PARTLY EXPLAINED  Stribeck and cogging explain 71 % (60 to 79 %)"));
   EXPECT_THAT(made.out, HasSubstr("\nleft   position"));
-  std::string const page = shown();
+  std::string const page = show().out;
   EXPECT_THAT(page, StartsWith(made.out));
   for (char const* words :
        {"stribeck_speed", "error, unseen", "7.8 %", "explained, held-out rows", "71 % (60 to 79 %)"})
