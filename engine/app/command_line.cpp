@@ -6,10 +6,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <iterator>
 #include <memory>
 
-#include "engine/app/commands/command.hpp"
+#include "engine/app/commands/all_commands.hpp"
 #include "engine/app/help_page.hpp"
 #include "engine/base/version.hpp"
 
@@ -27,34 +26,6 @@ Error usage_error(std::string what, std::string help) {
 
 std::string with_suggestion(std::string const& what, std::string const& close) {
   return close.empty() ? what : what + fmt::format("; did you mean \"{}\"?", close);
-}
-
-struct Command {
-  char const* name;
-  void (*add)(CLI::App&, ChosenCommand&);
-};
-
-constexpr Command commands[] = {
-    {"init", add_init},
-    {"check", add_check},
-    {"run", add_run},
-    {"diagnose", [](CLI::App& app, ChosenCommand& chosen) { add_diagnose(app, chosen, diagnose); }},
-    {"show", add_show},
-    {"report", add_report},
-    {"export", add_export},
-    {"merge", add_merge},
-    {"status", add_status},
-    {"submit", add_submit},
-    {"simulate", add_simulate},
-    {"excite", add_excite},
-    {"list", add_list},
-    {"describe", add_describe},
-};
-
-std::vector<std::string> command_names() {
-  std::vector<std::string> names;
-  for (auto const& command : commands) names.push_back(command.name);
-  return names;
 }
 
 Error unknown_option(CLI::App& command, std::string const& word) {
@@ -102,9 +73,10 @@ void parse_command_line(std::vector<std::string> const& given, ParsedCommandLine
     parsed.text = fmt::format("torquescope {} ({}, {})\n", version, compiler, build_type);
     return;
   }
-  auto const* const named = std::find_if(std::begin(commands), std::end(commands),
-                                         [&](Command const& command) { return command.name == first; });
-  if (named == std::end(commands))
+  auto const commands = all_commands();
+  auto const named =
+      std::find_if(commands.begin(), commands.end(), [&](Command const& command) { return command.name == first; });
+  if (named == commands.end())
     throw usage_error(
         with_suggestion(fmt::format("unknown command \"{}\"", first), closest_name(first, command_names())),
         "torquescope --help shows every command");

@@ -33,6 +33,7 @@ std::string program_help() {
   torquescope status   R.h5          how far a job is, living or dead
   torquescope list     [effects|optimisers|readers|losses|estimators|sections]
   torquescope describe NAME          what it does, every option
+  torquescope completion bash|zsh|fish            for your shell; man: man pages
 
 start: torquescope run jobs/smoke.toml
 more:  torquescope help COMMAND, torquescope --version

@@ -126,6 +126,20 @@ class EveryCommand(unittest.TestCase):
         self.run_command("report", "arm.h5")
         self.assert_page("arm.html", "five joints")
 
+    def test_completions_and_man_pages_are_this_program_s(self):
+        share = os.path.join(self.prefix, "share")
+        for shell, place in (("bash", "bash-completion/completions/torquescope"),
+                             ("zsh", "zsh/site-functions/_torquescope"),
+                             ("fish", "fish/vendor_completions.d/torquescope.fish")):
+            with open(os.path.join(share, place), encoding="utf-8") as file:
+                self.assertEqual(file.read(), self.run_command("completion", shell))
+        pages = os.path.join(share, "man", "man1")
+        self.assertGreater(len(os.listdir(pages)), 14)
+        for name in os.listdir(pages):
+            command = name.removeprefix("torquescope").removeprefix("-").removesuffix(".1")
+            with open(os.path.join(pages, name), encoding="utf-8") as file:
+                self.assertEqual(file.read(), self.run_command("man", *command.split()), name)
+
     def test_catalogue_and_jobs(self):
         self.assertIn("stribeck", self.run_command("list", "effects"))
         self.assertIn("Stribeck friction", self.run_command("describe", "stribeck"))

@@ -30,6 +30,8 @@ void add_report(CLI::App& app, ChosenCommand& chosen);
 void add_export(CLI::App& app, ChosenCommand& chosen);
 void add_list(CLI::App& app, ChosenCommand& chosen);
 void add_describe(CLI::App& app, ChosenCommand& chosen);
+void add_completion(CLI::App& app, ChosenCommand& chosen);
+void add_man(CLI::App& app, ChosenCommand& chosen);
 
 // groups of the help page that several commands share
 void add_colour_option(CLI::App& command, ChosenCommand& chosen);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/result/catalogue_json.hpp"
@@ -83,6 +84,13 @@ bool is_file_name(std::string const& name) {
          ending == ".xacro" || std::filesystem::is_regular_file(name);
 }
 
+// "fade|stribeck|...|FILE", for shells
+std::string names_and_file() {
+  std::set<std::string> names;
+  for (auto const& entry : catalogue()) names.insert(entry.name);
+  return fmt::format("{}|FILE", fmt::join(names, "|"));
+}
+
 ExitCode describe(std::string const& name, Session const& session) {
   bool const is_entry =
       std::any_of(catalogue().begin(), catalogue().end(), [&](auto const& one) { return one.name == name; });
@@ -103,7 +111,8 @@ void add_describe(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope describe recording --json - | jq -r .entries[].options[].key\n"
       "  torquescope describe jobs/robots/ur10e.toml\n");
   command->add_option("NAME", *name, "effect, optimiser, reader, loss, estimator, job section, or a robot file")
-      ->required();
+      ->required()
+      ->type_name(names_and_file());
   add_json_option(*command, chosen);
   add_colour_option(*command, chosen);
   command->callback(

@@ -98,7 +98,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
             "--" + format.name,
             [arguments, name = format.name](std::string const& file) { arguments->out[name] = file; },
             "write " + format.meaning + "; - is stdout")
-        ->option_text("FILE")
+        ->type_name("FILE")
         ->group("results");
   add_quiet_option(*command, chosen);
   add_colour_option(*command, chosen);

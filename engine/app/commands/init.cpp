@@ -84,9 +84,10 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
   command
       ->add_option("REC.csv", arguments->recordings,
                    "recordings, CSV, HDF5 or MATLAB; the first trains the model, the others validate it")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   command->add_option("--joint", arguments->joint, "of a file with several joints, counted from 1 [1]")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(1, 1000).description(""))  // which would stand behind N
       ->type_name("N")
       ->group("recording");
   command->add_option("-o,--out", arguments->out, "the job, a file that does not exist yet [standard output]")

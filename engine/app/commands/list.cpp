@@ -44,6 +44,13 @@ std::string kind_of_word(std::string const& word) {
   throw Error(problem);
 }
 
+// "sections|readers|...", for shells
+std::string kind_words() {
+  std::vector<std::string> words;
+  for (auto const& kind : kinds_present()) words.push_back(plural(kind));
+  return fmt::format("{}", fmt::join(words, "|"));
+}
+
 ExitCode list_entries(std::string const& word, Session const& session) {
   std::vector<std::string> const kinds = word.empty() ? kinds_present() : std::vector<std::string>{kind_of_word(word)};
   std::vector<CatalogueEntry> listed;
@@ -72,7 +79,8 @@ void add_list(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope list\n"
       "  torquescope list effects\n"
       "  torquescope list effects --json - | jq -r .entries[].name\n");
-  command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections, robots");
+  command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections, robots")
+      ->type_name(kind_words());
   add_json_option(*command, chosen);
   add_colour_option(*command, chosen);
   command->callback(

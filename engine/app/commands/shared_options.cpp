@@ -13,18 +13,18 @@ namespace torquescope {
 
 namespace {
 
-// a word out of several; the help page shows the words and the default
+// a word out of several; the help page shows the words and the default, and shells offer them
 template <class Choice>
 void add_word_option(CLI::App& command, std::string const& name, Choice& target,
                      std::map<std::string, Choice> const& words, std::string const& meaning) {
+  std::vector<std::string> choices;
+  for (auto const& entry : words) choices.push_back(entry.first);
   auto const store = [&target, words](std::string const& word) { target = words.at(word); };
   command.add_option_function<std::string>(name, store, meaning)
-      ->check([words](std::string const& word) {
-        std::string list;
-        for (auto const& entry : words) list += (list.empty() ? "" : ", ") + entry.first;
-        return words.contains(word) ? "" : fmt::format("\"{}\" is none of {}", word, list);
+      ->check([choices, words](std::string const& word) {
+        return words.contains(word) ? "" : fmt::format("\"{}\" is none of {}", word, fmt::join(choices, ", "));
       })
-      ->type_name("WORD")
+      ->type_name(fmt::format("{}", fmt::join(choices, "|")))
       ->group("terminal");
 }
 
@@ -49,7 +49,7 @@ void add_colour_option(CLI::App& command, ChosenCommand& chosen) {
   add_word_option<ColourChoice>(
       command, "--color", chosen.session.colour,
       {{"auto", ColourChoice::automatic}, {"always", ColourChoice::always}, {"never", ColourChoice::never}},
-      "auto, always or never; beats NO_COLOR [auto]");
+      "colours; beats NO_COLOR [auto]");
 }
 
 void add_progress_option(CLI::App& command, ChosenCommand& chosen) {
@@ -58,7 +58,7 @@ void add_progress_option(CLI::App& command, ChosenCommand& chosen) {
                                    {"bar", ProgressChoice::bar},
                                    {"lines", ProgressChoice::lines},
                                    {"none", ProgressChoice::none}},
-                                  "auto, bar, lines or none; a bar needs a terminal [auto]");
+                                  "how far it is; a bar needs a terminal [auto]");
 }
 
 void add_quiet_option(CLI::App& command, ChosenCommand& chosen) {
