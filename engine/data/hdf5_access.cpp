@@ -6,7 +6,8 @@
 namespace torquescope {
 namespace {
 
-constexpr std::size_t longest_name = 1024;
+constexpr std::size_t longest_text = std::size_t{1} << 16;  // PyTables keeps all names of a table in one
+constexpr std::size_t most_letters = std::size_t{1} << 22;
 constexpr hssize_t most_texts = 4096;
 
 // read: fills memory of the given type
@@ -23,7 +24,7 @@ std::vector<std::string> texts_of(hid_t type, hid_t space, std::function<bool(hi
     H5Dvlen_reclaim(memory.id(), space, H5P_DEFAULT, pointers.data());
   } else {
     std::size_t const width = H5Tget_size(type);
-    if (width == 0 || width > longest_name) return {};
+    if (width == 0 || width > longest_text || static_cast<std::size_t>(count) > most_letters / width) return {};
     std::string letters(static_cast<std::size_t>(count) * width, '\0');
     if (!read(type, letters.data())) return {};
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {

@@ -7,6 +7,7 @@
 
 #include "engine/data/column_suggestion.hpp"
 #include "engine/data/columns.hpp"
+#include "engine/data/ros_stamp.hpp"
 
 namespace torquescope {
 namespace {
@@ -83,13 +84,21 @@ bool has_nanoseconds_beside(std::vector<LikelyColumn> const& likely, LikelyColum
   });
 }
 
+// the stamp was put together of seconds and these: alone they begin anew every second
+bool is_part_of_a_stamp(RawTable const& table, std::vector<LikelyColumn> const& likely, LikelyColumn const& part) {
+  return std::any_of(likely.begin(), likely.end(), [&](LikelyColumn const& whole) {
+    return has_nanoseconds_beside({part}, whole) && !stamp_with_fractions(table, whole.column).empty();
+  });
+}
+
 }  // namespace
 
 std::optional<StampGuess> guess_stamps(RawTable const& table) {
   auto const likely = likely_columns("time", table.names, table.units);
   for (auto const& candidate : likely) {
     auto const& stamps = values_of(table, candidate.column);
-    if (has_nanoseconds_beside(likely, candidate) || !runs_forwards(stamps)) continue;
+    if (has_nanoseconds_beside(likely, candidate) || is_part_of_a_stamp(table, likely, candidate)) continue;
+    if (!runs_forwards(stamps)) continue;
     StampGuess guess;
     guess.column = candidate.column;
     guess_unit(guess, candidate, stamps.front(), median_step(stamps));

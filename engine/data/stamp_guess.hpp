@@ -3,7 +3,7 @@
 //
 // Unit       of the name when the step it gives is that of a recording (10 us to 0.5 s); else of the values: stamps
 //            since 1970 tell it by their size, others by their step (0.5 to 100: ms; to 1e5: us; above: ns)
-// Two parts  seconds beside nanoseconds are no stamp: their sum is a column of its own (ros_stamp.hpp)
+// Two parts  seconds and nanoseconds are no stamps: their sum is a column of its own (ros_stamp.hpp)
 // Threads    free function
 
 #include <optional>

@@ -64,6 +64,12 @@ def csvs(folder):
     yield "clocks", ("t\tq\n" + "".join(f"23:59:{k}.5\t{k}\n" for k in range(50, 60)) + "00:00:00.5\t").encode()
 
 
+def echoes(folder):
+    yield "joints", "".join(f"{k},{k},base,a,b,{k},1,2,nan,3,{-k}e-3\n" for k in range(40)).encode()
+    yield "lists_are_empty", ("A message was lost!!!\n" + "".join(f"1,{k},,a,{k},,\n" for k in range(40))).encode()
+    yield "other", "".join(f"1,{k},base,{k},text,\n" for k in range(40)).encode()
+
+
 def hdf5s(folder):
     for library, packing in ((None, {}), (None, {"compression": "gzip", "shuffle": True, "chunks": True}),
                              (("v110", "v110"), {"fletcher32": True, "chunks": True})):
@@ -169,7 +175,7 @@ def lying_segments(home):
     return folder
 
 
-MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "mat5": mat5s, "npz": npzs, "segment": segments}
+MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "mat5": mat5s, "npz": npzs, "ros_echo": echoes, "segment": segments}
 
 
 def make(home):

@@ -159,6 +159,29 @@ class SameNumbers(Folder):
             name = self.write("ros.csv", recordings.text_of(rows, f"{second},{nanosecond},q_rad,tau_Nm").encode())
             np.testing.assert_allclose(self.parameters(name, {**COLUMNS, "time": "stamp"}), self.good, rtol=1e-9)
 
+    def test_rows_of_ros2_topic_echo(self):
+        whole = 1768472944
+        for row in ("elbow,{q},,{tau}", "elbow,wrist,{q},1.5,,{tau},2.5", "elbow,{q},0.5,{tau}"):
+            rows = [f"{whole + int(float(t))},{round(float(t) % 1 * 1e9)},base,{row.format(q=q, tau=tau)}\n"
+                    for t, q, tau in ROWS]
+            name = self.write("joint_states.csv", "".join(rows).encode())
+            columns = {"time": "stamp", "position": "elbow/position", "torque": "elbow/effort"}
+            np.testing.assert_allclose(self.parameters(name, columns), self.good, rtol=1e-9)
+
+    def test_exports_of_plotjuggler(self):
+        columns = {"time": "__time", "position": "/joint_states/elbow/position", "torque": "/torque/data"}
+        names = ",".join(columns.values()) + "\n"
+        begin = 1768472944.123456  # it prints six decimals of seconds since 1970, and nine of values
+        rows = [f"{begin + t:.6f},{q:.9f},{tau:.9f}\n" for t, q, tau in DATA]
+        name = self.write("one_topic.csv", (names + "".join(rows)).encode())
+        np.testing.assert_allclose(self.parameters(name, columns), self.good, rtol=1e-4)
+        # of two topics every message has a row, with an empty cell for the other; the torque is 1 ms late
+        late = np.interp(DATA[:, 0] + 0.001, DATA[:, 0], DATA[:, 2])
+        rows = sorted([f"{begin + t:.6f},{q:.9f},\n" for t, q, _ in DATA]
+                      + [f"{begin + t + 0.001:.6f},,{tau:.9f}\n" for (t, _, _), tau in zip(DATA, late)])
+        name = self.write("two_topics.csv", (names + "".join(rows)).encode())
+        np.testing.assert_allclose(self.parameters(name, columns), self.good, rtol=0.02)
+
     def test_structures_and_pandas_frames_in_hdf5(self):
         table = np.zeros(len(DATA), dtype=[(name, "f8") for name in COLUMNS.values()])
         for name, column in zip(COLUMNS.values(), DATA.T):
@@ -172,7 +195,14 @@ class SameNumbers(Folder):
             group["axis1"] = np.arange(len(DATA))
             group["block0_items"] = np.array(list(COLUMNS.values()), dtype="S8")
             group["block0_values"] = DATA
-        for name in ("structures.h5", "frame.h5"):
+        with h5py.File(self.path("table.h5"), "w") as file:  # as its table format
+            frame = file.create_dataset("df/table", (len(DATA),), [("index", "i8"), ("values_block_0", "f8", (3,))])
+            rows = np.zeros(len(DATA), frame.dtype)
+            rows["values_block_0"] = DATA
+            frame[:] = rows
+            names = "".join(f"V{name}\np{k}\na" for k, name in enumerate(COLUMNS.values(), 1))
+            frame.attrs["values_block_0_kind"] = np.bytes_(f"(lp0\n{names}.".encode())
+        for name in ("structures.h5", "frame.h5", "table.h5"):
             np.testing.assert_array_equal(self.parameters(name), self.good)
 
     def test_preallocated_datasets_end_where_the_clock_does(self):

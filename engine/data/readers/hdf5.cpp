@@ -1,7 +1,7 @@
 // HDF5 and MAT 7.3: every numeric dataset of rank 1 or 2, structures of numbers and pandas frames, in any group.
 //
 // Names      the path without its leading slash: "joint_1/q"; "name[0]", ... of a matrix (rows are samples), or the
-//            names in its attribute `columns`; "name/field"; a pandas table numbers its columns (a pickle names them)
+//            names in its attribute `columns`; "name/field"; "frame/name" of pandas (pandas_frame.hpp)
 // Refused    numbers in another file (external links and storage, virtual datasets); soft links are not followed;
 //            filters that are not HDF5's own: none is loaded from this machine's folders
 // Checked    type, rank, layout, and sizes against the bytes stored, before anything is allocated
@@ -22,6 +22,7 @@
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/hdf5_access.hpp"
 #include "engine/data/hdf5_open_flags.hpp"
+#include "engine/data/pandas_frame.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/data/table_builder.hpp"
 
@@ -88,40 +89,19 @@ class FileWalk {
 
   void group(hid_t group, std::string const& prefix, int depth) {
     ++n_groups_;
-    auto const pandas = text_attribute(group, "pandas_type");
-    if (!pandas.empty() && pandas[0] == "frame_table")
-      table_.remark(
-          fmt::format("\"{}\" is a table of pandas, which keeps the names of its columns as a pickle: they are "
-                      "numbered; to_hdf(..., format=\"fixed\") keeps them readable.",
-                      prefix));
-    bool const is_frame = !pandas.empty() && pandas[0] == "frame";
+    bool const is_frame = is_fixed_frame(group);
     for (auto const& [name, type] : links_of(group)) {
       bool const is_index = name.starts_with("#refs#") || name.starts_with("_i_");  // of MATLAB, of PyTables
       if (name.empty() || name.size() > longest_name || is_index) continue;
-      if (is_frame && (name == "axis0" || name.ends_with("_items"))) continue;  // the names
+      if (is_frame && holds_pandas_names(name)) continue;
       if (type == H5L_TYPE_HARD)
         object(group, name, prefix + name, depth,
-               is_frame ? frame_names(group, name, prefix) : std::vector<std::string>{});
+               is_frame ? fixed_frame_names(group, name, prefix) : std::vector<std::string>{});
       else
         table_.cannot_use(prefix + name, type == H5L_TYPE_EXTERNAL
                                              ? "is a link into another file; copy its numbers into this one"
                                              : "is a soft link; name the path it points to");
     }
-  }
-
-  // of the columns of a block of a pandas frame, or of its index
-  static std::vector<std::string> frame_names(hid_t group, std::string const& name, std::string const& prefix) {
-    constexpr std::string_view values = "_values";
-    if (name == "axis1") {
-      constexpr char const* no_name = "N.";  // None as a pickle
-      Handle const index(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose);
-      auto const given = index ? text_attribute(index.id(), "name") : std::vector<std::string>{};
-      return {prefix + (given.empty() || given[0].empty() || given[0] == no_name ? "index" : given[0])};
-    }
-    if (!name.ends_with(values)) return {};
-    auto names = text_dataset(group, name.substr(0, name.size() - values.size()) + "_items");
-    for (auto& column : names) column = prefix + column;
-    return names;
   }
 
   void object(hid_t parent, std::string const& name, std::string const& path, int depth,
@@ -256,14 +236,29 @@ class FileWalk {
     bool const read = H5Tinsert(memory.id(), name.c_str(), 0, numbers.id()) >= 0 &&
                       H5Dread(dataset, memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
     if (!read) return table_.cannot_use(path, "cannot be decoded: it is damaged");
-    table_.add_matrix(path, values, static_cast<std::size_t>(n_rows), static_cast<std::size_t>(count), false);
+    table_.add_matrix(path, values, static_cast<std::size_t>(n_rows), static_cast<std::size_t>(count), false,
+                      is_list ? names_of_field(dataset, name, path) : std::vector<std::string>{});
+  }
+
+  // of a table of pandas, which gathers columns of one type in a field
+  std::vector<std::string> names_of_field(hid_t dataset, std::string const& name, std::string const& path) {
+    auto names = table_field_names(dataset, name);
+    for (auto& column : names) column = path.substr(0, path.size() - name.size()) + column;
+    if (names.empty() && name.starts_with("values_block_") && !is_numbering_told_) {
+      table_.remark(
+          fmt::format("\"{}\" is a table of pandas whose names of columns cannot be read: they are numbered; "
+                      "to_hdf(..., format=\"fixed\") keeps them readable.",
+                      path));
+      is_numbering_told_ = true;
+    }
+    return names;
   }
 
   TableBuilder& table_;
   hsize_t file_bytes_;
   std::set<haddr_t> seen_;  // groups can contain each other
   std::size_t n_objects_ = 0, n_groups_ = 0, n_datasets_ = 0;
-  bool is_cut_ = false;
+  bool is_cut_ = false, is_numbering_told_ = false;
 };
 
 RawTable read(std::filesystem::path const& path) {

@@ -7,6 +7,7 @@
 #include "engine/base/digest.hpp"
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/hdf5_open_flags.hpp"
+#include "engine/data/pandas_frame.hpp"
 #include "unit/data/data_test_support.hpp"
 
 namespace torquescope {
@@ -186,6 +187,47 @@ TEST(Hdf5Reader, FieldsOfStructuresAreColumns) {
   EXPECT_EQ(table.columns[column_of(table, "log/t")], (std::vector<double>{0.5, 1.5}));
   EXPECT_EQ(table.columns[column_of(table, "log/q[1]")], (std::vector<double>{2, 4}));
   EXPECT_EQ(reason_of(table, "log/text"), "is not made of plain real numbers");
+}
+
+TEST(Hdf5Reader, FieldsOfAPandasTableHaveTheNamesInItsPickle) {
+  struct Row {
+    double index, values[2], numbered[2];
+  };
+  std::string const pickle = "(lp0\nVq_rad\np1\naV\\u03c4/Nm\np2\na.";
+  {
+    Hdf5File file("pandas.h5");
+    file.group("df");
+    hsize_t const two = 2;
+    hid_t const pair = H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &two);
+    hid_t const type = H5Tcreate(H5T_COMPOUND, sizeof(Row));
+    H5Tinsert(type, "index", HOFFSET(Row, index), H5T_NATIVE_DOUBLE);
+    H5Tinsert(type, "values_block_0", HOFFSET(Row, values), pair);
+    H5Tinsert(type, "values_block_1", HOFFSET(Row, numbered), pair);
+    std::vector<Row> const rows{{0, {1, 2}, {3, 4}}, {1, {5, 6}, {7, 8}}};
+    file.dataset("df/table", {2}, type, type, rows.data());
+    file.text_attribute("df/table", "values_block_0_kind", {pickle.c_str()}, pickle.size());
+    file.text_attribute("df/table", "values_block_1_kind", {"cos\nsystem\n(S'true'\ntR."}, 40);
+    H5Tclose(type);
+    H5Tclose(pair);
+  }
+  auto const table = read_table(data_test::folder() / "pandas.h5", recording_section());
+  EXPECT_EQ(table.columns[column_of(table, "df/table/q_rad")], (std::vector<double>{1, 5}));
+  EXPECT_EQ(table.columns[column_of(table, "df/table/\xcf\x84/Nm")], (std::vector<double>{2, 6}));
+  EXPECT_EQ(table.columns[column_of(table, "df/table/values_block_1[1]")], (std::vector<double>{4, 8}));
+  ASSERT_EQ(table.remarks.size(), 1u);
+  EXPECT_NE(table.remarks[0].find("names of columns cannot be read: they are numbered"), std::string::npos);
+}
+
+TEST(PandasNames, AreReadFromListsOfTextsAndNumbersOnly) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names_in_pickle("(lp0\nVt_s\np1\naVq\np2\na."), (Names{"t_s", "q"}));
+  EXPECT_EQ(names_in_pickle("(lp0\nI0\naI1\na."), (Names{"0", "1"}));
+  EXPECT_EQ(names_in_pickle("(lV\xb0\na."), (Names{"\xc2\xb0"})) << "ISO 8859-1";
+  EXPECT_EQ(names_in_pickle("(lV\\U0001f916\na."), (Names{"\xf0\x9f\xa4\x96"}));
+  for (std::string_view const other :
+       {"", ".", "(lp0\n.", "(lp0\nVt_s\np1\na", "(lp0\nVt_s\np1\na(lp2\n.", "(lp0\nVt_s", "(dp0\n.", "N.",
+        "(lV\\u12\na.", "(lV\\uzzzz\na.", "(lV\\u+123\na.", "cos\nsystem\n(S'true'\ntR.", "\x80\x04]\x94."})
+    EXPECT_EQ(names_in_pickle(other), Names()) << other;
 }
 
 TEST(Hdf5Reader, Matlab73IsTransposedBehindItsUserBlock) {

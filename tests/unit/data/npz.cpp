@@ -191,6 +191,24 @@ TEST(ZipArchive, OtherKindsOfZipAreRefusedInWords) {
   EXPECT_NE(excel.notes[0].find("read_excel("), std::string::npos);
 }
 
+// a name is a name: nothing is ever written
+TEST(NpzReader, NamesWithPathsAreColumns) {
+  auto const outside = data_test::folder() / ".." / "escaped.npy";
+  auto const bytes = zip_of({{"../escaped.npy", npy("'<f8'", "(2,)", f8({0, 1}))},
+                             {"/etc/joint/q.npy", npy("'<f8'", "(2,)", f8({2, 3}))},
+                             {std::string("a\0b\n.npy", 8), npy("'<f8'", "(2,)", f8({4, 5}))}});
+  auto const table = read_bytes(bytes);
+  EXPECT_EQ(table.names, (std::vector<std::string>{"../escaped", "/etc/joint/q", std::string("a\0b\n", 4)}));
+  EXPECT_FALSE(std::filesystem::exists(outside));
+}
+
+TEST(NpzReader, EveryTruncationIsRefused) {
+  auto const whole =
+      zip_of({{"t.npy", npy("'<f8'", "(2,)", f8({0, 1}))}, {"q.npy", npy("'<f8'", "(2,)", f8({2, 3})), true}});
+  for (std::size_t size = 1; size < whole.size(); size += 7)
+    EXPECT_EQ(problem_of([&] { read_bytes(whole.substr(0, size)); }).code, ExitCode::bad_data) << size;
+}
+
 // random damage either still reads or is refused with exit code 65; nothing else escapes
 TEST(NpzReader, RandomBytesNeverEscapeAsAnythingButAnError) {
   std::string const plain = npy("'<f8'", "(3, 2)", f8({1, 2, 3, 4, 5, 6}));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/data/ros_stamp.hpp"
+
 namespace torquescope {
 namespace stamp_guess_test {
 
@@ -56,6 +58,19 @@ TEST(StampGuess, SecondsBesideNanosecondsAreNoStamp) {
   auto const found = guess_stamps(table);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->column, "stamp") << "their sum, as readers add it";
+}
+
+TEST(StampGuess, NanosecondsOfAJoinedStampAreNoStamp) {
+  RawTable table;
+  table.names = {"stamp.sec", "stamp.nanosec"};
+  table.columns = {{}, {}};
+  for (int k = 0; k < 600; ++k) {  // so long that few of them run backwards
+    table.columns[0].push_back(1768472944 + (k + 250) / 500);
+    table.columns[1].push_back(2e6 * ((k + 250) % 500));
+  }
+  EXPECT_EQ(guess_stamps(table)->column, "stamp.nanosec") << "nothing better";
+  add_ros_stamps(table);
+  EXPECT_EQ(guess_stamps(table)->column, "stamp");
 }
 
 TEST(StampGuess, BelievesARowOfUnits) {
