@@ -13,21 +13,14 @@
 namespace torquescope {
 namespace {
 
-// {0}: the file in quotes of Python, {1}: the file of CSV in quotes of Python, {2}: its name bare
+// {0}: the file in quotes of Python, {1}: the file of CSV in quotes of Python, {2}: its name for a shell
 struct Export {
   std::string_view help;
   std::string_view line{};
 };
 
-constexpr Export ros_bag{
-    "export its joint states as CSV (pip install rosbags):",
-    "python3 -c 'from rosbags.highlevel import AnyReader; from pathlib import Path; b = AnyReader([Path({0})]); "
-    "b.open(); "
-    "s = [b.deserialize(r, c.msgtype) for c, t, r in b.messages() if c.msgtype.endswith(\"/JointState\")]; "
-    "v = [a for a in (\"position\", \"velocity\", \"effort\") if len(getattr(s[0], a))]; "
-    "print(\"t_s\", *(a + \"_\" + n for a in v for n in s[0].name), sep=\",\"); "
-    "[print(m.header.stamp.sec - s[0].header.stamp.sec + m.header.stamp.nanosec / 1e9, "
-    "*(x for a in v for x in getattr(m, a)), sep=\",\") for m in s]' > {2}.csv"};
+constexpr Export ros_bag{"convert it with the Python package (pip install \"torquescope[ros]\"):",
+                         "python3 -m torquescope convert {2} {2}.h5"};
 constexpr Export parquet{"export it as CSV (pip install pandas pyarrow):",
                          "python3 -c 'import pandas; pandas.read_parquet({0}).to_csv({1})'"};
 constexpr Export feather{"export it as CSV (pip install pandas pyarrow):",

@@ -9,6 +9,7 @@ import gzip
 import io
 import json
 import os
+import shlex
 import shutil
 import sqlite3
 import sys
@@ -241,10 +242,10 @@ class Refused(Folder):
             (
                 "a.mcap",
                 b"\x89MCAP0\r\n" + bytes(50),
-                ["is an MCAP file", "pip install rosbags", 'Path("a.mcap")', "> a.mcap.csv"],
+                ["is an MCAP file", 'pip install "torquescope[ros]"', "-m torquescope convert a.mcap a.mcap.h5"],
             ),
-            ("a.bag", b"#ROSBAG V2.0\n" + bytes(50), ["is a bag of ROS 1", "pip install rosbags"]),
-            ("ros2.db3", None, ["is a database of SQLite", "pip install rosbags"]),
+            ("a.bag", b"#ROSBAG V2.0\n" + bytes(50), ["is a bag of ROS 1", "convert a.bag a.bag.h5"]),
+            ("ros2.db3", None, ["is a database of SQLite", "convert ros2.db3 ros2.db3.h5"]),
             (
                 "a.parquet",
                 b"PAR1" + bytes(50),
@@ -267,16 +268,26 @@ class Refused(Folder):
                 self.assert_refused(name, words)
 
     def test_a_line_to_copy_stands_on_one_line(self):
-        self.write("a.mcap", b"\x89MCAP0\r\n" + bytes(50))
-        outcome = self.assert_refused("a.mcap", "is an MCAP file")
+        self.write("my arm's.parquet", b"PAR1" + bytes(50))
+        outcome = self.assert_refused_by_init("my arm's.parquet", "is a Parquet file")
         lines = [line for line in outcome.err.splitlines() if line.startswith("    python3 -c '")]
         self.assertEqual(len(lines), 1)
-        self.assertTrue(lines[0].endswith("> a.mcap.csv"))
+        self.assertTrue(lines[0].endswith(".csv\")'"))
+        self.write("my arm's.mcap", b"\x89MCAP0\r\n" + bytes(50))
+        outcome = self.assert_refused_by_init("my arm's.mcap", "is an MCAP file")
+        line = next(line for line in outcome.err.splitlines() if line.startswith("    python3 -m"))
+        self.assertEqual(shlex.split(line)[4:], ["my arm's.mcap", "my arm's.mcap.h5"])
+
+    def assert_refused_by_init(self, name, words):
+        outcome = program.run("init", name, folder=self.folder)
+        self.assertEqual(outcome.code, 65, outcome.err)
+        self.assertIn(words, outcome.said)
+        return outcome
 
     def test_a_bag_of_ros_2_is_a_folder(self):
         os.mkdir(self.path("bag"))
         self.write("bag/metadata.yaml", b"rosbag2_bagfile_information:\n")
-        self.assert_refused("bag", ["is a folder with a bag of ROS 2", 'Path("bag")'])
+        self.assert_refused("bag", ["is a folder with a bag of ROS 2", "convert bag bag.h5"])
 
     def test_two_decimal_marks(self):
         self.write("mixed.csv", b"t_s;q_rad;tau_Nm\n0.5;1;2\n1.0;1,234;2\n1.5;1;2\n")

@@ -21,15 +21,15 @@ def skip(why):
     sys.exit(SKIPPED)
 
 
-def environment(folder):
-    """The Python of a new environment."""
+def environment(folder, needed):
+    """The Python of a new environment; skips where PyPI does not give the packages needed."""
     shutil.rmtree(folder, ignore_errors=True)
     made = subprocess.run([sys.executable, "-m", "venv", folder], capture_output=True, text=True)
     if made.returncode != 0:
         skip(f"no virtual environment can be made (Debian: python3-venv): {made.stdout.strip()[:200]}")
     python = folder / "bin" / "python"
     reached = subprocess.run([python, "-m", "pip", "download", "-q", "--no-deps", "--retries", "0", "--timeout", "15",
-                              "-d", folder / "reached", *FROM_PYPI], capture_output=True, text=True)
+                              "-d", folder / "reached", *needed], capture_output=True, text=True)
     if reached.returncode != 0:
         skip("PyPI is not reached from here")
     return python
@@ -37,7 +37,7 @@ def environment(folder):
 
 def main(source, folder, build, compiler):
     source, folder = pathlib.Path(source), pathlib.Path(folder)
-    python = environment(folder / "environment")
+    python = environment(folder / "environment", FROM_PYPI)
     settings = {"build-dir": build, "cmake.define.CMAKE_CXX_COMPILER": compiler}
     subprocess.run([python, "-m", "pip", "install", "-q", f"{source}[all]", *NOTEBOOK,
                     *(f"--config-settings={key}={value}" for key, value in settings.items())], check=True)

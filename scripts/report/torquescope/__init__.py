@@ -17,9 +17,10 @@ from .errors import DataError, Error, JobError, Problem, ResultError, UsageError
 from .recording import Recording
 from .result import Result
 from .robot import Robot
+from .ros import convert
 
 __all__ = ["DataError", "Error", "JobError", "Problem", "Recording", "RecordingWarning", "Result", "ResultError",
-           "Robot", "UsageError", "check", "describe", "diagnose", "identify", "open", "simulate"]
+           "Robot", "UsageError", "check", "convert", "describe", "diagnose", "identify", "open", "simulate"]
 
 
 try:
