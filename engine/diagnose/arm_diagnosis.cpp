@@ -155,17 +155,18 @@ class ArmWork {
     }
   }
 
+  // A joint without names is told as it is beside the laws of others, but not beside an arm that lacks its own
   JointOutcome searched_beside_laws(std::size_t j) const {
     JointOutcome outcome = searched(j, RigidArm::shared);
-    if (outcome.diagnosis.joints.front().effects.empty()) return outcome;
+    if (arm_.laws[j].empty() && outcome.diagnosis.joints.front().effects.empty()) return outcome;
     return beside_shared_arm(alone_[j], std::move(outcome), input_.levels, filter_memory());
   }
 
   // rows that the parallel filter couples, of the joints' rows
   Eigen::Index filter_memory() const {
-    RecordPipeline const pipeline(own_terms(input_.model, 0), input_.filter, train_files().front().joints[0].rate_hz,
-                                  train_files().front().joints[0].position.size(), input_.filter_section);
-    return guard_rows(pipeline);
+    Recording const& first = train_files().front().joints.front();
+    Regressor const terms = own_terms(input_.model, 0);
+    return guard_rows({terms, input_.filter, first.rate_hz, first.position.size(), input_.filter_section});
   }
 
   // A law that is missing bends the rigid arm, which then hides it. Where a joint stays unexplained, a search that may
