@@ -33,11 +33,7 @@ std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOpt
   Eigen::VectorXd const signs = passive_signs(*parts.regressor);
   if (!((signs.array() * parameters.array()) < 0.0).any()) return {};
 
-  // a joint that its neighbours load may well give work away
-  auto const& known = parts.train.recordings.front().findings;
-  bool const is_loaded = std::any_of(known.begin(), known.end(),
-                                     [](Finding const& one) { return one.kind == FindingKind::other_joints_move; });
-  bool const takes_work_out = work(rows) < 0.0 && !is_loaded;
+  bool const takes_work_out = work(rows) < 0.0;
   double const surely = takes_work_out ? levels::negative_beside_negative_work : levels::surely_negative;
   auto const fit = fit_with_errors(rows, parameters);
   Finding finding{FindingKind::less_than_none, takes_work_out ? Grade::fault : Grade::warning};
@@ -54,7 +50,13 @@ std::optional<Finding> sign_finding(Experiment::Parts const& parts, RecordingOpt
   if (takes_work_out && finding.count == possible && possible >= 2) {
     finding.kind = FindingKind::wrong_sign;
     finding.size = -options.torque_factor();
+    return finding;
   }
+  // one of a moving arm may well give away work that its neighbours put in
+  auto const& known = parts.train.recordings.front().findings;
+  if (std::any_of(known.begin(), known.end(),
+                  [](Finding const& one) { return one.kind == FindingKind::other_joints_move; }))
+    finding.grade = Grade::warning;
   return finding;
 }
 

@@ -35,9 +35,8 @@ std::string too_small_clause(JointDiagnosis const& joint) {
 std::string other_joints_sentence(JointDiagnosis const& joint, std::vector<std::string> const& columns, double relerr) {
   return fmt::format(
       "What is missing at {} goes with the motion of {}, which {} the cross-validated relerr from {} to {}, further "
-      "than "
-      "any effect at this joint: other joints load it. Diagnose the arm as a whole (model.robot = \"ARM.toml\" or its "
-      "URDF).",
+      "than any effect at this joint: other joints load it. Diagnose the arm as a whole (model.robot = \"ARM.toml\" or "
+      "its URDF).",
       which_joint(joint), fmt::join(columns, " and "), columns.size() == 1 ? "takes" : "take",
       percent_text(joint.cv_relerr), percent_text(relerr));
 }
