@@ -28,8 +28,8 @@ inline constexpr std::size_t tile = n_vectors == 1 ? 4 : 2;
 
 // n_a_here <= tile columns of a against n_b_here <= tile of b
 template <std::size_t n_a_here, std::size_t n_b_here>
-HWY_INLINE void add_products(double const* HWY_RESTRICT a, double const* HWY_RESTRICT b, std::size_t n,
-                             double* HWY_RESTRICT out, std::size_t n_a) {
+HWY_INLINE void add_products(double const* HWY_RESTRICT a, std::size_t a_stride, double const* HWY_RESTRICT b,
+                             std::size_t b_stride, std::size_t n, double* HWY_RESTRICT out, std::size_t n_a) {
   V sum[n_a_here][n_b_here][n_vectors];
   for (std::size_t i = 0; i < n_a_here; ++i)
     for (std::size_t j = 0; j < n_b_here; ++j)
@@ -46,8 +46,8 @@ HWY_INLINE void add_products(double const* HWY_RESTRICT a, double const* HWY_RES
     }
   };
   double const *x[n_a_here], *y[n_b_here];
-  for (std::size_t i = 0; i < n_a_here; ++i) x[i] = a + i * n;
-  for (std::size_t j = 0; j < n_b_here; ++j) y[j] = b + j * n;
+  for (std::size_t i = 0; i < n_a_here; ++i) x[i] = a + i * a_stride;
+  for (std::size_t j = 0; j < n_b_here; ++j) y[j] = b + j * b_stride;
   std::size_t row = 0;
   for (; row + n_lanes <= n; row += n_lanes) add(x, y, row);
   if (row < n) {
@@ -67,18 +67,22 @@ HWY_INLINE void add_products(double const* HWY_RESTRICT a, double const* HWY_RES
 
 }  // namespace
 
-void products(double const* a, std::size_t n_a, double const* b, std::size_t n_b, std::size_t n, double* out) {
+void products(Columns a, Columns b, std::size_t n, double* out) {
   // all of `a` against a few columns of `b`: they stay in the L1 cache, `a` in the L2 cache
+  auto const add = [&]<std::size_t n_a_here, std::size_t n_b_here>(std::size_t i, std::size_t j) {
+    add_products<n_a_here, n_b_here>(a.first + i * a.stride, a.stride, b.first + j * b.stride, b.stride, n,
+                                     out + i + j * a.count, a.count);
+  };
   std::size_t j = 0;
-  for (; j + tile <= n_b; j += tile) {
+  for (; j + tile <= b.count; j += tile) {
     std::size_t i = 0;
-    for (; i + tile <= n_a; i += tile) add_products<tile, tile>(a + i * n, b + j * n, n, out + i + j * n_a, n_a);
-    for (; i < n_a; ++i) add_products<1, tile>(a + i * n, b + j * n, n, out + i + j * n_a, n_a);
+    for (; i + tile <= a.count; i += tile) add.template operator()<tile, tile>(i, j);
+    for (; i < a.count; ++i) add.template operator()<1, tile>(i, j);
   }
-  for (; j < n_b; ++j) {
+  for (; j < b.count; ++j) {
     std::size_t i = 0;
-    for (; i + tile <= n_a; i += tile) add_products<tile, 1>(a + i * n, b + j * n, n, out + i + j * n_a, n_a);
-    for (; i < n_a; ++i) add_products<1, 1>(a + i * n, b + j * n, n, out + i + j * n_a, n_a);
+    for (; i + tile <= a.count; i += tile) add.template operator()<tile, 1>(i, j);
+    for (; i < a.count; ++i) add.template operator()<1, 1>(i, j);
   }
 }
 
@@ -91,9 +95,7 @@ namespace {
 TORQUESCOPE_EXPORT(products);
 }  // namespace
 
-void column_products(double const* a, std::size_t n_a, double const* b, std::size_t n_b, std::size_t n, double* out) {
-  TORQUESCOPE_DISPATCH(products)(a, n_a, b, n_b, n, out);
-}
+void column_products(Columns a, Columns b, std::size_t n, double* out) { TORQUESCOPE_DISPATCH(products)(a, b, n, out); }
 
 }  // namespace torquescope::kernels
 #endif  // HWY_ONCE

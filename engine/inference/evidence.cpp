@@ -109,8 +109,9 @@ Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
   FoldProducts const all = fold_products(result.folds, training_.basis(), training_.basis_and_signals());
   result.gram = picked(all, 0, k, 0, k);
   result.products = picked(all, 0, k, k, m);
-  result.less_own = left_inside_less_own(result.gram, result.products);
-  result.left = result.less_own + fold_energies(result.folds, training_.basis_and_signals().rightCols(m));
+  result.gains = {result.gram, result.products};
+  result.left = left_inside_less_own(result.gram, result.products) +
+                fold_energies(result.folds, training_.basis_and_signals().rightCols(m));
   return result;
 }
 
@@ -168,8 +169,8 @@ LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) con
   Eigen::MatrixXd const& coefficients = candidate.products.whole;
   BoundedGain const bounded = bounded_gain(group, coefficients.col(0));
   result.parameters = bounded.parameters;
-  FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
-  Eigen::MatrixXd in_folds = beside.less_own - left_inside_less_own(gram, stacked(beside.products, candidate.products));
+  Eigen::MatrixXd in_folds =
+      beside.gains.of(candidate.cross, fold_products(beside.folds, group.q, group.q), candidate.products);
   drop_wrong_signs(group, coefficients, in_folds);
   result.train = in_folds.colwise().sum().transpose();
   result.first = in_folds.topRows(n_folds).colwise().sum().transpose();
@@ -189,7 +190,7 @@ Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, Unsee
   CarryOver const over = carry_over(*candidate.effect);
   UnseenChange change;
   change.by_share = over == CarryOver::in_part;
-  change.model = -one.nuisance * ((training_.basis().transpose() * *candidate.columns) * to_parameters);
+  change.model = -one.nuisance * (inner_products(training_.basis(), *candidate.columns) * to_parameters);
   if (over == CarryOver::none)
     change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
   else
@@ -203,8 +204,8 @@ Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, Unsee
 Eigen::RowVectorXd Evidence::UnseenChange::shares(Eigen::MatrixXd const& coefficients,
                                                   Eigen::MatrixXd const& left) const {
   if (!by_share) return Eigen::RowVectorXd::Ones(coefficients.cols());
-  Eigen::MatrixXd const products = law.transpose() * left, beside = law.transpose() * model,
-                        gram = law.transpose() * law;
+  Eigen::MatrixXd const products = inner_products(law, left), beside = inner_products(law, model),
+                        gram = inner_products(law, law);
   Eigen::RowVectorXd const wanted = (coefficients.array() * (products - beside * coefficients).array()).colwise().sum();
   Eigen::RowVectorXd const whole = (coefficients.array() * (gram * coefficients).array()).colwise().sum();
   return wanted.binaryExpr(whole, [](double a, double b) { return b > 0.0 ? std::clamp(a / b, 0.0, 1.0) : 0.0; });
@@ -218,7 +219,7 @@ void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
     both << change.model, change.law;
     Eigen::MatrixXd steps(2 * coefficients.rows(), coefficients.cols());
     steps << coefficients, coefficients * change.shares(coefficients, unseen_left_[i]).asDiagonal();
-    Eigen::MatrixXd const products = inner_products(both, unseen_left_[i]), gram = both.transpose() * both;
+    Eigen::MatrixXd const products = inner_products(both, unseen_left_[i]), gram = inner_products(both, both);
     Eigen::MatrixXd gains = (steps.array() * (2.0 * products - gram * steps).array()).colwise().sum();
     drop_wrong_signs(*candidate.group, coefficients, gains);
     gain.unseen += gains.transpose();

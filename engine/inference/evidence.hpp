@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/inference/left_out.hpp"
+#include "engine/inference/left_out_gains.hpp"
 #include "engine/inference/training_rows.hpp"
 #include "engine/statistics/held_out_gain.hpp"
 
@@ -99,8 +100,8 @@ class Evidence {
   struct InFolds {
     std::vector<Fold> folds{};
     FoldProducts gram{}, products{};  // of the basis with itself, and with the signals
-    Eigen::MatrixXd less_own{};       // folds x (1 + M): left, less the signals' own energy
-    Eigen::MatrixXd left{};
+    LeftOutGains gains{};             // of further columns
+    Eigen::MatrixXd left{};           // folds x (1 + M)
   };
   void fill_folds();
   void add_unseen(UnseenEvidence one);

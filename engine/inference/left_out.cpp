@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/inference/decision_levels.hpp"
+#include "engine/statistics/bounded_projection.hpp"
 
 namespace torquescope {
 namespace {
@@ -36,15 +37,6 @@ std::vector<Fold> interleaved_folds(Eigen::Index n, Eigen::Index guard) {
   return result;
 }
 
-Eigen::MatrixXd product_on(std::vector<RowBlock> const& rows, Eigen::Ref<Eigen::MatrixXd const> const& basis,
-                           Eigen::Ref<Eigen::MatrixXd const> const& signals) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(basis.cols(), signals.cols());
-  for (auto const& block : rows)
-    sum.noalias() +=
-        basis.middleRows(block.from, block.size()).transpose() * signals.middleRows(block.from, block.size());
-  return sum;
-}
-
 Eigen::MatrixXd one_above(Eigen::MatrixXd const& above, Eigen::MatrixXd const& below) {
   Eigen::MatrixXd both(above.rows() + below.rows(), above.cols());
   both << above, below;
@@ -63,8 +55,8 @@ FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::Mat
   FoldProducts result;
   result.whole = Eigen::MatrixXd::Zero(basis.cols(), signals.cols());
   for (auto const& fold : folds) {
-    result.inside.push_back(product_on(fold.inside, basis, signals));
-    result.left_out.push_back(result.inside.back() + product_on(fold.guard, basis, signals));
+    result.inside.push_back(inner_products(basis, signals, fold.inside));
+    result.left_out.push_back(result.inside.back() + inner_products(basis, signals, fold.guard));
     result.whole += result.inside.back();
   }
   return result;

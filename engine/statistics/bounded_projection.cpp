@@ -58,14 +58,38 @@ OrthonormalGroup group_of(Eigen::Ref<Eigen::MatrixXd const> const& columns,
   return group;
 }
 
+Eigen::MatrixXd gathered(Eigen::Ref<Eigen::MatrixXd const> const& from, std::span<RowBlock const> rows) {
+  Eigen::Index n = 0;
+  for (RowBlock const& block : rows) n += block.size();
+  Eigen::MatrixXd all(n, from.cols());
+  for (Eigen::Index k = 0; k < from.cols(); ++k) {
+    Eigen::Index at = 0;
+    for (RowBlock const& block : rows) {
+      all.col(k).segment(at, block.size()) = from.col(k).segment(block.from, block.size());
+      at += block.size();
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b) {
-  TORQUESCOPE_EXPECT(a.rows() == b.rows() && a.outerStride() == a.rows() && b.outerStride() == b.rows());
+  TORQUESCOPE_EXPECT(a.rows() == b.rows());
+  auto const columns = [](Eigen::Ref<Eigen::MatrixXd const> const& of) {
+    return kernels::Columns{of.data(), static_cast<std::size_t>(of.cols()), static_cast<std::size_t>(of.outerStride())};
+  };
   Eigen::MatrixXd products(a.cols(), b.cols());
-  kernels::column_products(a.data(), static_cast<std::size_t>(a.cols()), b.data(), static_cast<std::size_t>(b.cols()),
-                           static_cast<std::size_t>(a.rows()), products.data());
+  kernels::column_products(columns(a), columns(b), static_cast<std::size_t>(a.rows()), products.data());
   return products;
+}
+
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b,
+                               std::span<RowBlock const> rows) {
+  if (rows.size() == 1)
+    return inner_products(a.middleRows(rows[0].from, rows[0].size()), b.middleRows(rows[0].from, rows[0].size()));
+  // short blocks one by one would be all sums of few rows
+  return inner_products(gathered(a, rows), gathered(b, rows));
 }
 
 std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,

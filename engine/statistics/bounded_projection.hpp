@@ -9,7 +9,10 @@
 // Source     Golub, Pereyra 1973 (variable projection); Lawson, Hanson 1974 (signs)
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
+
+#include "engine/statistics/equal_blocks.hpp"
 
 namespace torquescope {
 
@@ -29,8 +32,10 @@ OrthonormalGroup orthonormal_group(Eigen::MatrixXd columns, Eigen::MatrixXd cons
 std::vector<OrthonormalGroup> orthonormal_groups(Eigen::MatrixXd columns, Eigen::MatrixXd const& nuisance,
                                                  std::vector<bool> const& non_negative);
 
-// A' B; columns without gaps
+// A' B, and over some rows alone
 Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b);
+Eigen::MatrixXd inner_products(Eigen::Ref<Eigen::MatrixXd const> const& a, Eigen::Ref<Eigen::MatrixXd const> const& b,
+                               std::span<RowBlock const> rows);
 
 struct BoundedGain {
   double gain = 0.0;           // energy

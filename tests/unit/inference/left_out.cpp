@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <random>
 
+#include "engine/inference/left_out_gains.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 
 using namespace torquescope;
@@ -93,6 +94,26 @@ TEST(LeftOut, ProductsOfTwoBasesAreThoseOfBothTogether) {
   FoldProducts const whole = fold_products(parts, of.basis, of.basis);
   for (std::size_t f = 0; f < parts.size(); ++f)
     EXPECT_LT((gram.left_out[f] - whole.left_out[f]).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+// what a candidate takes beside a basis is what both leave less than the basis alone
+TEST(LeftOut, GainsBesideABasisAreTheDifferenceOfTwoFits) {
+  Problem const of = problem(400);
+  for (auto const kind : {FoldKind::whole, FoldKind::interleaved}) {
+    auto const parts = folds(400, 7, kind);
+    for (Eigen::Index width : {0, 1, 2}) {
+      Eigen::MatrixXd const first = of.basis.leftCols(4 - width), second = of.basis.rightCols(width);
+      FoldProducts const gram = fold_products(parts, first, first), products = fold_products(parts, first, of.signals);
+      Eigen::MatrixXd const found = LeftOutGains(gram, products)
+                                        .of(fold_products(parts, second, first), fold_products(parts, second, second),
+                                            fold_products(parts, second, of.signals));
+      Eigen::MatrixXd const wanted =
+          left_inside_less_own(gram, products) -
+          left_inside_less_own(fold_products(parts, of.basis, of.basis), fold_products(parts, of.basis, of.signals));
+      EXPECT_LT((found - wanted).cwiseAbs().maxCoeff(), 1e-12 * of.signals.squaredNorm());
+      EXPECT_EQ(wanted.cwiseAbs().maxCoeff() > 1e-6 * of.signals.squaredNorm(), width > 0);
+    }
+  }
 }
 
 // a direction that only the left-out rows hold predicts nothing
