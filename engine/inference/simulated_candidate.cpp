@@ -33,9 +33,11 @@ std::optional<ModelStage> simulated_at(StageSetting const& setting, Evidence con
   few.twins = std::min(few.twins, twin_lanes);
   auto first = make_stage(few, JointModel(setting.regressor, before.reference(), effects));
   if (!first || energy_about_true_mean(before) - energy_about_true_mean(*first) < least_taken) return first;
-  auto moved = refined_draft(setting, before.reference(), effects);
-  if (moved && !predicts_less(evidence, candidate, moved->model().effects().back().shape)) return moved;
+  // of this very model: more replicates change no level
   StageSetting draft = setting;
+  draft.levels = levels_of(*first->twin);
+  auto moved = refined_draft(draft, before.reference(), effects);
+  if (moved && !predicts_less(evidence, candidate, moved->model().effects().back().shape)) return moved;
   draft.twins = std::min(draft.twins, draft_twins);
   auto stays = make_stage(draft, JointModel(setting.regressor, before.reference(), std::move(effects)));
   bool const is_moved_better = moved && (!stays || left_out_energy(*moved) < left_out_energy(*stays));

@@ -1,11 +1,11 @@
 #include "engine/twin/baseline_correction.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <vector>
+#include <cmath>
 
 #include "engine/base/contract.hpp"
 #include "engine/pipeline/joint_bounds.hpp"
+#include "engine/statistics/bounded_projection.hpp"
 #include "engine/twin/twin_batch.hpp"
 
 namespace torquescope {
@@ -24,43 +24,68 @@ void keep_possible(Eigen::VectorXd& parameters, Eigen::VectorXd const& fit, Join
   if (forward < backward) forward = backward = 0.5 * (forward + backward);
 }
 
+// of parameters, in torque on the recording's rows
+struct TorqueNorm {
+  Eigen::MatrixXd gram;
+  double square(Eigen::VectorXd const& change) const { return change.dot(gram * change); }
+};
+
+TorqueNorm norm_on(ProcessedRecord const& recording) { return {inner_products(recording.columns, recording.columns)}; }
+
+struct Scatter {
+  Eigen::VectorXd mean{}, std{};
+  double energy = 0.0;  // of one fit about the mean
+};
+
+Scatter scatter_of(Eigen::MatrixXd const& fits, TorqueNorm const& norm) {
+  Scatter result;
+  result.mean = fits.colwise().mean().transpose();
+  Eigen::MatrixXd const deviations = fits.rowwise() - result.mean.transpose();
+  auto const free = static_cast<double>(fits.rows() - 1);
+  result.std = (deviations.colwise().squaredNorm() / free).cwiseSqrt().transpose();
+  result.energy = (deviations * norm.gram).cwiseProduct(deviations).sum() / free;
+  return result;
+}
+
 }  // namespace
 
-BaselineCorrection correct_baseline(Eigen::VectorXd const& recording_fit, Eigen::VectorXd const& start,
+BaselineCorrection correct_baseline(ProcessedRecord const& recording, Eigen::VectorXd const& start,
                                     TwinLoop const& loop, TwinTrack const& track, RecordPipeline const& pipeline,
                                     double step_s, TwinAddress const& address, std::size_t twins,
                                     TwinWorkers const& workers) {
   TORQUESCOPE_EXPECT(twins >= 8);
   constexpr int most_rounds = 6;
-  constexpr double small_mismatch = 0.2;  // standard deviations
+  constexpr double small_mismatch = 0.2, rounding = 1e-9;
+  Eigen::VectorXd const& wanted = recording.parameters;
+  TorqueNorm const norm = norm_on(recording);
+  double const least = rounding * std::sqrt(norm.square(wanted));  // without noise all replicates are one
   BaselineCorrection result;
-  result.least_squares = recording_fit;
+  result.least_squares = wanted;
   result.parameters = start;
-  auto const n = static_cast<Eigen::Index>(twins);
-  Eigen::MatrixXd fits(n, recording_fit.size());
+  Eigen::MatrixXd fits(static_cast<Eigen::Index>(twins), wanted.size());
   JointBounds const bounds = joint_bounds(pipeline.model());
+  Eigen::VectorXd tried = start;
   while (result.rounds < most_rounds && !result.converged) {
-    CleanTwin const twin(pipeline.model().twin_joint(result.parameters), loop, track, step_s);
+    CleanTwin const twin(pipeline.model().twin_joint(tried), loop, track, step_s);
     result.ran_away =
         gather_twins(twin, pipeline, address, {0, twins}, workers, {row_each(fits)}, [&](VisitedTwin const& visited) {
           fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
         });
     if (result.ran_away) return result;
-
-    Eigen::RowVectorXd const mean = fits.colwise().mean();
-    result.std = ((fits.rowwise() - mean).colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt();
-    // the first two rounds go all the way; later ones average out what the twins' rounding makes of every new start
+    Scatter const scatter = scatter_of(fits, norm);
+    Eigen::VectorXd const difference = wanted - scatter.mean;
+    double const mismatch = std::sqrt(norm.square(difference)) / std::max(std::sqrt(scatter.energy), least);
+    if (result.rounds > 0 && mismatch >= result.mismatch) break;
+    // the first two rounds go all the way; later ones average out what rounding makes of every new start
     double const gain = result.rounds < 2 ? 1.0 : 1.0 / static_cast<double>(result.rounds);
-    Eigen::VectorXd const mismatch = recording_fit - mean.transpose();
-    result.parameters += gain * mismatch;
-    keep_possible(result.parameters, recording_fit, bounds);
+    result.std = scatter.std;
+    result.mismatch = mismatch;
+    result.converged = mismatch < small_mismatch;
     ++result.rounds;
-    // without noise all twins are one: then rounding is the yardstick
-    constexpr double nothing = std::numeric_limits<double>::min();  // a parameter that this joint has not
-    Eigen::ArrayXd const yardstick = result.std.array().max(1e-9 * result.parameters.array().abs()).max(nothing);
-    result.largest_mismatch = (mismatch.array().abs() / yardstick).maxCoeff();
-    // the whole mismatch, not the shortened step: a small gain must not pass for agreement
-    result.converged = result.largest_mismatch < small_mismatch;
+    result.parameters = tried;
+    tried += gain * difference;
+    keep_possible(tried, wanted, bounds);
+    if (result.converged) result.parameters = tried;
   }
   return result;
 }

@@ -41,8 +41,8 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
     result.loop.loop.*level = 0.0;
   result.loop.loop.sticking = options.draws_sticking ? sticking_range(result.loop.loop.encoder_step) : StickingRange{};
   auto const correct_from = [&](Eigen::VectorXd const& start) {
-    result.baseline = correct_baseline(record.parameters, start, result.loop.loop, result.loop.track, pipeline,
-                                       options.step_s, correction_set, options.twins, workers);
+    result.baseline = correct_baseline(record, start, result.loop.loop, result.loop.track, pipeline, options.step_s,
+                                       correction_set, options.twins, workers);
   };
   TwinLoop& law = result.loop.loop;
   auto const take_colour = [&](TorqueColour const& colour) {

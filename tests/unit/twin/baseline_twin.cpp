@@ -53,6 +53,35 @@ TEST(BaselineTwin, TakesTheBiasOutOfTheBaseline) {
   EXPECT_LT(bias_after.abs().maxCoeff(), 1.0);
 }
 
+// wherever it starts: replicates of what it returns give the recording's fit, seen by the torque of the difference
+TEST(BaselineTwin, ReplicatesOfTheCorrectedJointGiveTheFitOfTheRecording) {
+  auto joint = clean_joint();
+  joint.plan.encoder.counts_per_revolution = 40000.0;
+  auto const recording = recorded(simulate_joint(joint.plan, 21));
+  auto const pipeline = clean_pipeline(recording);
+  auto const made = made_from(recording, pipeline);
+  ProcessedRecord const& record = made.record;
+  constexpr std::size_t twins = 16;
+  TwinAddress const address{1, 0, 0};
+  for (double const share : {0.8, 1.0, 1.2}) {
+    BaselineCorrection const found = correct_baseline(record, share * record.parameters, made.loop.loop,
+                                                      made.loop.track, pipeline, 1e-4, address, twins, 2);
+    ASSERT_FALSE(found.ran_away);
+    Eigen::MatrixXd fits(twins, 4);
+    CleanTwin const twin(pipeline.model().twin_joint(found.parameters), made.loop.loop, made.loop.track, 1e-4);
+    for_each_twin(twin, pipeline, address, twins, 2, [&](VisitedTwin const& visited) {
+      fits.row(static_cast<Eigen::Index>(visited.index)) = visited.record.parameters;
+    });
+    Eigen::RowVectorXd const mean = fits.colwise().mean();
+    double scatter = 0.0;
+    for (Eigen::Index i = 0; i < fits.rows(); ++i)
+      scatter += (record.columns * (fits.row(i) - mean).transpose()).squaredNorm() / (twins - 1.0);
+    double const off = (record.columns * (record.parameters - mean.transpose())).norm() / std::sqrt(scatter);
+    EXPECT_LT(off, 0.2) << "from " << share << " of the fit, after " << found.rounds << " rounds";
+    EXPECT_TRUE(found.converged);
+  }
+}
+
 TEST(BaselineTwin, FindsNoDisturbanceWhereThereIsNone) {
   auto const recording = recorded(simulate_joint(clean_joint().plan, 12));
   auto const pipeline = clean_pipeline(recording);
