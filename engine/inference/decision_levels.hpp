@@ -1,11 +1,10 @@
 #pragma once
-// Every number between rows and verdict, with its meaning and source: there is no other.
+// Every number between rows and verdict, with its meaning and source; the ten folds are n_folds of equal_blocks.hpp.
 //
 // Options    the job sets alpha (diagnose.q), delta, tolerance, least_fall (diagnose.delta and so on), replicates
 //            (diagnose.twins) and steps (diagnose.max_effects); the rest are budgets and conventions
 // Threads    constants
 
-#include <Eigen/Core>
 #include <cstddef>
 
 namespace torquescope {
@@ -26,8 +25,6 @@ struct DecisionLevels {
 inline constexpr double most_of_it = 0.5;
 // of adequacy: training rows weighed, in the torque itself, and unseen (Bonferroni)
 inline constexpr double questions_of_adequacy = 3.0;
-// stretches of rows that are left out in turn (Burman, Chow, Nolan 1994, doi:10.1093/biomet/81.2.351)
-inline constexpr Eigen::Index n_folds = 10;
 // share of a column's energy outside a fold below which a fit cannot see it
 inline constexpr double left_out_ridge = 1e-4;
 // budget: candidates whose shape is refined at a step

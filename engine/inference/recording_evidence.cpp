@@ -14,7 +14,7 @@
 namespace torquescope {
 namespace {
 
-bool moves_both_ways(Eigen::VectorXd const& velocity) {
+bool has_both_directions(Eigen::VectorXd const& velocity) {
   return (velocity.array() > 0.0).any() && (velocity.array() < 0.0).any();
 }
 
@@ -222,7 +222,7 @@ UnseenResidual unseen_residual(StageSetting const& setting, ModelStage const& st
       record.torque -
       record.columns * transferred(stage.model(), stage.comparison.recording.parameters.transpose()).transpose();
   if (left.rows() == 0) return {};
-  if (moves_both_ways(pipeline.picked(record.motion.dq, record))) left.array() -= left.mean();
+  if (has_both_directions(pipeline.picked(record.motion.dq, record))) left.array() -= left.mean();
   weigh_elsewhere(setting, stage, recording, stage.parameters(), nullptr, 0, pipeline);
   pipeline.whiten(left, record.kept_rows);
   return {left.squaredNorm(), record.whole_torque().squaredNorm(), left.rows()};

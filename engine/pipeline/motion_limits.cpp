@@ -29,6 +29,12 @@ MotionLimits limits_of(Excitation const& facts, double relerr) {
   return limits;
 }
 
+bool moves_both_ways(Eigen::Ref<Eigen::VectorXd const> const& velocity) {
+  constexpr double fifth = 0.2;
+  Eigen::Index const n = velocity.size(), forward = (velocity.array() > 0.0).count();
+  return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
+}
+
 bool closes(MotionLimits const& limits, Effect const& law) {
   auto const& families = law.families();
   bool const is_of_velocity = std::find(families.begin(), families.end(), EffectFamily::velocity_law) != families.end();

@@ -10,6 +10,7 @@
 // Units           as Excitation
 // Threads         free functions
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct MotionLimits {
 
 // relerr: of the baseline on the recording it was fitted to
 MotionLimits limits_of(Excitation const& facts, double relerr);
+
+// whether the rarer direction has a fifth of the rows, which is a convention: with fewer an offset and what friction is
+// in the other direction are one
+bool moves_both_ways(Eigen::Ref<Eigen::VectorXd const> const& velocity);
 
 bool closes(MotionLimits const& limits, Effect const& law);
 // "Only one speed was recorded: nothing is known of laws of the velocity." and the like, one after another; ""

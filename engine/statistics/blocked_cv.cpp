@@ -11,8 +11,6 @@
 namespace torquescope {
 namespace {
 
-constexpr Eigen::Index n_folds = 10;
-
 // what the filter carries out of an event that was left out is no column to fit without it
 void drop_invisible(Eigen::MatrixXd& fit_x, Eigen::MatrixXd const& x) {
   constexpr double visible = 0.01;  // of a column's length
@@ -23,15 +21,10 @@ void drop_invisible(Eigen::MatrixXd& fit_x, Eigen::MatrixXd const& x) {
 // what the fit outside the block leaves inside it
 Eigen::VectorXd left_inside(RowBlock const& block, Eigen::VectorXd const& y, Eigen::MatrixXd const& x,
                             Eigen::Index guard) {
-  Eigen::Index const before = std::max<Eigen::Index>(0, block.from - guard);
-  Eigen::Index const after = std::min(y.size(), block.to + guard);
-  Eigen::Index const n_after = y.size() - after;
-  Eigen::MatrixXd fit_x(before + n_after, x.cols());
-  fit_x << x.topRows(before), x.bottomRows(n_after);
-  Eigen::VectorXd fit_y(before + n_after);
-  fit_y << y.head(before), y.tail(n_after);
+  auto const rows = rows_outside(y.size(), block, guard);
+  Eigen::MatrixXd fit_x = x(rows, Eigen::all);
   drop_invisible(fit_x, x);
-  Eigen::VectorXd const theta = solve_scaled(std::move(fit_x), fit_y);
+  Eigen::VectorXd const theta = solve_scaled(std::move(fit_x), Eigen::VectorXd(y(rows)));
   return y.segment(block.from, block.size()) - x.middleRows(block.from, block.size()) * theta;
 }
 

@@ -10,19 +10,10 @@
 namespace torquescope {
 namespace {
 
-constexpr Eigen::Index stretches = 10;
-
 Eigen::MatrixXd beside(Eigen::MatrixXd const& left, Eigen::MatrixXd const& right) {
   Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
   both << left, right;
   return both;
-}
-
-std::vector<Eigen::Index> rows_outside(Eigen::Index n, RowBlock const& block, Eigen::Index guard) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (i < block.from - guard || i >= block.to + guard) rows.push_back(i);
-  return rows;
 }
 
 }  // namespace
@@ -57,7 +48,7 @@ Eigen::VectorXd forward_residuals(Eigen::VectorXd const& signal, Eigen::MatrixXd
                                   Eigen::Index guard_rows) {
   TORQUESCOPE_EXPECT(signal.size() >= fewest_rows);
   Eigen::VectorXd left(signal.size());
-  for (auto const& block : equal_blocks(signal.size(), stretches)) {
+  for (auto const& block : equal_blocks(signal.size(), n_folds)) {
     auto const rows = rows_outside(signal.size(), block, guard_rows);
     Eigen::VectorXd const fit_y = signal(rows);
     Eigen::MatrixXd const fit_model = model(rows, Eigen::all);

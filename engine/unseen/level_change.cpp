@@ -1,9 +1,9 @@
 #include "engine/unseen/level_change.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "engine/pipeline/motion_limits.hpp"
 #include "engine/statistics/blocked_cv.hpp"
 #include "engine/statistics/held_out_gain.hpp"
 #include "engine/statistics/scaled_solution.hpp"
@@ -12,18 +12,16 @@ namespace torquescope {
 
 std::optional<LevelChange> level_change(TorqueTrace const& trace, Eigen::VectorXd const& residual, Eigen::Index memory,
                                         double least_fall) {
-  constexpr double fifth = 0.2;  // of the rows in the rarer direction, or they tell no friction from an offset
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < residual.size(); ++i)
     if (std::isfinite(residual[i])) rows.push_back(i);
   auto const n = static_cast<Eigen::Index>(rows.size());
   if (n < fewest_rows) return std::nullopt;
-  Eigen::VectorXd const left = residual(rows), sign = Eigen::VectorXd(trace.velocity(rows)).array().sign();
-  auto const forward = (sign.array() > 0.0).count();
+  Eigen::VectorXd const left = residual(rows), velocity = trace.velocity(rows), sign = velocity.array().sign();
 
   LevelChange change;
   change.recording = trace.recording;
-  change.goes_both_ways = static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
+  change.goes_both_ways = moves_both_ways(velocity);
   Eigen::MatrixXd const offset = Eigen::VectorXd::Ones(n);
   Eigen::MatrixXd columns = offset;
   if (change.goes_both_ways) {

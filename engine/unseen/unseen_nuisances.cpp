@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/effects/carry_over.hpp"
+#include "engine/pipeline/motion_limits.hpp"
 #include "engine/simulate/autoregression.hpp"
 
 namespace torquescope {
@@ -14,14 +15,6 @@ namespace {
 Eigen::Index head_rows(Eigen::Index rows) {
   constexpr Eigen::Index head_share = 20, fewest = 50;
   return std::min(rows, std::max(fewest, rows / head_share));
-}
-
-// a head that moves one way only cannot tell an offset from what friction is in that direction
-bool moves_both_ways(Eigen::VectorXd const& velocity) {
-  constexpr double fifth = 0.2;
-  Eigen::Index const n = head_rows(velocity.size());
-  auto const forward = (velocity.head(n).array() > 0.0).count();
-  return static_cast<double>(std::min(forward, n - forward)) >= fifth * static_cast<double>(n);
 }
 
 // whether a refit that leaves `least` of the head is beyond chance: three standard deviations; neighbours repeat each
@@ -126,7 +119,7 @@ void refit_on_head(ModelStage const& stage, ProcessedRecord const& record, Eigen
 
 double head_offset(Eigen::VectorXd const& residual, Eigen::VectorXd const& velocity) {
   constexpr double beyond = 3.0;
-  if (!moves_both_ways(velocity)) return 0.0;
+  if (!moves_both_ways(velocity.head(head_rows(velocity.size())))) return 0.0;
   Eigen::Index const n = head_rows(residual.size());
   Eigen::VectorXd const head = residual.head(n);
   double const mean = head.mean();
