@@ -109,10 +109,8 @@ class ArmWork {
     auto const left_beside = [&](double size) {
       laws[j].clear();
       for (auto const& torque : found) laws[j].emplace_back(size * torque);
-      auto const recordings = less(laws);
       double left = 0.0;
-      auto const energies =
-          joint_energies(input_.model, fit_arm(input_.model, recordings, filter_, noise), recordings, filter_);
+      auto const energies = fit_parameters(input_.model, less(laws), filter_, noise).energies;
       for (std::size_t i = 0; i < energies.size(); ++i) {
         double const own = noise[static_cast<Eigen::Index>(i)];
         left += energies[i].left / (own * own);
@@ -244,15 +242,23 @@ class ArmWork {
     joint.further_training = arm_.train.size() - 1;
     joint.exchange = input_.exchange;
     if (apart_) joint.parameter_share = apart_->parameter_share[j];
+    StageSink const progress = of_joint(j);
     JointOutcome outcome;
     // a joint that hardly moves in one recording is no reason to say nothing of the others
     auto const why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      outcome = diagnose_joint(joint, progress_);
+      outcome = diagnose_joint(joint, progress);
       return std::nullopt;
     });
     if (why) outcome = hopeless_joint(joint, *why);
     if (!too_short.empty()) outcome.diagnosis.reason += " " + too_few_rows_sentence(too_short);
     return outcome;
+  }
+
+  // stages of one joint after the other
+  StageSink of_joint(std::size_t j) const {
+    if (!progress_) return {};
+    return [this, lead = "joint" + std::to_string(j + 1) + ":"](
+               std::string const& stage, std::size_t done, std::size_t total) { progress_(lead + stage, done, total); };
   }
 
   ArmDiagnosisInput const& input_;

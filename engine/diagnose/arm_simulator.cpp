@@ -17,7 +17,7 @@ std::vector<RecordedArm> with_torque(std::span<RecordedArm const> recordings, To
   return others;
 }
 
-RecordedArm less_beyond(ArmModel const& model, FittedArm const& of_simulator, RecordedArm recording,
+RecordedArm less_beyond(ArmModel const& model, Eigen::VectorXd const& of_simulator, RecordedArm recording,
                         ArmFilter const& filter) {
   auto const needed = needed_torques(model, of_simulator, recording, filter);
   for (std::size_t j = 0; j < needed.size(); ++j) {
@@ -41,10 +41,10 @@ bool has_simulator(std::span<RecordedArm const> recordings) {
 ArmWithoutSimulator without_simulator(ArmModel const& model, std::span<RecordedArm const> train,
                                       std::span<RecordedArm const> validate, ArmFilter const& filter) {
   // a simulator has hardly any noise of its own: its joints count as those of the arm do
-  auto const noise = fit_arm(model, train, filter).noise;
+  auto const noise = fit_parameters(model, train, filter).noise;
   auto const simulated =
       with_torque(train, [](Recording const& joint) { return torque_to_hold(joint.simulated_torque); });
-  FittedArm const of_simulator = fit_arm(model, simulated, filter, noise);
+  Eigen::VectorXd const of_simulator = fit_parameters(model, simulated, filter, noise).parameters;
 
   ArmWithoutSimulator arm;
   for (auto const& recording : train) arm.train.push_back(less_beyond(model, of_simulator, recording, filter));
@@ -55,7 +55,7 @@ ArmWithoutSimulator without_simulator(ArmModel const& model, std::span<RecordedA
     return joint.torque - torque_to_hold(joint.simulated_torque);
   });
   for (auto& recording : gap) recording.payload.reset();
-  for (auto const& joint : joint_energies(model, fit_arm(model, gap, filter, noise), gap, filter))
+  for (auto const& joint : fit_parameters(model, gap, filter, noise).energies)
     arm.parameter_share.push_back(joint.torque > 0.0 ? std::max(0.0, 1.0 - joint.left / joint.torque) : 0.0);
   return arm;
 }

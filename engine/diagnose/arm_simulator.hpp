@@ -7,7 +7,7 @@
 // Share      of the energy of tau - tau_sim at a joint, what other parameters of the model explain
 // Shapes     as the recordings given
 // Units      SI
-// Errors     those of fit_arm()
+// Errors     those of fit_parameters()
 // Threads    free functions
 
 #include <span>

@@ -79,51 +79,70 @@ std::vector<RigidCorrections> corrections_of(ArmModel const& model, FittedArm co
   return corrections;
 }
 
-}  // namespace
+// of the rows of all recordings; `whole` where they tell all parameters apart
+struct RowFit {
+  std::vector<FilteredGram> grams{};
+  std::optional<RegressionData> whole{};
+  Eigen::VectorXd noise{};
+};
 
-FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                  std::optional<Eigen::VectorXd> const& deviation) {
+RowFit rows_to_fit(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
+                   std::optional<Eigen::VectorXd> const& deviation) {
   std::vector<RecordedRows> rows;
   for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
-  auto const grams = filtered_grams(rows, model);
+  RowFit fit;
+  fit.grams = filtered_grams(rows, model);
+  fit.noise = deviation ? *deviation : noise_levels(fit.grams, static_cast<Eigen::Index>(model.size())).deviation;
+  RegressionData stacked = stack_rows(rows, ArmRowChoice::moving, model, fit.noise, filter.section);
+  // a joint that stands still leaves parameters that nothing tells: the others are searched all the same
+  if (!too_few_rows(stacked) && regressor_health(stacked).identifiable) fit.whole = std::move(stacked);
+  return fit;
+}
+
+Eigen::VectorXd shortest(ArmModel const& model, RowFit const& fit) {
+  return shortest_fit(fit.grams, static_cast<Eigen::Index>(model.size()), fit.noise);
+}
+
+}  // namespace
+
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter) {
+  RowFit const rows = rows_to_fit(model, recordings, filter, {});
   auto const n_parameters = static_cast<Eigen::Index>(model.size());
   FittedArm fitted;
-  fitted.noise = deviation ? *deviation : noise_levels(grams, n_parameters).deviation;
-  RegressionData const stacked = stack_rows(rows, ArmRowChoice::moving, model, fitted.noise, filter.section);
-  // a joint that stands still leaves parameters that nothing tells: the others are searched all the same
-  bool const tells_all = !too_few_rows(stacked) && regressor_health(stacked).identifiable;
-  if (tells_all) {
+  fitted.noise = rows.noise;
+  if (rows.whole) {
     constexpr std::int64_t automatic_lags = -1;
-    LeastSquaresFit const fit = plain_least_squares(stacked, automatic_lags);
+    LeastSquaresFit const fit = plain_least_squares(*rows.whole, automatic_lags);
     fitted.parameters = fit.parameters;
     fitted.errors = covariance_root(fit.covariance_hac);
     fitted.white_errors = covariance_root(fit.covariance_naive);
   } else {
-    fitted.parameters = shortest_fit(grams, n_parameters, fitted.noise);
+    fitted.parameters = shortest(model, rows);
     fitted.errors.resize(n_parameters, 0);
     fitted.white_errors.resize(n_parameters, 0);
   }
   fitted.inertia = mean_inertias(model, fitted.parameters, recordings);
-  fitted.corrections = corrections_of(model, fitted, recordings, grams, filter);
+  fitted.corrections = corrections_of(model, fitted, recordings, rows.grams, filter);
   return fitted;
 }
 
-std::vector<JointEnergies> joint_energies(ArmModel const& model, FittedArm const& fitted,
-                                          std::span<RecordedArm const> recordings, ArmFilter const& filter) {
-  std::vector<RecordedRows> rows;
-  for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
-  std::vector<JointEnergies> energies;
-  for (auto const& gram : filtered_grams(rows, model))
-    energies.push_back({gram.torque_energy(), gram.residual_energy(fitted.parameters)});
-  return energies;
+PlainArmFit fit_parameters(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
+                           std::optional<Eigen::VectorXd> const& deviation) {
+  RowFit const rows = rows_to_fit(model, recordings, filter, deviation);
+  PlainArmFit fit;
+  fit.noise = rows.noise;
+  fit.parameters = rows.whole ? solve_weighted(*rows.whole, {}) : shortest(model, rows);
+  for (auto const& gram : rows.grams)
+    fit.energies.push_back({gram.torque_energy(), gram.residual_energy(fit.parameters)});
+  return fit;
 }
 
-std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, FittedArm const& fitted,
+std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, Eigen::VectorXd const& parameters,
                                             RecordedArm const& recording, ArmFilter const& filter) {
   auto const rows = model.rows(motion_of(recording, filter), recording.payload);
   std::vector<Eigen::VectorXd> torques;
   for (std::size_t j = 0; j < rows.size(); ++j) {
-    torques.emplace_back(rows[j] * fitted.parameters(model.parameters_of(j)));
+    torques.emplace_back(rows[j] * parameters(model.parameters_of(j)));
     if (recording.payload) torques.back() += model.known_torque(j, rows[j], *recording.payload);
   }
   return torques;

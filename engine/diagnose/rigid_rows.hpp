@@ -42,19 +42,25 @@ struct FittedArm {
   std::vector<RigidCorrections> corrections{};  // [N]
 };
 
-// deviation: [N], of the weights; none: the noise of the recordings
-FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                  std::optional<Eigen::VectorXd> const& deviation = {});
+FittedArm fit_arm(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter);
 
-// of each joint the energy of its torque, and what the fitted parameters leave of it, on the rows of the fit
+// of a joint: the energy of its torque, and what the fitted parameters leave of it, on the rows of the fit
 struct JointEnergies {
   double torque = 0.0, left = 0.0;
 };
-std::vector<JointEnergies> joint_energies(ArmModel const& model, FittedArm const& fitted,
-                                          std::span<RecordedArm const> recordings, ArmFilter const& filter);
 
-// of each joint, n samples at the full rate: what the fitted arm with its frictions and its payload needs
-std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, FittedArm const& fitted,
+// the same fit without its errors
+struct PlainArmFit {
+  Eigen::VectorXd parameters{}, noise{};  // [R], [N]
+  std::vector<JointEnergies> energies{};  // [N]
+};
+
+// deviation: [N], of the weights; none: the noise of the recordings
+PlainArmFit fit_parameters(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
+                           std::optional<Eigen::VectorXd> const& deviation = {});
+
+// of each joint, n samples at the full rate: what an arm of these parameters, with frictions and payload, needs
+std::vector<Eigen::VectorXd> needed_torques(ArmModel const& model, Eigen::VectorXd const& parameters,
                                             RecordedArm const& recording, ArmFilter const& filter);
 
 // each joint of a recording, also of one that nothing was fitted to, as a recording of its own

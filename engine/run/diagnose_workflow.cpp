@@ -62,7 +62,7 @@ class Stages {
   void tell_lock(std::string const& stage, std::size_t done, std::size_t total) {
     standing_.told = utc_now();
     standing_.stage = stage;
-    standing_.counted = stage == "twins" ? "clean twins" : "effects";
+    standing_.counted = stage.ends_with("twins") ? "clean twins" : "effects";
     standing_.done = static_cast<std::int64_t>(done);
     standing_.total = static_cast<std::int64_t>(total);
     standing_.seconds = seconds_since(began_);

@@ -67,7 +67,7 @@ class ArmDiagnosis(arm_cli.Arm):
     def said_of(self, text, job=JOB):
         self.write("arm.csv", text)
         self.write("arm.toml", job)
-        done = self.here("diagnose", "arm.toml", "--out", "told.h5", "--json", "told.json")
+        done = self.here("diagnose", "arm.toml", "--out", "told.h5", "--json", "told.json", "--progress", "lines")
         self.assertEqual(done.code, 0, done.err)
         with open(os.path.join(self.folder, "told.json"), encoding="utf-8") as file:
             return done, json.load(file)
@@ -77,6 +77,8 @@ class ArmDiagnosis(arm_cli.Arm):
         self.assertEqual(told["verdict"], "none", told["reason"])
         self.assertEqual([joint["verdict"] for joint in told["joints"]], ["none", "none"])
         self.assertIn("joint 2: NOTHING MISSING", done.out)
+        for joint in (1, 2):
+            self.assertIn(f"progress stage=joint{joint}:search ", done.err)
 
     def test_a_law_is_named_at_its_own_joint_and_the_arm_predicts_better(self):
         laws = {"spring": lambda q, _dq, _load: 1.5 * q,
