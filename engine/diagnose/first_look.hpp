@@ -46,6 +46,10 @@ class FirstLook {
   std::optional<Hopeless> blamed_for_silence() const {
     return torquescope::blamed_for_silence(limits_, excitation_, relerr_);
   }
+  // where there is no other recording
+  std::optional<Hopeless> place_is_time() const {
+    return torquescope::place_is_time(limits_, excitation_, input_.regressor.joint());
+  }
   // a torque without inertia and friction, where nothing else is missing
   std::optional<Hopeless> const& static_torque() const { return static_torque_; }
   // what the simulator cannot say of an unseen recording, by the terms it has in training

@@ -100,6 +100,7 @@ class JointWork {
     joint_.train_relerr = first_look_.relerr();
     joint_.remarks = first_look_.remarks();
     if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(input_));
+    if (!why && input_.validate.empty()) why = first_look_.place_is_time();
     if (why) return hopeless(*why);
     StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
                          input_.seed, input_.threads};

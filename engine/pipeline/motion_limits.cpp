@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
@@ -27,6 +28,16 @@ MotionLimits limits_of(Excitation const& facts, double relerr) {
   limits.is_saturated = facts.torque_limit_share > levels::rows_at_limit;
   limits.has_no_relation = relerr > levels::no_relation;
   return limits;
+}
+
+std::optional<Hopeless> place_is_time(MotionLimits const& limits, Excitation const& facts, JointKind joint) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  bool const comes_again = joint == JointKind::revolute && facts.position_most - facts.position_least > turn;
+  if (!limits.has_one_direction || !limits.has_one_speed || comes_again) return std::nullopt;
+  return Hopeless{Verdict::insufficient,
+                  "the joint goes one way at one speed and comes to no place twice: what depends on the place, on time "
+                  "or on the start of the motion cannot be told apart",
+                  "record both directions over the same positions, at several speeds"};
 }
 
 bool moves_both_ways(Eigen::Ref<Eigen::VectorXd const> const& velocity) {

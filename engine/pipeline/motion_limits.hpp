@@ -11,12 +11,14 @@
 // Threads         free functions
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/data/excitation.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/pipeline/recording_checks.hpp"
+#include "engine/robot/joint_kind.hpp"
 
 namespace torquescope {
 
@@ -26,6 +28,10 @@ struct MotionLimits {
 
 // relerr: of the baseline on the recording it was fitted to
 MotionLimits limits_of(Excitation const& facts, double relerr);
+
+// A joint that goes one way at one speed and comes to no place twice: where it is and when it is there are one, so that
+// a law of the place, of time and of anything that starts up explain the same
+std::optional<Hopeless> place_is_time(MotionLimits const& limits, Excitation const& facts, JointKind joint);
 
 // whether the rarer direction has a fifth of the rows, which is a convention: with fewer an offset and what friction is
 // in the other direction are one

@@ -55,6 +55,26 @@ TEST(MotionLimits, OneDirectionClosesWhatNeedsReversals) {
   }
 }
 
+TEST(MotionLimits, OneWayAtOneSpeedTellsPlaceFromTimeAfterATurnAlone) {
+  Excitation facts = with(&Excitation::speed_spread, 1.05);
+  facts.forward_share = 1.0;
+  facts.position_least = 0.5;
+  facts.position_most = 4.2;
+  auto const why = place_is_time(limits_of(facts, 0.05), facts, JointKind::revolute);
+  ASSERT_TRUE(why.has_value());
+  EXPECT_EQ(why->verdict, Verdict::insufficient);
+  EXPECT_NE(why->finding.find("no place twice"), std::string::npos);
+  Excitation turns = facts;
+  turns.position_most = 7.0;
+  EXPECT_FALSE(place_is_time(limits_of(turns, 0.05), turns, JointKind::revolute).has_value());
+  EXPECT_TRUE(place_is_time(limits_of(turns, 0.05), turns, JointKind::prismatic).has_value());
+  for (double Excitation::*other : {&Excitation::speed_spread, &Excitation::forward_share}) {
+    Excitation tells = facts;
+    tells.*other = rich_motion().*other;
+    EXPECT_FALSE(place_is_time(limits_of(tells, 0.05), tells, JointKind::revolute).has_value());
+  }
+}
+
 TEST(MotionLimits, OneSpeedClosesLawsOfTheVelocity) {
   Excitation const facts = with(&Excitation::speed_spread, 1.05);
   for (auto const* law : {"stribeck", "power_law_viscous", "speed_drag", "asymmetric_viscous"})
