@@ -51,6 +51,10 @@ RowsLeft left_by(Evidence const& evidence, RefinedCandidate const& rival, std::s
 
 }  // namespace
 
+bool may_be_a_rival(EffectScan const& law, double own_gain, double alpha) {
+  return law.is_testable && law.gain > 0.0 && (law.p <= alpha || law.gain >= own_gain);
+}
+
 std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::span<Effect const* const> catalogue,
                                      DecisionLevels const& levels, RefinementSetting const& setting) {
   Evidence const evidence(of, i);
@@ -63,7 +67,7 @@ std::vector<RivalLaw> confidence_set(Evidence const& of, std::size_t i, std::spa
   CatalogueEvidence const scanned = scan_catalogue(evidence, rivals, kind, levels.alpha, setting.threads);
   std::vector<CandidateEvidence const*> near;
   for (auto const& law : scanned.laws)
-    if (law.scan.is_testable && law.scan.p <= levels.alpha && law.scan.gain > 0.0) near.push_back(&law);
+    if (may_be_a_rival(law.scan, own_gain, levels.alpha)) near.push_back(&law);
   std::stable_sort(near.begin(), near.end(), [](auto const* a, auto const* b) { return a->scan.gain > b->scan.gain; });
   near.resize(std::min(near.size(), n_refined));
   std::vector<RivalLaw> set;
