@@ -3,8 +3,8 @@
 //
 // Rival      any other law in its place, its shape refined, the other accepted laws beside it. Of a law of several
 //            waves the rivals have as many, the further ones over their grid
-// Asked      laws beyond chance, and those that gain no less than the accepted one: the p of a law that is searched over
-//            many shapes is no ground to exclude it
+// Asked      laws beyond chance, and those that gain no less than the accepted one: the p of a law that is searched
+//            over many shapes is no ground to exclude it
 // Excluded   when the accepted law gains clearly more over folds and blocks of unseen rows (paired, one-sided, level
 //            5 %), and more than a law's form may be off; a rival that is itself no clear gain, or stands at a bound,
 //            is none

@@ -18,7 +18,6 @@
 #include "engine/data/excitation.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/pipeline/recording_checks.hpp"
-#include "engine/robot/joint_kind.hpp"
 
 namespace torquescope {
 
