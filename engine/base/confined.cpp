@@ -1,7 +1,7 @@
 #include "engine/base/confined.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): SIGXCPU is POSIX, <csignal> does not promise it
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

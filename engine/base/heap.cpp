@@ -17,7 +17,7 @@ void prepare_heap() {
   ::mallopt(M_TRIM_THRESHOLD, 8 << 20);
   // out of the heap, to which it then belongs
   ::mallopt(M_MMAP_THRESHOLD, 2 * growth);
-  void* const grown = std::malloc(growth);
+  void* const grown = std::malloc(growth);  // NOLINT(cppcoreguidelines-no-malloc): it is the heap that is set up
   ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
   ::mallopt(M_TOP_PAD, growth);
 #if defined(MADV_HUGEPAGE) && defined(MADV_POPULATE_WRITE)
@@ -31,7 +31,7 @@ void prepare_heap() {
     static_cast<void>(::madvise(reinterpret_cast<void*>(aligned), end - aligned, MADV_HUGEPAGE));
   }
 #endif
-  std::free(grown);
+  std::free(grown);  // NOLINT(cppcoreguidelines-no-malloc): as above
 #endif
 }
 

@@ -50,7 +50,7 @@ bool clear_open_flags(std::string& file) {
   constexpr unsigned marks = 5;  // 1: open for writing; 4: by a single writer with many readers
   for (std::size_t at = 0; at + head < file.size(); at = at == 0 ? 512 : 2 * at) {
     if (!std::string_view(file).substr(at).starts_with(signature)) continue;
-    int const version = file[at + 8];
+    int const version = static_cast<unsigned char>(file[at + 8]);
     auto const address = static_cast<unsigned char>(file[at + 9]);
     std::size_t const size = head + std::size_t{4} * address + checksum_size;
     bool const has_flags = (version == 2 || version == 3) && address <= 16 && file.size() - at >= size;

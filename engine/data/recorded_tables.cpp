@@ -6,6 +6,7 @@
 
 namespace torquescope {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): names and values are moved out of it
 RawTable table_in_memory(std::string name, NamedColumns columns) {
   Digest digest;
   for (auto const& [column, values] : columns) digest.text(column).numbers(values);

@@ -100,7 +100,7 @@ std::optional<NamedUnit> unit_of_name(std::string const& column, std::string con
   if (last == std::string::npos) return {};
   auto const before = name.find_last_of("_ ", last - 1);
   if (last > 0 && before != std::string::npos)
-    if (auto const two = known_unit(name.substr(before + 1)); two) return two;  // "dq_rad_s", "torque_per mille"
+    if (auto two = known_unit(name.substr(before + 1)); two) return two;  // "dq_rad_s", "torque_per mille"
   return known_unit(name.substr(last + 1));
 }
 

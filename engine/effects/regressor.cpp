@@ -167,6 +167,7 @@ double Regressor::seen_velocity(Effect const& effect, double velocity) const {
   return at_rest ? 0.0 : velocity;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is a view, and what it looks at is changed
 void Regressor::columns_of_term(Motion const& motion, std::size_t term, Eigen::Ref<Eigen::MatrixXd> out,
                                 GivenSignals const* given) const {
   TORQUESCOPE_EXPECT(motion.q.size() == motion.dq.size() && motion.q.size() == motion.ddq.size() &&

@@ -51,7 +51,7 @@ bool predicts_less(KeptModel const& shorter, KeptModel const& longer) {
 }  // namespace
 
 KeptModel keep_what_predicts(StepwiseSearch const& search, OtherRecordings const& others) {
-  KeptModel const whole = judged(search, search.end(), others);
+  KeptModel whole = judged(search, search.end(), others);
   KeptModel longer = whole;
   for (std::size_t i = search.states.size() - 1; i > 0; --i) {
     if (search.states[i - 1].selection.accepted.empty()) return stands(longer) ? longer : whole;

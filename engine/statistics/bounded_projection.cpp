@@ -132,7 +132,7 @@ BoundedGain bounded_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c
 
 BoundedGain boxed_gain(OrthonormalGroup const& group, Eigen::VectorXd const& c, Eigen::VectorXd const& lower,
                        Eigen::VectorXd const& upper) {
-  BoundedGain const free = bounded_gain(group, c);
+  BoundedGain free = bounded_gain(group, c);
   if ((free.parameters.array() >= lower.array()).all() && (free.parameters.array() <= upper.array()).all()) return free;
   Eigen::MatrixXd const h = group.r.transpose() * group.r;
   Eigen::VectorXd const g = group.r.transpose() * c;

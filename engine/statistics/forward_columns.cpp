@@ -18,7 +18,7 @@ Eigen::MatrixXd beside(Eigen::MatrixXd const& left, Eigen::MatrixXd const& right
 
 }  // namespace
 
-std::vector<Eigen::Index> forward_columns(Eigen::VectorXd signal, Eigen::MatrixXd const& model,
+std::vector<Eigen::Index> forward_columns(Eigen::VectorXd const& signal, Eigen::MatrixXd const& model,
                                           Eigen::MatrixXd const& library, std::size_t count, double own) {
   TORQUESCOPE_EXPECT(model.rows() == signal.size() && library.rows() == signal.size() && own > 0.0);
   Eigen::MatrixXd left = library - model * solve_scaled(model, library);

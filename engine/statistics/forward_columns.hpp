@@ -15,7 +15,7 @@
 namespace torquescope {
 
 // at most `count`, in the order of choice
-std::vector<Eigen::Index> forward_columns(Eigen::VectorXd signal, Eigen::MatrixXd const& model,
+std::vector<Eigen::Index> forward_columns(Eigen::VectorXd const& signal, Eigen::MatrixXd const& model,
                                           Eigen::MatrixXd const& library, std::size_t count, double own);
 
 Eigen::VectorXd forward_residuals(Eigen::VectorXd const& signal, Eigen::MatrixXd const& model,
