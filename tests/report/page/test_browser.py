@@ -4,27 +4,19 @@ import base64
 import itertools
 import json
 import re
-import shutil
-import tempfile
-import unittest
 
+import browser
 import support
 import numpy as np
 from vary_diagnosis import HOSTILE_WORDS
 
 try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
 except ImportError:
-    webdriver = None
+    pass
 
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-FLAGS = ("--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-         "--disable-component-update --disable-sync --hide-scrollbars").split()
 ALL = support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS
 KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "arm", "named", "unexplained", "minute", "board"))
 FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1}
@@ -92,40 +84,8 @@ return {small, outside, overlapping, empty, tainted, figures: document.querySele
 """
 
 
-@unittest.skipUnless(webdriver and CHROMIUM and DRIVER,
-                     "no browser here (Debian: chromium chromium-driver python3-selenium)")
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        options = Options()
-        options.binary_location = CHROMIUM
-        cls.profile = tempfile.mkdtemp(prefix="torquescope_browser_")
-        for flag in (*FLAGS, f"--user-data-dir={cls.profile}"):
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        cls.browser = webdriver.Chrome(service=Service(DRIVER), options=options)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
-        shutil.rmtree(cls.profile, ignore_errors=True)
-
-    def open(self, kind, width=1280, theme="light"):
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                     {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
-        self.media(theme)
-        self.browser.get(support.page(kind).as_uri())
-
-    def media(self, theme, media=""):
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                     {"media": media, "features": [{"name": "prefers-color-scheme", "value": theme}]})
-
-    def script(self, text, *arguments):
-        return self.browser.execute_script(text, *arguments)
-
-    def background(self):
-        return self.script("return getComputedStyle(document.documentElement).backgroundColor")
-
+@browser.needs_browser
+class Page(browser.Browser):
     def test_figures_are_complete_and_readable_at_every_width_and_theme(self):
         for kind, width in itertools.product(KINDS, WIDTHS):
             self.open(kind, width)

@@ -353,7 +353,7 @@ class Map(unittest.TestCase):
         left = self.rows("partly", "mismatch_left")
         row = joint("partly").map["position"]
         np.testing.assert_array_equal(left["position"][4], np.where(row.samples > 0, row.after_z, np.nan))
-        self.assertEqual(left["position"][5:], (0.21, [(0.4, 0.9, "unexplained", "unexplained")]))
+        self.assertEqual(left["position"][5:7], (0.21, [(0.4, 0.9, "unexplained", "unexplained")]))
         self.assertEqual(left["velocity"][6], [], "an effect that is named is not left")
         self.assertTrue(math.isnan(left["velocity"][5]))
         self.assertNotIn("mismatch_left", all_cases(support.study("named")))

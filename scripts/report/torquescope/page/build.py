@@ -12,12 +12,14 @@ from pathlib import Path
 import jinja2
 
 from ..errors import ResultError
-from . import diagnosed, quantities, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words, words_of_arm
-from . import words_of_diagnosis
+from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words
+from . import words_of_arm, words_of_diagnosis
 from .figures import all_cases
 from .study import Study
 
 HERE = Path(__file__).resolve().parent
+SCRIPTS = ("drawing.js", "samples.js", "trace.js", "zoom.js", "chart.js", "chart_zoom.js",
+           "page.js")  # one scope, in this order
 
 
 def page(study):
@@ -27,7 +29,6 @@ def page(study):
         all_cases(study),
         study=study,
         tables=tables,
-        legend=[{"label": e.label, "colour": e.colour, "dashes": _dashes(e.dashes)} for e in study.estimators],
         **body,
     )
 
@@ -36,17 +37,20 @@ def render(cases, **said):
     """A page of these figures ({name: figures.Case}): `parts` are its templates, the rest is what they say."""
     lines = sum(len(case.traces.get("series", ())) for case in cases.values())
     most = min(traces.MOST_SAMPLES, traces.ALL_SAMPLES // max(1, lines))
-    figures, samples = {}, {}
+    figures, data = {}, {}  # data: {id of the script element: JSON}
     for name, case in cases.items():
-        figures[name] = _figure(name, case, most)
+        figures[name], read = _figure(name, case, most)
+        data.update(read)
         if case.traces:
-            samples[name] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"], most)
+            data[f"samples-{name}"] = traces.packed(case.traces["time"], case.traces["series"], case.traces["guide"],
+                                                    most)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["script_json"] = script_json
+    script = "\n".join((HERE / name).read_text() for name in SCRIPTS)
     return environment.get_template("page.html").render(
-        words=words, q=quantities, figures=figures, samples=samples, css=(HERE / "page.css").read_text(),
-        js=(HERE / "page.js").read_text(), light=_variables(0), dark=_variables(1), **said)
+        words=words, q=quantities, figures=figures, data=data, css=(HERE / "page.css").read_text(), js=script,
+        light=_variables(0), dark=_variables(1), **said)
 
 
 def script_json(text):
@@ -79,10 +83,14 @@ def _of_diagnosis(study):
 
 
 def _figure(name, case, most):
-    drawn = []
+    drawn, labels, read = [], {}, {}
     for width, css_class in ((style.WIDE, "wide"), (style.SMALL, "narrow")) if case.wide else ((style.SMALL, "small"),):
         figure = case.figure(width)
+        axes = readings.gather(figure, labels)
         data = {"layout": figure.trace_layout, "samples": name} if case.traces else {}
+        if axes:
+            data["chart"] = f"chart-{name}-{css_class}"
+            read[data["chart"]] = readings.written(axes)
         drawn.append(svg.inline(figure, name, case.title, case.sentence, css_class, data))
     thinned = case.traces and len(case.traces["time"]) > most
     sentence = case.sentence + (
@@ -91,21 +99,20 @@ def _figure(name, case, most):
         if thinned
         else ""
     )
-    return {
+    said = {
         "title": case.title,
         "sentence": sentence,
         "svg": "".join(drawn),
         "wide": case.wide,
         "zooms": bool(case.traces),
+        "reads": bool(read),
+        "legend": figure.trace_legend if case.traces else readings.legend(figure, labels),
     }
+    return said, read
 
 
 def _variables(theme):
     return "".join(f"--{name}:{pair[theme]};" for name, pair in style.PALETTE.items())
-
-
-def _dashes(dashes):
-    return "" if dashes == "solid" else " ".join(str(length) for length in dashes[1])
 
 
 def main(arguments):

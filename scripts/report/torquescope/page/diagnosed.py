@@ -2,6 +2,7 @@
 compare."""
 
 import math
+import re
 
 import numpy as np
 
@@ -83,6 +84,17 @@ def has_after(joint):
     """Something was put into the model: there is an after to set beside the before."""
     after = joint.augmented_train_relerr
     return math.isfinite(after) and after != joint.train_relerr
+
+
+def after_words(joint):
+    """What the model holds after: "with stribeck friction"."""
+    names = q.listed(effect_words(effect) for effect in joint.effects)
+    return f"with {names or 'what is missing'}"
+
+
+def effect_words(effect):
+    """The effect's title up to its explanation, as a name among words: "Stribeck friction"."""
+    return re.split("[:,]", effect.title)[0] if effect.title else plain(effect.name)
 
 
 def rows_drawn(joint):

@@ -9,6 +9,7 @@ import math
 
 import matplotlib
 from matplotlib import ticker
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from . import quantities
@@ -62,6 +63,14 @@ for words, steps in (("little", TOO_LITTLE), ("much", TOO_MUCH), ("weak", TOO_WE
     PALETTE.update({f"{words}{step}": pair for step, pair in enumerate(steps, start=1)})
 
 LIGHT = {name: light for name, (light, _) in PALETTE.items()}
+
+_NAMES = {light.lower(): name for name, light in LIGHT.items()}
+
+
+def name_of(colour):
+    """The name in the palette of a light colour; ink where it is none of it."""
+    return _NAMES.get(to_hex(colour).lower(), "ink")
+
 
 # the estimators beyond the first of a colour are told apart by their dashes (and always by their labels)
 DASHES = {"de": (0, (5, 2))}

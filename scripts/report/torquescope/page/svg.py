@@ -18,7 +18,7 @@ _PATH = re.compile(r'\bd="([^"]*)"')
 
 
 def inline(figure, name, title, description, css_class, attributes=None):
-    """The <svg> element; `attributes` become data-* attributes."""
+    """The <svg> element; `attributes` become data-* attributes. What carries a gid "part:x" is found by page.js."""
     buffer = io.StringIO()
     with matplotlib.rc_context({**style.LOOK, "svg.hashsalt": f"{name} {css_class}"}):
         figure.savefig(buffer, format="svg", metadata={key: None for key in ("Date", "Creator", "Format", "Type")})

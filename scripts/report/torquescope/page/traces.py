@@ -30,6 +30,7 @@ class Line:
     dashes: object = "solid"
     thickness: float = 1.4
     on_top: bool = False
+    label: str = ""  # in the legend, and read under the pointer
 
 
 @dataclass
@@ -62,25 +63,41 @@ def draw(time, rows, window, overview, width, regions=()):
         if len(regions):
             _shade(axes, regions, (start, stop))
         if row.band:
-            axes.axhspan(-row.band, row.band, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
+            band = axes.axhspan(-row.band, row.band, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
+            band.set_gid("part:band")
         for line in row.lines:
             _line(axes, time, line, (start, stop), right - LEFT)
         axes.set(xlim=(start, stop), ylim=(row.low, row.high))
         style.few_ticks(axes.xaxis, 8 if width >= style.WIDE else 4)
         style.few_ticks(axes.yaxis, 4 if row.height > 100 else 2)
         axes.xaxis.set_gid("part:x-axis")
+        axes.yaxis.set_gid("part:y-axis")
         if index < len(rows) - 1:
             axes.tick_params(labelbottom=False)
         canvas.text(LEFT, top - 8, style.fit(row.words, width - LEFT))
         layout["rows"].append({"top": top, "bottom": top + row.height, "low": row.low, "high": row.high,
-                               "symbol": row.symbol, "unit": row.unit,
-                               "lines": [line.part for line in row.lines]})
+                               "symbol": row.symbol, "unit": row.unit, "band": row.band,
+                               "lines": [line.part for line in row.lines],
+                               "colours": [style.name_of(line.colour) for line in row.lines],
+                               "labels": [line.label or row.symbol for line in row.lines]})
         top += row.height
     canvas.text((LEFT + right) / 2, top + 34, "time (s)", ha="center")
     if overview:
         _strip(canvas, time, overview, window, top + 44, right, layout)
+    canvas.figure.trace_legend = _legend(rows)
     canvas.figure.trace_layout = json.dumps(layout, separators=(",", ":"))
     return canvas.figure
+
+
+def _legend(rows):
+    """As readings.legend: one entry for lines of one label, in whichever rows they are."""
+    found = {}
+    for line in (line for row in rows for line in row.lines if line.label):
+        dashes = "" if line.dashes == "solid" else " ".join(f"{length:g}" for length in line.dashes[1])
+        entry = found.setdefault(line.label, {"label": line.label, "parts": [], "shape": "line", "dashes": dashes,
+                                              "colour": style.name_of(line.colour)})
+        entry["parts"].append(line.part)
+    return [{**entry, "part": " ".join(dict.fromkeys(entry.pop("parts")))} for entry in found.values()]
 
 
 def _shade(axes, regions, window):

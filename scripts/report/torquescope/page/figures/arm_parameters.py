@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import style, words
+from .. import quantities, readings, style, words
 from . import Case
 
 ROW = 20
@@ -15,7 +15,11 @@ def draw(names, differences, origin, label, width=style.WIDE):
     axes = canvas.axes(left, 6, right, bottom)
     axes.axvspan(-words.Z95, words.Z95, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1)
+    readings.of(axes, (f"minus {origin}", "standard errors"), ("", ""), zoom="x")
     at = np.arange(len(names))
+    for name, difference, y in zip(names, differences, at):
+        words_read = f"{name}: {quantities.fixed(difference, 2)} standard errors from {origin}"
+        readings.note(axes, words_read, at=(difference, y))
     axes.hlines(at, 0, differences, color=style.LIGHT["measured"], linewidth=2)
     axes.plot(differences, at, marker="o", markersize=6, linestyle="none", color=style.LIGHT["ink"])
     reach = 1.1 * max(float(np.abs(differences).max()), 2 * words.Z95)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import style
+from .. import readings, style
 from . import Case
 from ..study import held
 
@@ -19,13 +19,14 @@ def draw(F, CR, colour=style.LIGHT["ink"], width=style.SMALL):
         defined = np.flatnonzero(np.isfinite(values).any(axis=0))
         values = values[:, defined]
         for run in values[:MOST_RUNS]:
-            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.25)
+            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.25, label=f"_{name}")
         median = np.nanmedian(values, axis=0)
-        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4)
+        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
         ends.append((name, median[-1]))
         highest = max(highest, np.nanmax(values))
     top = 1.0 if highest <= 1 else 2.0 if highest <= 2 else 1.05 * highest
     axes.set(xlim=(0, F.shape[1] - 1), ylim=(0, top), xlabel="generation")
+    readings.of(axes, ("generation", ""), ("control parameter", ""))
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 5)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 from ..study import held
 
@@ -21,14 +21,15 @@ def draw(histories, unit, width=style.SMALL):
         gaps = np.maximum(held(gaps), LOWEST)
         generations = np.arange(gaps.shape[1])
         for run in gaps[:MOST_RUNS]:
-            axes.plot(generations, run, color=colour, linewidth=0.7, alpha=0.28)
+            axes.plot(generations, run, color=colour, linewidth=0.7, alpha=0.28, label=f"_{label}")
         median = np.median(gaps, axis=0)
-        axes.plot(generations, median, color=colour, linestyle=dashes, linewidth=2.4)
+        axes.plot(generations, median, color=colour, linestyle=dashes, linewidth=2.4, label=label)
         medians.append((label, median, colour))
         top, bottom = max(top, gaps.max()), min(bottom, gaps.min())
     low, high = 10.0 ** np.floor(np.log10(bottom)), 10.0 ** np.ceil(np.log10(top))
     last = max(len(median) for _, median, _ in medians) - 1
     axes.set(xlim=(0, last), ylim=(low, high), xlabel="generation")
+    readings.of(axes, ("generation", ""), ("MSE above the floor", unit))
     axes.xaxis.labelpad = 3
     style.decades(axes.yaxis, low, high)
     style.few_ticks(axes.xaxis, 4)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 from .membership_functions import MEANING
 
@@ -23,6 +23,8 @@ def draw(surface, first, second, path, output, first_name, second_name, width=st
     for step in range(9):
         cells(axes, level == step, _edges(first), _edges(second), style.LIGHT[f"ramp{step}"])
     axes.set(xlim=(first[0], first[-1]), ylim=(second[0], second[-1]), xlabel=first_name)
+    readings.of(axes, (first_name, ""), (second_name, ""))
+    readings.grid(axes, _edges(first), _edges(second), surface, output)
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 4)

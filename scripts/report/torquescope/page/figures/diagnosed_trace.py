@@ -13,7 +13,7 @@ WITHIN = ("velocity", "position", "time")  # axes whose value a trace holds samp
 def draw(time, torque, before, after, floor, window, regions, effort, symbol, unit, width=style.WIDE):
     """Arrays [n]; after: None without one; floor: half height of the band of what noise alone leaves, 0 unknown;
     regions [k][2]: times between which the motion is inside a located region."""
-    measured = traces.Line("measured", torque, style.LIGHT["ink"], thickness=1.2)
+    measured = traces.Line("measured", torque, style.LIGHT["ink"], thickness=1.2, label="measured")
     rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [measured], 130, *traces.scale(torque))]
     limit = 1.05 * float(np.nanmax(np.abs(before)))
     for words, part, values, colour in (
@@ -21,7 +21,7 @@ def draw(time, torque, before, after, floor, window, regions, effort, symbol, un
         ("residual after", "after", after, "augmented"),
     ):
         if values is not None:
-            line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1)
+            line = traces.Line(part, values, style.LIGHT[colour], thickness=1.1, label=words)
             rows.append(traces.Row(f"{words} ({unit})", symbol, unit, [line], 84, -limit, limit, floor))
     return traces.draw(time, rows, window, traces.Line("measured", torque, style.LIGHT["ink"]), width, regions)
 

@@ -3,7 +3,7 @@ zero."""
 
 import numpy as np
 
-from .. import diagnosed, quantities, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 
 ROW = 34
@@ -16,14 +16,20 @@ def draw(rows, width=style.WIDE):
     bottom = 8 + ROW * len(rows)
     canvas = style.Canvas(width, bottom + 46)
     axes = canvas.axes(left, 4, right, bottom)
+    readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
     for index, (label, before, after, floor) in enumerate(rows):
         y = -index
+        for value, when in ((before, "before"), (after, "after"), (floor, "floor")):
+            if np.isfinite(value):
+                readings.note(axes, f"{label}, {when}: {quantities.percent(value, 3)}", at=(100 * value, y))
         if np.isfinite(floor):
-            axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1)
+            axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1, label="_noise floor")
         if np.isfinite(after):
             axes.plot([100 * before, 100 * after], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
-            axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4)
-        axes.plot(100 * before, y, marker="o", markersize=9, color=style.LIGHT["baseline"], zorder=3)
+            axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4,
+                      linestyle="none", label="_after")
+        axes.plot(100 * before, y, marker="o", markersize=9, color=style.LIGHT["baseline"], zorder=3, linestyle="none",
+                  label="_before")
         line = 4 + (bottom - 4) * (index + 0.5) / len(rows) + 4
         canvas.text(0, line, label, color=style.LIGHT["ink"])
         if not narrow:

@@ -8,14 +8,15 @@ from . import Case
 
 def draw(time, measured, model, label, window, symbol, unit, width=style.WIDE):
     """time, measured, model [m], NaN where rows were left out."""
-    over = [traces.Line("measured", measured, style.LIGHT["measured"], thickness=4),
-            traces.Line("model", model, style.LIGHT["ink"], thickness=1.4)]
+    over = [traces.Line("measured", measured, style.LIGHT["measured"], thickness=4, label="measured"),
+            traces.Line("model", model, style.LIGHT["ink"], thickness=1.4, label=label)]
     left = measured - model
     reach = 1.05 * float(np.nanmax(np.abs(left))) or 1.0
     rows = [traces.Row(f"torque ({unit})" if symbol == "τ" else f"force ({unit})", symbol, unit, over, 130,
                        *traces.scale(measured)),
             traces.Row(f"measured minus {label} ({unit})", symbol, unit,
-                       [traces.Line("measured-model", left, style.LIGHT["ink"], thickness=1.1)], 64, -reach, reach)]
+                       [traces.Line("measured-model", left, style.LIGHT["ink"], thickness=1.1,
+                                    label=f"measured minus {label}")], 64, -reach, reach)]
     return traces.draw(time, rows, window, traces.Line("measured", measured, style.LIGHT["measured"]), width)
 
 

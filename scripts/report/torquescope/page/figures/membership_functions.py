@@ -1,6 +1,6 @@
 """Small, middle and big of the controller's four inputs and two outputs: Fig. 3 of the seed."""
 
-from .. import style
+from .. import readings, style
 from . import Case
 
 MEANING = {
@@ -26,9 +26,10 @@ def draw(curves, width=style.WIDE):
         row, column = divmod(index, columns)
         left, top = column * panel, 22 + row * panel_height
         axes = canvas.axes(left + 26, top + 26, left + panel - 16, top + panel_height - 30)
-        for level, (_, colour, dashes) in zip(membership, SHADES):
-            axes.plot(universe, level, color=style.LIGHT[colour], linestyle=dashes, linewidth=2)
+        for level, (word, colour, dashes) in zip(membership, SHADES):
+            axes.plot(universe, level, color=style.LIGHT[colour], linestyle=dashes, linewidth=2, label=word)
         axes.set(xlim=(universe[0], universe[-1]), ylim=(0, 1.02), yticks=[0, 1])
+        readings.of(axes, (name, ""), ("membership", ""))
         style.few_ticks(axes.xaxis, 2)
         canvas.text(left, top + 14, MEANING.get(name, name), color=style.LIGHT["ink"], fontweight="bold")
     at = 0

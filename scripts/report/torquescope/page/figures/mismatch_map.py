@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from .. import diagnosed, quantities, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 from .decision_surface import cells
 
@@ -14,8 +14,8 @@ BOLD_EM = 1.15 * style.EM
 
 
 def draw(rows, width=style.WIDE):
-    """rows: [(name, range, is_spectrum, edges [n+1], z [n] with NaN where nothing was measured, share or NaN, frames)],
-    frames: [(from, to, label or "", "effect" or "unexplained" or "region")] in the unit of the edges."""
+    """rows: [(name, range, is_spectrum, edges [n+1], z [n] with NaN where nothing was measured, share or NaN, frames,
+    unit)], frames: [(from, to, label or "", "effect" or "unexplained" or "region")] in the unit of the edges."""
     narrow = width < style.WIDE
     left, right = (2, width - 2) if narrow else (300, 920)
     lines = [_Line(row, narrow) for row in rows]
@@ -33,7 +33,7 @@ def draw(rows, width=style.WIDE):
 
 class _Line:
     def __init__(self, row, narrow):
-        self.name, self.range, self.is_spectrum, self.edges, self.z, self.share, self.frames = row
+        self.name, self.range, self.is_spectrum, self.edges, self.z, self.share, self.frames, self.unit = row
         self.labels = any(label for _, _, label, _ in self.frames)
         self.height = ROW + 8 + (LABEL if self.labels else 0) + (18 if narrow else 0)
         self.level = _levels(self.z)
@@ -46,6 +46,16 @@ class _Line:
                 np.linspace(0, len(self.level), min(NARROW_CELLS, len(self.level)) + 1).round().astype(int)
             )
             self.level = np.array([_strongest(self.level[a:b]) for a, b in zip(self.bounds[:-1], self.bounds[1:])])
+
+
+def _cell_words(line, first, stop):
+    """What one drawn cell holds: the strongest of those it stands for."""
+    place = diagnosed.range_words(line.edges[first], line.edges[stop], line.unit)
+    z = _strongest(np.asarray(line.z[first:stop], dtype=float))
+    if not np.isfinite(z):
+        return f"{line.name} {place}: nothing measured"
+    way = "" if line.is_spectrum or abs(z) < LIMITS[0] else f", model asks too {'little' if z > 0 else 'much'}"
+    return f"{line.name} {place}: {quantities.fixed(z, 1)} spreads of the twins{way}"
 
 
 def _levels(z):
@@ -68,6 +78,9 @@ def _draw_row(canvas, line, left, right, bottom, narrow):
     axes = canvas.axes(left, bottom - ROW, right, bottom)
     axes.set_axis_off()
     axes.set(xlim=(0, line.bounds[-1]), ylim=(0, 1))
+    readings.of(axes, ("", ""), ("", ""), zoom="")
+    for first, stop in zip(line.bounds[:-1], line.bounds[1:]):
+        readings.note(axes, _cell_words(line, first, stop), cell=(first, stop, 0, 1))
     for level in range(-4, 5):
         cells(axes, (line.level == level)[:, None], line.bounds, np.array([0, 1]), _colour(level, line.is_spectrum))
     place = lambda x: np.interp(x, line.edges, np.linspace(left, right, len(line.edges)))  # noqa: E731
@@ -242,4 +255,5 @@ def _row(row, z, share, frames):
         z,
         share,
         frames,
+        diagnosed.axis_unit(row),
     )

@@ -3,7 +3,7 @@ squares."""
 
 import numpy as np
 
-from .. import quantities, seed, style
+from .. import quantities, readings, seed, style
 from . import Case
 
 
@@ -19,7 +19,8 @@ def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
     canvas = style.Canvas(width, height)
     left, right = (16, width - 16) if narrow else (210, width - 250)
     axes = canvas.axes(left, top, right, top + row * len(names))
-    reach = _draw_rows(axes, groups, published, row, 16 if narrow else 0, len(names))
+    readings.of(axes, ("difference", axis_words[1].split(", ")[-1]), ("", ""), zoom="x")
+    reach = _draw_rows(axes, groups, published, row, 16 if narrow else 0, names)
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1.2, zorder=1)
     axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(row * len(names), 0), yticks=[])
     axes.set_xlabel(axis_words[1] if narrow else axis_words[0], labelpad=4)
@@ -38,31 +39,36 @@ def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
     return canvas.figure
 
 
-def _draw_rows(axes, groups, published, row, name_room, count):
-    lanes = len(groups) + len(published)
+def _draw_rows(axes, groups, published, row, name_room, names):
+    lanes, count = len(groups) + len(published), len(names)
     reach = 1e-12
     for index in range(count):
-        for lane, (_, difference, outer, inner, low, high, colour) in enumerate(groups):
+        for lane, (label, difference, outer, inner, low, high, colour) in enumerate(groups):
             y = row * index + name_room + (row - name_room) * (lane + 1) / (lanes + 1)
             x = difference[index]
             reach = max(reach, abs(x))
             if outer is not None:
                 axes.plot(
-                    [x - outer[index], x + outer[index]], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt"
+                    [x - outer[index], x + outer[index]], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt",
+                    label=f"_{label}"
                 )
                 reach = max(reach, abs(x) + outer[index])
             if inner is not None:
                 # the interval that white residuals would give: two small posts on the bar
                 for end in (x - inner[index], x + inner[index]):
-                    axes.plot([end, end], [y - 4, y + 4], color=colour, linewidth=1.4)
+                    axes.plot([end, end], [y - 4, y + 4], color=colour, linewidth=1.4, label=f"_{label}")
             if low is not None:
-                axes.plot([low[index], high[index]], [y, y], color=colour, linewidth=1.4)
+                axes.plot([low[index], high[index]], [y, y], color=colour, linewidth=1.4, label=f"_{label}")
                 reach = max(reach, abs(low[index]), abs(high[index]))
-            axes.plot(x, y, marker="o", markersize=7, color=colour)
-        for lane, (_, difference, colour) in enumerate(published, start=len(groups)):
+            axes.plot(x, y, marker="o", markersize=7, color=colour, linestyle="none", label=f"_{label}")
+            half = f" ± {quantities.number(outer[index])}" if outer is not None else ""
+            readings.note(axes, f"{names[index].replace('_', ' ')}, {label}: {quantities.number(x)}{half}", at=(x, y))
+        for lane, (label, difference, colour) in enumerate(published, start=len(groups)):
             y = row * index + name_room + (row - name_room) * (lane + 1) / (lanes + 1)
             axes.plot(difference[index], y, marker="D", markersize=6.5, color=colour, markeredgewidth=1.8,
-                      markerfacecolor=style.LIGHT["background"])
+                      markerfacecolor=style.LIGHT["background"], linestyle="none", label=f"_{label}")
+            readings.note(axes, f"{names[index].replace('_', ' ')}, {label}: {quantities.number(difference[index])}",
+                          at=(difference[index], y))
             reach = max(reach, abs(difference[index]))
     axes.grid(axis="y", visible=False)
     for index in range(1, count):

@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 
-from .. import quantities, diagnosed, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 
+WHEN = {"baseline": "before", "augmented": "after"}
 MOST = 100.0  # %: beyond it an arrow says "further out"
 
 
@@ -21,11 +22,17 @@ def draw(names, before, after, origin, values, width=style.WIDE):
     left, right = (16, width - 16) if narrow else (190, width - 260)
     axes = canvas.axes(left, top, right, bottom)
     reach = _reach(before, after)
+    readings.of(axes, (f"difference from {origin}", "%"), ("", ""), zoom="x")
     for index in range(len(names)):
         middle = row * index + room + (row - room) / 2
         both = np.isfinite(before[index][0]) and np.isfinite(after[index][0])
         for (at, half), colour, shift in ((before[index], "baseline", -6), (after[index], "augmented", 6)):
-            _interval(axes, at, half, middle + (shift if both else 0), reach, style.LIGHT[colour])
+            y, when = middle + (shift if both else 0), WHEN[colour]
+            _interval(axes, at, half, y, reach, colour)
+            if np.isfinite(at):
+                words = quantities.fixed(at, 1) + (f" ± {quantities.fixed(half, 1)}" if np.isfinite(half) else "")
+                readings.note(axes, f"{names[index]}, {when}: {words} % from {origin}",
+                              at=(float(np.clip(at, -reach, reach)), y))
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1.2, zorder=1)
     axes.set(xlim=(-1.05 * reach, 1.05 * reach), ylim=(row * len(names), 0), yticks=[])
     axes.set_xlabel(f"difference from {origin} (%)", labelpad=4)
@@ -48,13 +55,15 @@ def _reach(before, after):
 def _interval(axes, at, half, y, reach, colour):
     if not np.isfinite(at):
         return
+    colour, label = style.LIGHT[colour], f"_{WHEN[colour]}"
     low, high = (at - half, at + half) if np.isfinite(half) else (at, at)
-    axes.plot([max(low, -reach), min(high, reach)], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt")
+    axes.plot([max(low, -reach), min(high, reach)], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt",
+              label=label)
     for beyond, end, marker in ((low < -1.001 * reach, -reach, "<"), (high > 1.001 * reach, reach, ">")):
         if beyond:
-            axes.plot(end, y, marker=marker, markersize=7, color=colour)
+            axes.plot(end, y, marker=marker, markersize=7, color=colour, linestyle="none", label=label)
     if abs(at) <= reach:
-        axes.plot(at, y, marker="o", markersize=7, color=colour)
+        axes.plot(at, y, marker="o", markersize=7, color=colour, linestyle="none", label=label)
 
 
 def value_words(one):

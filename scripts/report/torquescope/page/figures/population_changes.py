@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import style
+from .. import readings, style
 from . import Case
 from ..study import held
 
@@ -21,13 +21,14 @@ def draw(PC, FC, colour=style.LIGHT["ink"], width=style.SMALL):
         defined = np.flatnonzero(np.isfinite(values).any(axis=0))
         values = values[:, defined]
         for run in values[:MOST_RUNS]:
-            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.22)
+            axes.plot(defined, run, color=colour, linewidth=0.7, alpha=0.22, label=f"_{name}")
         median = np.nanmedian(values, axis=0)
-        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4)
+        axes.plot(defined, median, color=colour, linestyle=dashes, linewidth=2.4, label=name)
         ends.append((name, median[-1]))
         low, high = min(low, np.nanmin(values)), max(high, np.nanmax(values))
     low, high = 10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high))
     axes.set(xlim=(0, PC.shape[1] - 1), ylim=(low, high), xlabel="generation")
+    readings.of(axes, ("generation", ""), ("change per generation", ""))
     axes.xaxis.labelpad = 3
     style.decades(axes.yaxis, low, high)
     style.few_ticks(axes.xaxis, 4)

@@ -13,7 +13,7 @@ def draw(time, rows, seams, width=style.WIDE):
             f"{name} ({unit})",
             symbol,
             unit,
-            [traces.Line(part, values, style.LIGHT["ink"], thickness=1.1)],
+            [traces.Line(part, values, style.LIGHT["ink"], thickness=1.1, label=name)],
             92,
             *traces.scale(values),
         )

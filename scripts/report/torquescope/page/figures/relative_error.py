@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 
 ROW = 34
@@ -15,9 +15,13 @@ def draw(rows, width=style.WIDE):
     left = 104 if narrow else 150
     bottom = 34 + ROW * len(rows)
     axes = canvas.axes(left, 26, width - (14 if narrow else 150), bottom)
+    readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
     largest = 100 * max(np.nanmax([train, unseen]) for _, train, unseen, _ in rows)
     for index, (label, train, unseen, colour) in enumerate(rows):
         y = -index
+        for value, where in ((train, "training"), (unseen, "unseen")):
+            if np.isfinite(value):
+                readings.note(axes, f"{label}, {where}: {quantities.percent(value, 3)}", at=(100 * value, y))
         if np.isfinite(unseen):
             axes.plot([100 * train, 100 * unseen], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
             axes.plot(100 * unseen, y, marker="o", markersize=9, color=colour, zorder=4)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import style
+from .. import readings, style
 from . import Case
 
 
@@ -21,10 +21,11 @@ def draw(residual, recording, step_s, colour=style.LIGHT["ink"], width=style.SMA
         ]
     )
     white = 1.96 / np.sqrt(len(residual))
-    axes.axhspan(-white, white, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
+    axes.axhspan(-white, white, color=style.LIGHT["floor"], linewidth=0, zorder=0.5, label="white noise, 95 %")
     at = np.arange(lags + 1) * step_s
-    axes.vlines(at, 0, values, color=colour, linewidth=2)
+    axes.vlines(at, 0, values, color=colour, linewidth=2, label="residual")
     axes.set(xlim=(-0.5 * step_s, at[-1] + 0.5 * step_s), ylim=(min(-0.1, 1.1 * values.min()), 1.02), xlabel="lag (s)")
+    readings.of(axes, ("lag", "s"), ("autocorrelation", ""))
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 5)

@@ -5,11 +5,12 @@ import math
 
 import numpy as np
 
-from .. import diagnosed, quantities, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 
 
-def draw(axis_words, unit, centre, before, after, low, high, samples, outside, regions, is_spectrum, width=style.SMALL):
+def draw(axis_words, unit, centre, before, after, low, high, samples, outside, regions, is_spectrum, after_words,
+         value_unit, width=style.SMALL):
     """Arrays [cell], NaN where nothing was measured; after: None without one; low, high: the twins' band; outside:
     cells beyond it; regions: [(from, to)]."""
     canvas = style.Canvas(width, 238)
@@ -18,24 +19,32 @@ def draw(axis_words, unit, centre, before, after, low, high, samples, outside, r
     span = (centre[0], centre[-1])
     for region in diagnosed.partial_regions(regions, span[0], span[1]):
         axes.axvspan(
-            max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2
+            max(region[0], span[0]), min(region[1], span[1]), color=style.LIGHT["region"], linewidth=0, zorder=0.2,
+            label="located region"
         )
-    axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5)
+    axes.fill_between(centre, low, high, color=style.LIGHT["floor"], linewidth=0, zorder=0.5,
+                      label="clean twins, 95 %")
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1, zorder=1)
-    axes.plot(centre, before, color=style.LIGHT["baseline"], linewidth=1.2)
+    axes.plot(centre, before, color=style.LIGHT["baseline"], linewidth=1.2, label="baseline")
     axes.plot(
-        centre[outside], before[outside], linestyle="none", marker="o", markersize=5.5, color=style.LIGHT["baseline"]
+        centre[outside], before[outside], linestyle="none", marker="o", markersize=5.5, color=style.LIGHT["baseline"],
+        label="_baseline"
     )
     if after is not None:
-        axes.plot(centre, after, color=style.LIGHT["augmented"], linewidth=1.6, zorder=3)
+        axes.plot(centre, after, color=style.LIGHT["augmented"], linewidth=1.6, zorder=3, label=after_words)
     drawn = np.concatenate([before, after if after is not None else before, [np.nanmedian(low), np.nanmedian(high)]])
     limit = 1.12 * float(np.nanmax(np.abs(drawn))) or 1.0
     axes.set(xlim=span, ylim=(0 if is_spectrum else -limit, limit))
+    readings.of(axes, (axis_words, unit), ("residual", value_unit))
     axes.tick_params(labelbottom=False)
     style.few_ticks(axes.yaxis, 5)
     time.grid(False)
     time.bar(centre, samples, width=np.gradient(centre), color=style.LIGHT["measured"], linewidth=0)
-    time.set(xlim=span, ylim=(0, max(float(np.max(samples)), 1.0)), yticks=[])
+    most = max(float(np.max(samples)), 1.0)
+    time.set(xlim=span, ylim=(0, most), yticks=[])
+    readings.of(time, (axis_words, unit), ("", ""), zoom="x")
+    edges = np.concatenate([centre[:1], (centre[:-1] + centre[1:]) / 2, centre[-1:]])
+    readings.grid(time, edges, (0, most), np.asarray(samples)[:, None], "rows")
     time.set_xlabel(f"{axis_words} ({unit})" if unit else axis_words, labelpad=3)
     for one in (axes, time):
         style.few_ticks(one.xaxis, 4)
@@ -63,6 +72,8 @@ def arguments(study, joint, row, regions=()):
         "outside": outside,
         "regions": list(regions),
         "is_spectrum": row.is_spectrum,
+        "after_words": diagnosed.after_words(joint),
+        "value_unit": quantities.unit(joint.unit_torque),
     }
 
 

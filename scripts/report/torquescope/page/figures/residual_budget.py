@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import diagnosed, quantities, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 
 # in the order of the bar; the purple says "physics" here as in the map
@@ -16,8 +16,10 @@ def draw(shares, width=style.WIDE):
     bar = canvas.axes(0, 4, width, 28)
     bar.set_axis_off()
     bar.set(xlim=(0, max(float(np.sum(shares)), 1e-12)), ylim=(0, 1))
+    readings.of(bar, ("", ""), ("", ""), zoom="")
     at = 0.0
-    for share, (_, colour) in zip(shares, PARTS):
+    for share, (words, colour) in zip(shares, PARTS):
+        readings.note(bar, f"{words}: {quantities.percent(share, 3)}", cell=(at, at + share, 0, 1))
         bar.barh(0.5, share, 1, left=at, color=style.LIGHT[colour])
         at += share
     for index, (share, (words, colour)) in enumerate(zip(shares, PARTS)):

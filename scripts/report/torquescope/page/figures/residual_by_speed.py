@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 
 BINS = 24
@@ -18,11 +18,13 @@ def draw(velocity, residual, velocity_unit, unit, colour=style.LIGHT["ink"], wid
     mean = np.bincount(which, residual, len(edges) - 1) / number
     spread = np.sqrt(np.maximum(np.bincount(which, residual**2, len(edges) - 1) / number - mean**2, 0))
     centre = np.bincount(which, velocity, len(edges) - 1) / number
-    axes.fill_between(centre, mean - spread, mean + spread, color=style.LIGHT["floor"], linewidth=0)
+    axes.fill_between(centre, mean - spread, mean + spread, color=style.LIGHT["floor"], linewidth=0,
+                      label="±1 standard deviation")
     axes.axhline(0, color=style.LIGHT["muted"], linewidth=1)
-    axes.plot(centre, mean, color=colour, linewidth=1.4, marker="o", markersize=4.5)
+    axes.plot(centre, mean, color=colour, linewidth=1.4, marker="o", markersize=4.5, label="mean")
     limit = 1.1 * float((np.abs(mean) + spread).max()) or 1.0
     axes.set(xlim=(velocity.min(), velocity.max()), ylim=(-limit, limit), xlabel=f"velocity ({velocity_unit})")
+    readings.of(axes, ("velocity", velocity_unit), ("residual", unit))
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 5)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 
 
@@ -14,11 +14,13 @@ def draw(residual, unit, width=style.SMALL):
     limit = min(float(np.abs(residual).max()), 5 * deviation) or 1.0
     heights, edges = np.histogram(residual, bins=41, range=(-limit, limit))
     share = 100 * heights / len(residual)
-    axes.stairs(share, edges, fill=True, color=style.LIGHT["measured"])
+    axes.stairs(share, edges, fill=True, color=style.LIGHT["measured"], label="residual")
     x = np.linspace(-limit, limit, 121)
     normal = np.exp(-((x - residual.mean()) ** 2) / (2 * deviation**2)) / (deviation * np.sqrt(2 * np.pi))
-    axes.plot(x, 100 * normal * (edges[1] - edges[0]), color=style.LIGHT["ink"], linewidth=2)
+    axes.plot(x, 100 * normal * (edges[1] - edges[0]), color=style.LIGHT["ink"], linewidth=2,
+              label="normal curve")
     axes.set(xlim=(-limit, limit), ylim=(0, None), xlabel=f"residual ({unit})")
+    readings.of(axes, ("residual", unit), ("share of the samples", "%"))
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 5)
     style.few_ticks(axes.yaxis, 4)

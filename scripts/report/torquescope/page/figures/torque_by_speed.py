@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, style
+from .. import quantities, readings, style
 from . import Case
 from .decision_surface import cells
 
@@ -34,6 +34,8 @@ def draw(velocity, torque, velocity_unit, effort, unit, width=style.SMALL):
                 va="bottom" if y < 0.5 else "top",
             )
     axes.set(xlim=(-x_limit, x_limit), ylim=(-y_limit, y_limit), xlabel=f"velocity ({velocity_unit})")
+    readings.of(axes, ("velocity", velocity_unit), (effort, unit))
+    readings.grid(axes, x_edges, y_edges, np.where(visits > 0, visits, np.nan), "samples")
     axes.xaxis.labelpad = 3
     style.few_ticks(axes.xaxis, 5)
     style.few_ticks(axes.yaxis, 4)

@@ -9,7 +9,7 @@ from . import Case
 
 def draw(time, measured, predictions, band, window, effort, symbol, unit, width=style.WIDE):
     """predictions: [(label, part, values [n], colour, dashes, residual std)]; band: half height of the grey band."""
-    line = traces.Line("measured", measured, style.LIGHT["measured"], thickness=4)
+    line = traces.Line("measured", measured, style.LIGHT["measured"], thickness=4, label="measured")
     # lines that coincide are still seen: each is thinner than the one below it, and dashed ones lie on top
     over = [
         traces.Line(
@@ -19,8 +19,9 @@ def draw(time, measured, predictions, band, window, effort, symbol, unit, width=
             dashes,
             1.5 if dashes != "solid" else 1.4 + 0.5 * min(len(predictions) - 1 - at, 3),
             dashes != "solid",
+            label,
         )
-        for at, (_, part, values, colour, dashes, _) in enumerate(predictions)
+        for at, (label, part, values, colour, dashes, _) in enumerate(predictions)
     ]
     rows = [traces.Row(f"{effort} ({unit})", symbol, unit, [line] + over, 170, *traces.scale(measured))]
     largest = max(np.nanmax(np.abs(measured - values)) for _, _, values, *_ in predictions)
@@ -33,7 +34,7 @@ def draw(time, measured, predictions, band, window, effort, symbol, unit, width=
                 words,
                 symbol,
                 unit,
-                [traces.Line(f"measured-{part}", measured - values, colour, thickness=1.1)],
+                [traces.Line(f"measured-{part}", measured - values, colour, thickness=1.1, label=label)],
                 64,
                 -1.05 * largest,
                 1.05 * largest,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import diagnosed, quantities, style
+from .. import diagnosed, quantities, readings, style
 from . import Case
 
 
@@ -12,9 +12,11 @@ def draw(energies, width=style.SMALL):
     axes = canvas.axes(54, 24, width - 14, 188)
     energies = energies[np.isfinite(energies)]
     last = 1.12 * max(1.0, float(energies.max()))
-    axes.hist(energies, bins=np.linspace(0, last, 41), color=style.LIGHT["measured"])
-    axes.axvline(1, color=style.LIGHT["baseline"], linewidth=2.4)
-    axes.set(xlim=(0, last))
+    counts, edges = np.histogram(energies, bins=np.linspace(0, last, 41))
+    axes.stairs(counts, edges, fill=True, color=style.LIGHT["measured"], label="clean twins")
+    axes.axvline(1, color=style.LIGHT["baseline"], linewidth=2.4, label="_recording")
+    axes.set(xlim=(0, last), ylim=(0, None))
+    readings.of(axes, ("residual energy", ""), ("clean twins", ""))
     axes.set_xlabel("residual energy (recording = 1)", labelpad=3)
     style.few_ticks(axes.xaxis, 4)
     style.few_ticks(axes.yaxis, 4)
