@@ -342,6 +342,23 @@ class Page(browser.Browser):
         self.assertEqual(pdf[:5], b"%PDF-")
         self.assertGreater(pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page "), 2)
 
+    def test_no_estimate_is_out_of_sight_on_a_phone(self):
+        """Every cell of every table stands inside the window, and so does every error beside its dots."""
+        for kind in ("crs", "arm", *(("named",) if support.EXAMPLE_WRITER else ())):
+            self.open(kind, width=400)
+            self.script("document.querySelectorAll('details').forEach((one) => one.open = true)")
+            cut = self.script(
+                "return [...document.querySelectorAll('table.stacks :is(td, tbody th)')].filter((cell) => {"
+                "  const box = cell.getBoundingClientRect();"
+                "  return !box.width || box.right > innerWidth + 0.5; }).map((cell) => cell.textContent)")
+            self.assertEqual(cut, [], kind)
+            figure = {"crs": "relative_error", "arm": "joint_errors"}.get(kind, "error_before_after")
+            shown = self.script("return document.querySelector(`#${arguments[0]} svg.narrow`).textContent", figure)
+            self.assertRegex(shown, r"[\d.]+ % → [\d.]+ %")
+        if support.EXAMPLE_WRITER:
+            row = self.browser.find_element(By.CSS_SELECTOR, ".candidates .kept th").text
+            self.assertRegex(row, r"(?s)Stribeck friction.*reversal.*q.*CV gain")
+
     @support.needs_diagnoses
     def test_no_table_is_cut_off_on_paper(self):
         """A4 less its margins is 688 px wide."""

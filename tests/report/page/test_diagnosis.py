@@ -172,8 +172,8 @@ class Verdict(unittest.TestCase):
         )
         evidence = verdict["evidence"].replace("\u00a0", " ")
         for words in (
-            "Stribeck: p < 0.005; presliding cannot be excluded.",
-            "Cogging: p < 0.005.",
+            "Stribeck friction: p < 0.005; presliding cannot be excluded.",
+            "Cogging torque of the motor: p < 0.005.",
             "floor 6.0 %.",
             "200 clean twins",
         ):
@@ -345,7 +345,7 @@ class Map(unittest.TestCase):
 
     def test_the_region_of_an_effect_is_framed_with_its_name(self):
         frames = self.rows()["velocity"][6]
-        self.assertIn((-0.12, 0.12, "stribeck", "effect"), frames)
+        self.assertIn((-0.12, 0.12, "Stribeck friction", "effect"), frames)
         self.assertIn((0.95, 1.29, "unexplained", "unexplained"), self.rows()["load"][6])
         self.assertEqual(self.rows("none")["velocity"][6], [])
 

@@ -122,7 +122,8 @@ class Reading(browser.Browser):
         self.assertTrue(button.is_displayed())
         ActionChains(self.browser).double_click(self.area("residual_by_speed")).perform()
         self.assertFalse(button.is_displayed())
-        for before, now in zip(re.findall(r"-?[\d.]+", first), re.findall(r"-?[\d.]+", self.drawn("residual_by_speed"))):
+        numbers = re.compile(r"-?[\d.]+")
+        for before, now in zip(numbers.findall(first), numbers.findall(self.drawn("residual_by_speed"))):
             self.assertAlmostEqual(float(before), float(now), delta=0.06)
 
     def test_after_a_zoom_the_same_place_reads_the_same_value(self):
@@ -148,10 +149,13 @@ class Reading(browser.Browser):
                      ".filter((one) => one.style.display !== 'none').length")
             before = self.script(shown, figure, part)
             self.assertGreater(before, 0)
-            name = self.script("return [...document.querySelectorAll(`#${arguments[0]} button.key`)].findIndex((b) => "
-                               "{ b.click(); const gone = !document.querySelector(`#${arguments[0]} svg "
-                               "[data-part=\"${arguments[1]}\"]:not([style*=none])`); if (!gone) b.click(); return gone; })",
-                               figure, part)
+            name = self.script(
+                "const [id, part] = arguments;"
+                "return [...document.querySelectorAll(`#${id} button.key`)].findIndex((button) => {"
+                "  button.click();"
+                "  const gone = !document.querySelector(`#${id} svg [data-part=\"${part}\"]:not([style*=none])`);"
+                "  if (!gone) button.click();"
+                "  return gone; })", figure, part)
             self.assertGreaterEqual(name, 0, figure)
             self.assertEqual(self.script(shown, figure, part), 0)
             self.assertEqual(keys[name].get_attribute("aria-pressed"), "false")

@@ -6,6 +6,7 @@ Nothing is fetched when it is opened: pictures, samples, style and script are in
 """
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -13,10 +14,12 @@ import jinja2
 
 from ..errors import ResultError
 from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words
-from . import words_of_arm, words_of_diagnosis
+from . import what_now, words_of_arm, words_of_diagnosis
 from .figures import all_cases
 from .study import Study
 
+# what the contents of a page of several joints list
+OWN_SECTIONS = (' class="joint"', ' class="next own"')
 HERE = Path(__file__).resolve().parent
 SCRIPTS = ("drawing.js", "samples.js", "trace.js", "zoom.js", "chart.js", "chart_zoom.js",
            "page.js")  # one scope, in this order
@@ -29,6 +32,7 @@ def page(study):
         all_cases(study),
         study=study,
         tables=tables,
+        what_now=what_now,
         **body,
     )
 
@@ -50,7 +54,25 @@ def render(cases, **said):
     script = "\n".join((HERE / name).read_text() for name in SCRIPTS)
     return environment.get_template("page.html").render(
         words=words, q=quantities, figures=figures, data=data, css=(HERE / "page.css").read_text(), js=script,
-        light=_variables(0), dark=_variables(1), **said)
+        light=_variables(0), dark=_variables(1),
+        with_contents=with_contents, **said)
+
+
+def with_contents(body):
+    """The sections of a page with an id in each heading, and [(id, heading)]: all of them, or of a page of several
+    joints those that begin a joint and those after the last one's."""
+    found, per_joint = [], 'class="joint"' in body
+
+    def mark(match):
+        heading = jinja2.utils.markupsafe.Markup(match[2])
+        name = "-".join(re.findall(r"[a-z0-9]+", heading.striptags().lower())) or "section"
+        taken = sum(one == name or one.startswith(f"{name}--") for one, _, _ in found)
+        name += f"--{taken + 1}" if taken else ""
+        found.append((name, heading, not per_joint or match[1] in OWN_SECTIONS))
+        return f'<section{match[1]}>\n<h2 id="{name}">{match[2]}</h2>'
+
+    body = re.sub(r"<section([^>]*)>\n<h2>(.*?)</h2>", mark, str(body), flags=re.S)
+    return jinja2.utils.markupsafe.Markup(body), [(name, heading) for name, heading, listed in found if listed]
 
 
 def script_json(text):

@@ -126,7 +126,8 @@ function nearestValue({ x: places, y: values, edges }, x) {
   }
   let best = -1;
   places.forEach((place, i) => {
-    if (place !== null && values[i] !== null && (best < 0 || Math.abs(place - x) < Math.abs(places[best] - x))) best = i;
+    if (place === null || values[i] === null) return;
+    if (best < 0 || Math.abs(place - x) < Math.abs(places[best] - x)) best = i;
   });
   return best < 0 ? null : { x: places[best], y: values[best] };
 }

@@ -68,7 +68,8 @@ function scaleOf(axes) {
   for (const [value, words] of ticksBetween(axes.y, y0, y1, 4)) {
     const [, y] = axes.pixels(axes.x.from, value);
     line(`M${left} ${pixel(y)}H${right}`);
-    scale.append(element(axes.svg, "text", { x: left - 5, y: Number(pixel(y)) + 4, "text-anchor": "end", ...look }, words));
+    const at = { x: left - 5, y: Number(pixel(y)) + 4, "text-anchor": "end", ...look };
+    scale.append(element(axes.svg, "text", at, words));
   }
   return scale;
 }
@@ -120,7 +121,9 @@ function makeReadable(figure, area) {
     }
     back.hidden = charts.every((chart) => chart.axes.every((one) => one.view === one.home));
   }
-  const home = () => charts.forEach((chart) => chart.axes.forEach((axes) => axes.view !== axes.home && zoom(axes, axes.home)));
+  const home = () => {
+    for (const axes of charts.flatMap((chart) => chart.axes)) if (axes.view !== axes.home) zoom(axes, axes.home);
+  };
   function zoomAbout(factor) {
     const place = at ?? middleOf(charts.find(({ svg }) => svg.getBoundingClientRect().width));
     const axes = axesAt(place.chart, place);

@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from . import quantities as q
+from .effect_titles import TITLES
 from ..reader.read_diagnosis import least_p
 
 AXES = {
@@ -93,8 +94,18 @@ def after_words(joint):
 
 
 def effect_words(effect):
-    """The effect's title up to its explanation, as a name among words: "Stribeck friction"."""
-    return re.split("[:,]", effect.title)[0] if effect.title else plain(effect.name)
+    """Of an effect with a title of its own in the file."""
+    return _short_title(effect.title) if effect.title else effect_name(effect.name)
+
+
+def effect_name(name):
+    """What an identifier means, in words: "Stribeck friction" for stribeck. Of a later program it may be unknown."""
+    return _short_title(TITLES[name]) if name in TITLES else plain(name)
+
+
+def _short_title(title):
+    """Up to its explanation."""
+    return re.split(r"[:,]| \(", title)[0]
 
 
 def rows_drawn(joint):

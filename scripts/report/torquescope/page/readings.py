@@ -111,7 +111,8 @@ def _look(artist):
                 "dashes": " ".join(f"{length:g}" for length in dashes or ())}
     colour = artist.get_edgecolor() if isinstance(artist, LineCollection) else artist.get_facecolor()
     colour = np.atleast_2d(colour)[0]
-    return {"shape": "line" if isinstance(artist, LineCollection) else "area", "colour": style.name_of(colour), "dashes": ""}
+    shape = "line" if isinstance(artist, LineCollection) else "area"
+    return {"shape": shape, "colour": style.name_of(colour), "dashes": ""}
 
 
 def _pixels(figure, axes):

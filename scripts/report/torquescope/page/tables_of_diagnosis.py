@@ -31,6 +31,7 @@ def _candidate(one, scale):
     pixels = lambda value: round(6 + max(value, 0.0) * scale, 1)  # noqa: E731
     return {
         "name": one.name,
+        "title": diagnosed.effect_name(one.name),
         "family": diagnosed.plain(one.family),
         "mark": MARKS.get(one.decision, "○"),
         "decision": one.decision,
@@ -69,7 +70,7 @@ def forward(joint):
 def equations(study, joint):
     """The model's line, then one (name, equation) per effect put into it."""
     return tables.equation(study), [
-        (diagnosed.plain(effect.name), signs(effect.equation)) for effect in joint.effects if effect.equation
+        (diagnosed.effect_words(effect), signs(effect.equation)) for effect in joint.effects if effect.equation
     ]
 
 

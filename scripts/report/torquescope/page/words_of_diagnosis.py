@@ -64,7 +64,7 @@ def _set(found):
             sure = _HOW_SURE.search(sentence)
             headlines.append(_HOW_SURE.sub("", sentence))
             if sure:
-                of = f"{diagnosed.plain(effects[sentence].name)}: " if is_effect and len(effects) > 1 else ""
+                of = f"{diagnosed.effect_words(effects[sentence])}: " if is_effect and len(effects) > 1 else ""
                 evidence.append(_capital(f"{of}{sure[1]}."))
         else:
             evidence.append(sentence)
@@ -220,7 +220,7 @@ def effect_line(joint, effect):
     if math.isfinite(effect.peak):
         said.append(f"peak {q.with_unit(q.number(effect.peak, 2), joint.unit_torque)}")
     if effect.equivalent:
-        said.append(f"cannot be told from {q.listed(diagnosed.plain(name) for name in effect.equivalent)}")
+        said.append(f"cannot be told from {q.listed(diagnosed.effect_name(name) for name in effect.equivalent)}")
     fault = "A fault of the recording, not physics of the joint. " if diagnosed.is_fault(effect) else ""
     return fault + "; ".join(said) + "."
 
@@ -239,7 +239,7 @@ def next_steps(study, joint):
     """[sentence]: what to record or mend; empty when nothing is open."""
     said = [_capital(study.diagnosis.way_out.rstrip(".")) + "."] if study.diagnosis.way_out else []
     for advice in joint.advice:
-        apart = [diagnosed.plain(name) for name in advice.would_separate]
+        apart = [diagnosed.effect_name(name) for name in advice.would_separate]
         to = f" to tell {q.listed(apart)} apart" if len(apart) > 1 else ""
         if len(apart) == 1:
             to = f" to tell whether it is {apart[0]}, which came closest"

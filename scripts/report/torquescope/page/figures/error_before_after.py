@@ -6,19 +6,20 @@ import numpy as np
 from .. import diagnosed, quantities, readings, style
 from . import Case
 
-ROW = 34
+ROW, NARROW_ROW = 34, 44
 
 
 def draw(rows, width=style.WIDE):
     """rows: [(label, before, after, floor)] as fractions, NaN where not measured."""
     narrow = width < style.WIDE
-    left, right = (96 if narrow else 150), width - (14 if narrow else 170)
-    bottom = 8 + ROW * len(rows)
+    row = NARROW_ROW if narrow else ROW
+    left, right = (14 if narrow else 150), width - (14 if narrow else 170)
+    bottom = 8 + row * len(rows)
     canvas = style.Canvas(width, bottom + 46)
     axes = canvas.axes(left, 4, right, bottom)
     readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
     for index, (label, before, after, floor) in enumerate(rows):
-        y = -index
+        y = -index - (0.15 if narrow else 0)
         for value, when in ((before, "before"), (after, "after"), (floor, "floor")):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {when}: {quantities.percent(value, 3)}", at=(100 * value, y))
@@ -30,11 +31,11 @@ def draw(rows, width=style.WIDE):
                       linestyle="none", label="_after")
         axes.plot(100 * before, y, marker="o", markersize=9, color=style.LIGHT["baseline"], zorder=3, linestyle="none",
                   label="_before")
-        line = 4 + (bottom - 4) * (index + 0.5) / len(rows) + 4
+        # on a phone the words stand above their dots
+        line = 4 + (bottom - 4) * (index + (0 if narrow else 0.5)) / len(rows) + (12 if narrow else 4)
         canvas.text(0, line, label, color=style.LIGHT["ink"])
-        if not narrow:
-            words = quantities.percent(before, 3) + (f" → {quantities.percent(after, 3)}" if np.isfinite(after) else "")
-            canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
+        words = quantities.percent(before, 3) + (f" → {quantities.percent(after, 3)}" if np.isfinite(after) else "")
+        canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
     largest = 100 * np.nanmax([value for _, *values in rows for value in values])
     axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
     axes.set_xlabel("relative error (%)" if narrow else "relative error (% of the measured signal)", labelpad=3)

@@ -233,8 +233,8 @@ def _frames_left(joint, row):
 
 
 def _arguments(joint, row):
-    frames = [(place.start, place.stop, diagnosed.plain(e.name), "effect") for e in joint.effects for place in e.places
-              if place.axis == row.axis]
+    frames = [(place.start, place.stop, diagnosed.effect_words(e), "effect")
+              for e in joint.effects for place in e.places if place.axis == row.axis]
     frames += _frames_left(joint, row)
     known = {(start, stop) for start, stop, *_ in frames}
     frames += [

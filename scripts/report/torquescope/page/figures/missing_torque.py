@@ -58,7 +58,7 @@ def cases(study):
                 "regions": regions,
                 "value_unit": quantities.unit(joint.unit_torque),
             }
-            sentence = (f"Dots: {diagnosed.plain(effect.name)} and what is left, in "
+            sentence = (f"Dots: {diagnosed.effect_words(effect)} and what is left, in "
                         f"{quantities.unit(joint.unit_torque)}; line: as modelled.")
             name = diagnosed.figure_name(study, joint, f"effect_{number}_missing")
             found[name] = Case(draw, arguments, f"The missing {study.effort}, as modelled", sentence)

@@ -5,20 +5,21 @@ import numpy as np
 from .. import quantities, readings, style
 from . import Case
 
-ROW = 34
+ROW, NARROW_ROW = 34, 44
 
 
 def draw(rows, width=style.WIDE):
     """rows: [(label, train, unseen, colour)] as fractions; unseen NaN when there is none."""
-    canvas = style.Canvas(width, 34 + ROW * len(rows) + 46)
     narrow = width < style.WIDE
-    left = 104 if narrow else 150
-    bottom = 34 + ROW * len(rows)
+    row = NARROW_ROW if narrow else ROW
+    canvas = style.Canvas(width, 34 + row * len(rows) + 46)
+    left = 14 if narrow else 150
+    bottom = 34 + row * len(rows)
     axes = canvas.axes(left, 26, width - (14 if narrow else 150), bottom)
     readings.of(axes, ("relative error", "%"), ("", ""), zoom="x")
     largest = 100 * max(np.nanmax([train, unseen]) for _, train, unseen, _ in rows)
     for index, (label, train, unseen, colour) in enumerate(rows):
-        y = -index
+        y = -index - (0.15 if narrow else 0)
         for value, where in ((train, "training"), (unseen, "unseen")):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {where}: {quantities.percent(value, 3)}", at=(100 * value, y))
@@ -27,17 +28,17 @@ def draw(rows, width=style.WIDE):
             axes.plot(100 * unseen, y, marker="o", markersize=9, color=colour, zorder=4)
         axes.plot(100 * train, y, marker="o", markersize=9, color=colour, markerfacecolor=style.LIGHT["background"],
                   markeredgewidth=2, zorder=3)
-        line = 26 + (bottom - 26) * (index + 0.5) / len(rows) + 4
-        canvas.text(0, line, style.fit(label, left - 12), color=style.LIGHT["ink"])
-        if not narrow:
-            words = f"{quantities.percent(train, 3)}"
-            if np.isfinite(unseen):
-                words += f" → {quantities.percent(unseen, 3)}"
-            canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
+        # on a phone the words stand above their dots
+        line = 26 + (bottom - 26) * (index + (0 if narrow else 0.5)) / len(rows) + (12 if narrow else 4)
+        canvas.text(0, line, style.fit(label, 200 if narrow else left - 12), color=style.LIGHT["ink"])
+        words = f"{quantities.percent(train, 3)}"
+        if np.isfinite(unseen):
+            words += f" → {quantities.percent(unseen, 3)}"
+        canvas.text(width, line, words, ha="right", color=style.LIGHT["ink"], fontweight="bold")
     axes.set(xlim=(0, 1.06 * largest), ylim=(-len(rows) + 0.5, 0.5), yticks=[])
     axes.set_xlabel(f"relative error (% of {'the signal' if narrow else 'the measured signal'})", labelpad=3)
     style.few_ticks(axes.xaxis, 4 if narrow else 8)
-    canvas.text(left, 16, "○ training   ● unseen")
+    canvas.text(0 if narrow else left, 16, "○ training   ● unseen")
     return canvas.figure
 
 

@@ -114,7 +114,7 @@ def _sentence(unit):
 
 def _not_here(study, joint, row, rival, unit):
     p = f", p {_equals(diagnosed.counted_p_cell(row.p, joint.twins))}" if math.isfinite(row.p) else ""
-    where = f"Where {diagnosed.plain(rival.name)} would show" if rival else "The quietest axis"
+    where = f"Where {diagnosed.effect_name(rival.name)} would show" if rival else "The quietest axis"
     return Case(draw, arguments(study, joint, row), f"Not here: {diagnosed.axis_title(row.axis)}",
                 f"{where}: nothing was located on it{p}; in {unit}.")
 
