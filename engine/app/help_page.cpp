@@ -25,6 +25,7 @@ std::string program_help() {
   torquescope diagnose JOB.toml      find the physics the model lacks
   torquescope show     R.h5          tables here
   torquescope report   R.h5          one page with pictures
+  torquescope compare  A.h5 B.h5     results side by side on one page
   torquescope export   R.h5 --urdf FILE           an arm as URDF, TOML, ...
   torquescope simulate JOB.toml --out REC.csv     recordings from a model
   torquescope excite   JOB.toml --out REF.csv     a motion that tells most

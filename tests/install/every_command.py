@@ -102,6 +102,9 @@ class EveryCommand(unittest.TestCase):
         self.assertIn("NOTHING MISSING", self.run_command("diagnose", "study.toml", "--out", "diagnosis.h5"))
         self.run_command("report", "diagnosis.h5")
         self.assert_page("diagnosis.html", "Nothing missing")
+        self.run_command("run", "study.toml", "--out", "identified.h5")
+        self.assertIn("both.html", self.run_command("compare", "diagnosis.h5", "identified.h5", "--out", "both.html"))
+        self.assert_page("both.html", "Do the estimates agree?")
 
     def test_shards_of_a_study(self):
         for shard in ("0/2", "1/2"):

@@ -171,9 +171,11 @@ class Limits(Folder):
         for change, words in ((linked, '"parameters" is a link to elsewhere'), (flipped, "r.h5 is damaged")):
             shutil.copy(os.path.join(self.folder, "other.h5"), os.path.join(self.folder, "r.h5"))
             change(os.path.join(self.folder, "r.h5"))
-            for command in (("report", "r.h5"), ("show", "r.h5", "--verify")):
+            for command in (("report", "r.h5"), ("show", "r.h5", "--verify"), ("compare", "other.h5", "r.h5")):
                 self.assert_refused(self.run_here(*command), 65, [words])
-            self.assertFalse(os.path.exists(os.path.join(self.folder, "r.html")))
+            for page in ("r.html", "compare.html"):
+                self.assertFalse(os.path.exists(os.path.join(self.folder, page)))
+        self.assert_refused(self.run_here("compare", "other.h5"), 64, ["compare needs two results or more"])
 
     def test_groups_in_groups_without_end_are_refused_soon(self):
         self.assertEqual(self.run_here("run", "job.toml", "--out", "r.h5", "--quiet").code, 0)
@@ -285,7 +287,8 @@ class CommandLine(Folder):
         page = self.run_here("--help")
         self.assertEqual(page.code, 0)
         self.assert_page(page.out)
-        for command in ["check", "run", "diagnose", "show", "report", "simulate", "excite", "list", "describe"]:
+        for command in ("check", "run", "diagnose", "show", "report", "compare", "simulate", "excite", "list",
+                        "describe"):
             self.assertIn(f"torquescope {command}", page.out)
             self.assert_page(self.run_here(command, "--help").out)
 

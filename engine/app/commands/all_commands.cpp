@@ -13,6 +13,7 @@ constexpr Command every_command[] = {
     {"diagnose", [](CLI::App& app, ChosenCommand& chosen) { add_diagnose(app, chosen, diagnose); }},
     {"show", add_show},
     {"report", add_report},
+    {"compare", add_compare},
     {"export", add_export},
     {"merge", add_merge},
     {"status", add_status},

@@ -27,6 +27,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen);
 void add_check(CLI::App& app, ChosenCommand& chosen);
 void add_show(CLI::App& app, ChosenCommand& chosen);
 void add_report(CLI::App& app, ChosenCommand& chosen);
+void add_compare(CLI::App& app, ChosenCommand& chosen);
 void add_export(CLI::App& app, ChosenCommand& chosen);
 void add_list(CLI::App& app, ChosenCommand& chosen);
 void add_describe(CLI::App& app, ChosenCommand& chosen);

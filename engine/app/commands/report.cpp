@@ -6,11 +6,9 @@
 #include <memory>
 
 #include "engine/app/commands/command.hpp"
+#include "engine/app/commands/results.hpp"
 #include "engine/app/report/page_builder.hpp"
-#include "engine/app/result/result_summary.hpp"
 #include "engine/app/terminal/plain_text.hpp"
-#include "engine/store/result_writer.hpp"
-#include "engine/store/verification.hpp"
 
 namespace torquescope {
 
@@ -22,13 +20,7 @@ struct ReportArguments {
 };
 
 ExitCode report_result(ReportArguments const& arguments, Session const& session) {
-  // a page stays when its file is gone: all of it is compared before Python is asked. (Files of an earlier format have
-  // another digest, and Python looks first as well)
-  look_at_result(arguments.result, [](ResultReader const& reader) {
-    refuse_columns(reader);
-    if (reader.attribute<std::int64_t>("/", "format") == result_format)
-      static_cast<void>(verify_everything(reader.name()));
-  });
+  verify_before_page(arguments.result);
   std::filesystem::path page = arguments.out;
   if (page.empty()) page = std::filesystem::path(arguments.result).replace_extension(".html");
   build_page(arguments.result, page);

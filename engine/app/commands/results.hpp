@@ -1,5 +1,7 @@
 #pragma once
-// The tables of a result that a command has just made or found, and their JSON.
+// What commands do with a result: the tables of one just made or found, and their JSON; the look before a page.
+
+#include <filesystem>
 
 #include "engine/app/result/result_summary.hpp"
 #include "engine/app/session.hpp"
@@ -7,5 +9,8 @@
 namespace torquescope {
 
 void print_results(Session const& session, ResultSummary const& summary);
+
+// a page stays when its file is gone: all of it is compared before Python is asked; Error 65 when it is damaged
+void verify_before_page(std::filesystem::path const& result);
 
 }  // namespace torquescope

@@ -84,10 +84,31 @@ std::filesystem::path executable_path() {
   return std::filesystem::read_symlink("/proc/self/exe", ignored);
 }
 
+// `files` are what the program NAME makes the page of; `about` begins the sentence when they are at fault
+void run_page_program(std::string const& name, std::vector<std::string> const& files, std::filesystem::path const& page,
+                      std::string const& about) {
+  auto const program = find_page_program(environment("TORQUESCOPE_SHARE"), executable_path(), name);
+  if (!program)
+    throw page_problem(ExitCode::no_input,
+                       "the page builder report/" + name + " is not installed beside this program",
+                       "set TORQUESCOPE_SHARE to the folder that holds report/" + name);
+  std::string const python = find_python();
+  std::vector<std::string> arguments{python, program->string(), "--out=" + page.string(), "--"};
+  arguments.insert(arguments.end(), files.begin(), files.end());
+  auto const status = run_program(std::move(arguments), Voice::heard);
+  if (status == static_cast<int>(ExitCode::bad_data))
+    throw page_problem(ExitCode::bad_data, about + " to build a page from",
+                       "the page builder's words stand above; torquescope show --verify says more");
+  if (status != 0)
+    throw page_problem(ExitCode::internal, fmt::format("the page builder failed ({} {})", python, program->string()),
+                       "its own words stand above; the result files themselves are unharmed");
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_page_program(std::string const& share_variable,
-                                                       std::filesystem::path const& executable) {
+                                                       std::filesystem::path const& executable,
+                                                       std::string const& name) {
   std::vector<std::filesystem::path> folders;
   if (!share_variable.empty()) folders.emplace_back(share_variable);
   folders.push_back(executable.parent_path().parent_path() / "share" / "torquescope");
@@ -95,27 +116,19 @@ std::optional<std::filesystem::path> find_page_program(std::string const& share_
   for (auto folder = executable.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
     folders.push_back(folder);
   for (auto const& folder : folders)
-    for (char const* place : {"scripts/report/build.py", "report/build.py"}) {
+    for (char const* place : {"scripts/report", "report"}) {
       std::error_code ignored;
-      if (std::filesystem::is_regular_file(folder / place, ignored)) return folder / place;
+      if (std::filesystem::is_regular_file(folder / place / name, ignored)) return folder / place / name;
     }
   return std::nullopt;
 }
 
 void build_page(std::filesystem::path const& result, std::filesystem::path const& page) {
-  auto const program = find_page_program(environment("TORQUESCOPE_SHARE"), executable_path());
-  if (!program)
-    throw page_problem(ExitCode::no_input, "the page builder report/build.py is not installed beside this program",
-                       "set TORQUESCOPE_SHARE to the folder that holds report/build.py");
-  std::string const python = find_python();
-  auto const status =
-      run_program({python, program->string(), "--out=" + page.string(), "--", result.string()}, Voice::heard);
-  if (status == static_cast<int>(ExitCode::bad_data))
-    throw page_problem(ExitCode::bad_data, result.string() + " is no file to build a page from",
-                       "the page builder's words stand above; torquescope show --verify says more");
-  if (status != 0)
-    throw page_problem(ExitCode::internal, fmt::format("the page builder failed ({} {})", python, program->string()),
-                       "its own words stand above; the result file itself is unharmed");
+  run_page_program("build.py", {result.string()}, page, result.string() + " is no file");
+}
+
+void build_comparison(std::span<std::string const> results, std::filesystem::path const& page) {
+  run_page_program("compare.py", {results.begin(), results.end()}, page, "one of the files is none");
 }
 
 }  // namespace torquescope

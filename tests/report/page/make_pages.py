@@ -10,5 +10,5 @@ import support
 folder = Path(sys.argv[1])
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
-for kind in support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS:
+for kind in support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED:
     shutil.copy(support.page(kind), folder)

@@ -48,6 +48,7 @@ VERDICTS = (
 )
 VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
+COMPARED = ("compared",) if EXAMPLE_WRITER else ()  # results side by side
 needs_diagnoses = unittest.skipUnless(
     EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis"
 )
@@ -85,8 +86,11 @@ def page(kind):
     """Path of the built page: ctest's (make_pages.py), or one of this process."""
     if PAGES and (made := Path(PAGES) / f"{kind}.html").exists():
         return made
-    from torquescope.page import board, build, build_board
+    from torquescope.page import board, build, build_board, compare
     path = FOLDER / f"{kind}.html"
+    if kind in COMPARED:
+        path.write_text(compare.page([result("crs"), result("named"), result("none")]), encoding="utf-8")
+        return path
     text = build_board.page(board.Board(result(kind))) if kind in make_board.KINDS else build.page(study(kind))
     path.write_text(text, encoding="utf-8")
     return path

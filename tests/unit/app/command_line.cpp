@@ -82,8 +82,8 @@ TEST(CommandLine, TakesTheLettersOfCommonOptions) {
   parse_command_line({"run", "lab.toml", "-q", "-j4", "-o", "lab.h5"}, parsed);
   EXPECT_TRUE(parsed.chosen.work);
   EXPECT_TRUE(parsed.chosen.session.quiet);
-  for (std::string const name : {"init", "check", "run", "diagnose", "show", "report", "export", "merge", "status",
-                                 "submit", "simulate", "excite"}) {
+  for (std::string const name : {"init", "check", "run", "diagnose", "show", "report", "compare", "export", "merge",
+                                 "status", "submit", "simulate", "excite"}) {
     std::string const page = text_of({name, "--help"});
     EXPECT_THAT(page, HasSubstr("\n  -q, --quiet ")) << name;
     for (char const* alone : {"\n  --quiet ", "\n  --out ", "\n  --threads "})

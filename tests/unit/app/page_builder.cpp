@@ -34,6 +34,12 @@ TEST_F(PageProgram, OfTheVariableComesFirst) {
   EXPECT_EQ(find_page_program((folder_ / "mine").string(), folder_ / "build/dev/bin/torquescope"), program);
 }
 
+TEST_F(PageProgram, IsFoundByItsName) {
+  fs::path const compare = make("scripts/report/compare.py");
+  EXPECT_EQ(find_page_program("", folder_ / "build/dev/bin/torquescope", "compare.py"), compare);
+  EXPECT_EQ(find_page_program("", folder_ / "build/dev/bin/torquescope"), std::nullopt);
+}
+
 TEST_F(PageProgram, MayBeMissing) { EXPECT_EQ(find_page_program("", folder_ / "bin/torquescope"), std::nullopt); }
 
 }  // namespace page_builder_test

@@ -26,8 +26,10 @@ EXPRESSIONS = (
     (("cubic_drag",), "cubic_drag * pow(dq, 3)"),
     (("power_law_viscous", "power_law_exponent"), "s * power_law_viscous * pow(fabs(dq), power_law_exponent)"),
     (("position_friction_slope",), "s * position_friction_slope * q"),
-    (("position_friction_cos", "position_friction_order"), "s * position_friction_cos * cos(position_friction_order * q)"),
-    (("position_friction_sin", "position_friction_order"), "s * position_friction_sin * sin(position_friction_order * q)"),
+    (("position_friction_cos", "position_friction_order"),
+     "s * position_friction_cos * cos(position_friction_order * q)"),
+    (("position_friction_sin", "position_friction_order"),
+     "s * position_friction_sin * sin(position_friction_order * q)"),
     (("spring", "spring_hardening", "spring_rest"), "spring * (q + spring_hardening * pow(q - spring_rest, 3))"),
     (("spring",), "spring * q"),
     (("cogging_cos", "cogging_order"), "cogging_cos * cos(cogging_order * q)"),
@@ -113,7 +115,8 @@ def friction_table(model, fastest):
     side = fastest * np.geomspace(1e-3, 1, TABLE_POINTS)
     dq = np.concatenate([-side[::-1], [-1e-6 * fastest, 1e-6 * fastest], side])
     torque = value(friction, 0.0, dq, 0.0) * np.ones_like(dq)
-    rows = [f"velocity = [{' '.join(f'{one:.4g}' for one in dq)}];", f"friction = [{' '.join(f'{t:.4g}' for t in torque)}];"]
+    rows = [f"{name} = [{' '.join(f'{one:.4g}' for one in values)}];"
+            for name, values in (("velocity", dq), ("friction", torque))]
     rows.append("% 1-D Lookup Table: Breakpoints velocity, Table data friction, Extrapolation Linear")
     return "\n".join([*rows, ""])
 

@@ -20,7 +20,8 @@ def blocks_of_joint(study, joint):
     """Of a diagnosed joint, single or one of an arm."""
     model = joint.augmented if diagnosed.has_after(joint) and joint.augmented else joint.baseline
     found = [_new_terms(study, joint), _narrower_search(study, joint), _simulation(study, joint, model)]
-    return [one for one in found if one] + _programs(study, model, joint.name or f"joint_{joint.joint}", _fastest(joint))
+    programs = _programs(study, model, joint.name or f"joint_{joint.joint}", _fastest(joint))
+    return [one for one in found if one] + programs
 
 
 def blocks_of_study(study):
@@ -103,7 +104,8 @@ def _programs(study, model, name, fastest):
     texts = (("As a C function", "The torque from position, velocity and acceleration.",
               model_code.c_function(model, joint, study.effort)),
              ("As a joint of MJCF", "For MuJoCo.", model_code.mjcf_joint(model, name, joint)),
-             ("As a table for Simulink", "Friction over the recorded speeds, for MATLAB: what depends on the velocity alone.",
+             ("As a table for Simulink",
+              "Friction over the recorded speeds, for MATLAB: what depends on the velocity alone.",
               model_code.friction_table(model, fastest)))
     return [{"title": title, "words": words, "text": text} for title, words, text in texts if text]
 

@@ -1,7 +1,8 @@
 """Every figure of the page, one file each.
 
 A figure module has  TITLE     a heading of a few words
-                     draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080)
+                     draw()    plain arrays -> matplotlib Figure; drawn `width` px wide (352 or 1080); labels of its
+                               artists are the legend, readings.of() and note() say what a pointer reads
                      cases()   Study (or Board) -> {name: Case}: what of this file it can draw; empty when there is
                                nothing to draw
 Adding one is a file here, its name in one of the lists below, and a place in the template of its kind of result.
