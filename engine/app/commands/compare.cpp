@@ -37,8 +37,8 @@ ExitCode compare_results(CompareArguments const& arguments, Session const& sessi
 
 void add_compare(CLI::App& app, ChosenCommand& chosen) {
   auto const arguments = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Builds one HTML page with several results side by side: verdicts, errors, estimates.");
+  CLI::App* command = app.add_subcommand(
+      "compare", "Builds one HTML page with several results side by side: verdicts, errors, estimates.");
   command->footer(
       "  torquescope compare monday.h5 tuesday.h5\n"
       "  torquescope compare joint_*.h5 --out joints.html\n");

@@ -89,8 +89,7 @@ void run_page_program(std::string const& name, std::vector<std::string> const& f
                       std::string const& about) {
   auto const program = find_page_program(environment("TORQUESCOPE_SHARE"), executable_path(), name);
   if (!program)
-    throw page_problem(ExitCode::no_input,
-                       "the page builder report/" + name + " is not installed beside this program",
+    throw page_problem(ExitCode::no_input, "the page builder report/" + name + " is not installed beside this program",
                        "set TORQUESCOPE_SHARE to the folder that holds report/" + name);
   std::string const python = find_python();
   std::vector<std::string> arguments{python, program->string(), "--out=" + page.string(), "--"};

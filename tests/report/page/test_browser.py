@@ -360,6 +360,7 @@ class Page(browser.Browser):
             shown = self.script("return document.querySelector(`#${arguments[0]} svg.narrow`).textContent", figure)
             self.assertRegex(shown, r"[\d.]+ % → [\d.]+ %")
         if support.EXAMPLE_WRITER:
+            self.open("named", width=400)
             row = self.browser.find_element(By.CSS_SELECTOR, ".candidates .kept th").text
             self.assertRegex(row, r"(?s)Stribeck friction.*reversal.*q.*CV gain")
 

@@ -52,7 +52,7 @@ class Compare(unittest.TestCase):
                          {name: "no" if name == "viscous" else "yes" for name in found})
         self.assertRegex(found["inertia"][2], r"^[\d.]+ ± [\d.]+$")
         self.assertEqual(found["inertia"][2], found["inertia"][3])
-        self.assertIn("One of 4 parameters differs by more than the 95 % intervals say.", text)
+        self.assertIn("One of four parameters differs by more than the 95 % intervals say.", text)
 
     def test_files_of_one_name_have_labels_that_tell_them_apart(self):
         paths = [support.result("crs"), beside("crs", "monday"), beside("crs", "tuesday")]

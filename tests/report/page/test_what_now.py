@@ -103,6 +103,9 @@ class Lines(unittest.TestCase):
         self.assertIn("stribeck = 0.354\n", text)
         self.assertIn('effects = ["stribeck", "presliding"', found["To ask a new recording about these alone"]["text"])
 
+    def test_terms_of_the_model_are_no_candidates(self):
+        self.assertNotIn("To ask a new recording about these alone", self.blocks("insufficient"))
+
     def test_an_effect_that_can_be_a_term_becomes_one(self):
         effect = dataclasses.replace(support.study("named").diagnosis.joints[0].effects[0], name="speed_drag")
         text = self.blocks("named", effects=[effect])["To fit with it from the start"]["text"]

@@ -43,13 +43,17 @@ def _verdict(sides):
     if not told:
         sentence = f"{q.count_word(len(sides)).capitalize()} results; no parameter of two has intervals to compare."
     elif apart:
-        sentence = (f"{q.count_word(len(apart)).capitalize()} of {q.count(len(told), 'parameter')} "
+        sentence = (f"{q.count_word(len(apart)).capitalize()} of {_parameters(told)} "
                     f"differ{'s' if len(apart) == 1 else ''} by more than the 95 % intervals say.")
     else:
-        sentence = f"The 95 % intervals of all {q.count(len(told), 'parameter')} overlap."
+        sentence = f"The 95 % intervals of {'all ' if len(told) > 1 else ''}{_parameters(told)} overlap."
     evidence = f"Apart: {q.listed(_plain(name) for name in apart)}." if apart else ""
     return {"mark": "◍" if apart else "●", "word": "Side by side", "tone": "ochre" if apart else "ink",
             "sentence": sentence, "headlines": [sentence], "evidence": evidence}
+
+
+def _parameters(rows):
+    return f"{q.count_word(len(rows))} parameter{'' if len(rows) == 1 else 's'}"
 
 
 def _facts(sides):

@@ -64,7 +64,8 @@ def _new_terms(study, joint):
 
 def _narrower_search(study, joint):
     names = list(dict.fromkeys(name for effect in joint.effects for name in (effect.name, *effect.equivalent)))
-    names += [name for advice in joint.advice for name in advice.would_separate if name not in names]
+    own = _terms(study)  # what the model has already is no candidate
+    names += [name for advice in joint.advice for name in advice.would_separate if name not in (*names, *own)]
     if len(names) < 2:
         return None
     return {"title": "To ask a new recording about these alone",

@@ -24,7 +24,8 @@ def draw(rows, width=style.WIDE):
             if np.isfinite(value):
                 readings.note(axes, f"{label}, {when}: {quantities.percent(value, 3)}", at=(100 * value, y))
         if np.isfinite(floor):
-            axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1, label="_noise floor")
+            for bar in axes.barh(y, 100 * floor, 0.62, color=style.LIGHT["floor"], zorder=1):
+                bar.set_label("_noise floor")
         if np.isfinite(after):
             axes.plot([100 * before, 100 * after], [y, y], color=style.LIGHT["measured"], linewidth=2.4, zorder=2)
             axes.plot(100 * after, y, marker="o", markersize=9, color=style.LIGHT["augmented"], zorder=4,
