@@ -343,6 +343,13 @@ class Page(browser.Browser):
         self.assertEqual(pdf[:5], b"%PDF-")
         self.assertGreater(pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page "), 2)
 
+    def test_what_is_folded_away_is_as_wide_as_its_section(self):
+        self.open("crs")
+        widths = self.script("return [...document.querySelectorAll('section > details')].map((fold) => "
+                             "fold.getBoundingClientRect().width / fold.parentElement.getBoundingClientRect().width)")
+        self.assertGreater(len(widths), 1)
+        self.assertGreater(min(widths), 0.9)
+
     def test_no_estimate_is_out_of_sight_on_a_phone(self):
         """Every cell of every table stands inside the window, and so does every error beside its dots."""
         for kind in ("crs", "arm", *(("named", "compared") if support.EXAMPLE_WRITER else ())):
