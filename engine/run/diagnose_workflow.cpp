@@ -173,7 +173,7 @@ Diagnosis diagnose(Experiment const& experiment, DiagnoseRequest const& request,
   };
   Stoppable const stoppable(request.stop_requested);
   try {
-    Diagnosis const diagnosis = diagnose_into_file(
+    Diagnosis diagnosis = diagnose_into_file(
         experiment, request, [&] { return diagnose_examined(experiment, request.threads.count, exchange, sink); });
     if (shard && request.tell) request.tell("shard", shard->twins().account());
     // also what killed shards left, when one process made it all in the end

@@ -217,7 +217,7 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
       [&](std::size_t first, std::size_t count, int team) {
         return Group(stage, shape, setting).run(std::span(runs).subspan(first, count), team);
       },
-      [&](std::size_t index, History history) {
+      [&](std::size_t index, History const& history) {
         {
           std::lock_guard const alone(stage.attempt.hdf5);
           commit(runs[index], history);

@@ -22,6 +22,7 @@ PageAlignedBytes::PageAlignedBytes(std::size_t size)
   ask_for_huge_pages({bytes_.get(), size});
 }
 
+// NOLINTNEXTLINE(cppcoreguidelines-no-malloc): what aligned_alloc() gave
 void PageAlignedBytes::Free::operator()(std::byte* bytes) const noexcept { std::free(bytes); }
 
 DiskWriter::DiskWriter(Sink sink, std::size_t most_waiting) : sink_(std::move(sink)), most_waiting_(most_waiting) {

@@ -51,7 +51,7 @@ struct AttributeWriter {
 
 struct AsStored {
   OptionValue operator()(bool value) const { return static_cast<std::int64_t>(value); }
-  OptionValue operator()(std::string value) const { return value.substr(0, value.find_last_not_of('\0') + 1); }
+  OptionValue operator()(std::string const& value) const { return value.substr(0, value.find_last_not_of('\0') + 1); }
   OptionValue operator()(std::vector<std::string> values) const {
     for (auto& value : values) value.erase(value.find_last_not_of('\0') + 1);
     return values;

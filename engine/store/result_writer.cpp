@@ -270,7 +270,7 @@ std::string ResultWriter::finish() {
     guarded(path, [&, &runs = runs] { runs.blocks.put_rest(write); });
   }
   runs_.clear();
-  std::string const sha256 = digest_.hex();
+  std::string sha256 = digest_.hex();
   attribute("/", content_digest_key, sha256);
   if (h5::exists(file_, provenance_path)) attribute("/", provenance_digest_key, digest_.hex(FilePart::provenance));
   attribute("/", complete_key, std::int64_t{1});

@@ -39,7 +39,7 @@ void WrittenResult::keep_numbers(std::string const& path, std::span<double const
 }
 
 void WrittenResult::keep_texts(std::string const& path, std::vector<std::string> texts) {
-  auto const add = [](std::size_t sum, std::string const& text) { return sum + sizeof(text) + text.size(); };
+  auto const add = [](std::size_t sum, std::string const& text) { return sum + sizeof(std::string) + text.size(); };
   if (has_room(std::accumulate(texts.begin(), texts.end(), std::size_t{0}, add)))
     objects_.at(path).texts = std::move(texts);
 }
