@@ -1,7 +1,7 @@
-"""The plant that conceals physics and the engine that looks for it share nothing but the recordings.
+"""The plants that conceal physics and the engine that looks for it share nothing but the recordings.
 
-No include of engine/ or kernels/ in this folder, no engine library linked to it, and nobody but the scorer reads a
-truth.
+Of joints: this folder; of whole arms: concealed_arms. No include of engine/ or kernels/ in them, no engine library
+linked to them, and nobody but the scorers reads a truth.
 """
 
 import pathlib
@@ -10,8 +10,9 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
+PLANTS = ("concealed", "concealed_arms")
 READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
-           "independent.py"}
+           "score_arms.py", "one_arm.py", "independent.py"}
 
 
 def foreign_includes(sources):
@@ -28,11 +29,13 @@ def teeth():
 def main(root):
     teeth()
     root = pathlib.Path(root)
-    here = root / "tests" / "concealed"
-    sources = {p.relative_to(root).as_posix(): p.read_text() for p in here.rglob("*") if p.suffix in (".hpp", ".cpp")}
+    plants = [root / "tests" / name for name in PLANTS]
+    files = [path for plant in plants for path in plant.rglob("*")]
+    sources = {p.relative_to(root).as_posix(): p.read_text() for p in files if p.suffix in (".hpp", ".cpp")}
     assert len(sources) > 30, "too few sources found: is this the source tree?"
     found = foreign_includes(sources)
-    found += [f"CMakeLists.txt links {hit}" for hit in LINK.findall((here / "CMakeLists.txt").read_text())]
+    found += [f"{plant.name}/CMakeLists.txt links {hit}" for plant in plants
+              for hit in LINK.findall((plant / "CMakeLists.txt").read_text())]
     # and the other way round: the engine neither includes the plant nor knows its truth
     for folder in ("engine", "kernels", "scripts", "jobs"):
         for path in (root / folder).rglob("*"):
@@ -41,12 +44,12 @@ def main(root):
             text = path.read_text(errors="replace")
             # a person may be told where the truth lies; nothing may open it
             text = re.sub(r"^echo .*$", "", text, flags=re.MULTILINE)
-            if "truth.json" in text or re.search(r'#\s*include\s+"concealed/', text):
+            if "truth.json" in text or re.search(r'#\s*include\s+"concealed(?:_arms)?/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
-    for path in here.rglob("*.py"):
-        if "truth.json" in path.read_text() and path.name not in READERS:
+    for path in files:
+        if path.suffix == ".py" and path.name not in READERS and "truth.json" in path.read_text():
             found.append(f"{path.name} reads a truth: only the scorer may")
-    print("\n".join(found) or f"{len(sources)} sources of the concealed plant: none shares a header with the engine")
+    print("\n".join(found) or f"{len(sources)} sources of the concealed plants: none shares a header with the engine")
     return 1 if found else 0
 
 
