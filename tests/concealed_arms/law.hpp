@@ -53,8 +53,8 @@ std::vector<LawWords> const& law_words();
 LawWords const& words_of(LawKind kind);
 LawWords const& words_of(std::string const& name);  // std::invalid_argument when there is none
 
-// shape and bounds of a law at a joint; `travel` is the range of its motion [rad]. std::invalid_argument where the joint
-// cannot have it
+// shape and bounds of a law at a joint; `travel` is the range of its motion [rad]. std::invalid_argument where the
+// joint cannot have it
 Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fastest, concealed::Random& random);
 // joints that can have it
 std::vector<int> possible_joints(LawKind kind, Arm const& arm);

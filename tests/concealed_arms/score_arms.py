@@ -171,8 +171,9 @@ def score(outs, folders=None, board=None, as_markdown=False):
         print("score_arms.py: no case was made here", file=sys.stderr)
         return 66
     lines = [{"words": words, "rate": rate, "wanted": level} for words, rate, level in table(rows)]
-    (board or outs[0]).mkdir(parents=True, exist_ok=True)
-    ((board or outs[0]) / "arms_board.json").write_text(json.dumps({"schema": 1, "table": lines, "cases": rows}, indent=1))
+    place = board or outs[0]
+    place.mkdir(parents=True, exist_ok=True)
+    (place / "arms_board.json").write_text(json.dumps({"schema": 1, "table": lines, "cases": rows}, indent=1))
     print("\n".join(markdown(rows) if as_markdown else text(rows)))
     return 0
 
