@@ -1,14 +1,12 @@
 #include "concealed_arms/arm_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "concealed_arms/dry_friction.hpp"
 
 namespace concealed_arms {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 // Joint controllers: they read encoders once a tick and hold their torque
 class JointControllers {
@@ -19,11 +17,11 @@ class JointControllers {
     // stiffness for the inertia each joint has in the middle of its motion
     Eigen::VectorXd const middle = wanted.q.rowwise().mean(), rest = Eigen::VectorXd::Zero(n);
     believed_.update(middle, rest);
-    double const w = turn * plant.controller.bandwidth_hz;
+    double const w = full_turn * plant.controller.bandwidth_hz;
     stiffness_ = believed_.mass().diagonal() * (w * w);
     damping_ = believed_.mass().diagonal() * (2.0 * plant.controller.damping * w);
     integral_ = stiffness_ * (w * plant.controller.integral_share);
-    keep_ = std::exp(-turn * plant.controller.speed_filter_hz * control_s);
+    keep_ = std::exp(-full_turn * plant.controller.speed_filter_hz * control_s);
     gathered_ = rest;
     speed_ = wanted.v.col(0);
   }
@@ -34,7 +32,7 @@ class JointControllers {
     if (plant_.law && plant_.law->kind == LawKind::joint_zero) shown[plant_.law->joint] += plant_.law->size;
     if (!plant_.controller.encoder) return shown;
     for (int j = 0; j < plant_.arm.joints(); ++j) {
-      double const step = turn / plant_.arm.links[static_cast<std::size_t>(j)].counts;
+      double const step = full_turn / plant_.arm.links[static_cast<std::size_t>(j)].counts;
       shown[j] = step * std::round(shown[j] / step);
     }
     return shown;

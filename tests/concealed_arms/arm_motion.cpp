@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "concealed/noise.hpp"
 
@@ -11,8 +10,6 @@ namespace {
 
 constexpr double period_s = 10.0;
 constexpr int harmonics = 5;
-constexpr double turn = 2.0 * std::numbers::pi;
-
 int ticks() { return static_cast<int>(std::lround(recorded_s / control_s)); }
 
 ArmMotion still(int joints) {
@@ -25,11 +22,11 @@ void sines_of_joint(ArmMotion& motion, int joint, Link const& link, concealed::R
   double size[harmonics], phase[harmonics];
   for (int k = 0; k < harmonics; ++k) {
     size[k] = random.between(0.3, 1.0) / (k + 1);
-    phase[k] = random.between(0.0, turn);
+    phase[k] = random.between(0.0, full_turn);
   }
   for (int tick = 0; tick < ticks(); ++tick) {
     for (int k = 0; k < harmonics; ++k) {
-      double const w = turn * (k + 1) / period_s, angle = w * tick * control_s + phase[k];
+      double const w = full_turn * (k + 1) / period_s, angle = w * tick * control_s + phase[k];
       motion.q(joint, tick) += size[k] * std::sin(angle);
       motion.v(joint, tick) += size[k] * w * std::cos(angle);
       motion.a(joint, tick) -= size[k] * w * w * std::sin(angle);

@@ -1,6 +1,5 @@
 #include "concealed_arms/arm_numbers.hpp"
 
-#include <numbers>
 #include <stdexcept>
 
 #include "concealed/noise.hpp"

@@ -7,10 +7,13 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace concealed_arms {
+
+inline constexpr double full_turn = 2.0 * std::numbers::pi;
 
 struct Link {
   char const* name = "";

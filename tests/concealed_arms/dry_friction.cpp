@@ -1,6 +1,7 @@
 #include "concealed_arms/dry_friction.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace concealed_arms {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace concealed_arms {
@@ -89,7 +88,7 @@ Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fas
     throw std::invalid_argument(std::string("joint ") + std::to_string(joint + 1) + " of " + arm.name + " has no " +
                                 words_of(kind).name);
   Link const& link = arm.links[static_cast<std::size_t>(joint)];
-  double const turn = 2.0 * std::numbers::pi, phase = random.between(0.0, turn);
+  double const phase = random.between(0.0, full_turn);
   Law law{.kind = kind, .joint = joint};
   switch (kind) {
     case LawKind::load_friction:
@@ -114,12 +113,12 @@ Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fas
       break;
     case LawKind::position_friction:
       law.largest = 0.6 * link.coulomb;  // beyond its level, friction would push
-      law.shape = turn * random.between(0.7, 3.0) / travel;
+      law.shape = full_turn * random.between(0.7, 3.0) / travel;
       law.second = phase;
       break;
     case LawKind::cogging:
       law.largest = link.coulomb;
-      law.shape = turn * random.between(3.0, 10.0) / travel;
+      law.shape = full_turn * random.between(3.0, 10.0) / travel;
       law.second = phase;
       break;
     case LawKind::friction_of_previous:
