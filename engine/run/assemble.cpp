@@ -299,6 +299,9 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
       parts->effects = chosen_effects(parts->diagnose, parts->regressor->joint(), model.terms,
                                       section_or_empty(job, "diagnose"), problems);
     }
+    if (purpose == Purpose::diagnose)
+      refuse_too_few_twins(parts->diagnose, parts->arm ? parts->arm->model.joints() : 1,
+                           section_or_empty(job, "diagnose"), problems);
     parts->box = read_search_box(parts->parameter_names(), job.find("model.bounds"), problems);
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "engine/effects/given_effect.hpp"
 #include "engine/optim/optimiser.hpp"
@@ -98,6 +100,19 @@ std::vector<std::string> DiagnoseOptions::ablations() const {
   note("twin_noise", twin_noise, whole.twin_noise);
   note("whitening", whitening, whole.whitening);
   return found;
+}
+
+void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Section const& section,
+                          std::vector<Problem>& problems) {
+  double const level = options.q / static_cast<double>(joints);
+  if (1.0 / static_cast<double>(options.twins + 1) <= level) return;
+  auto const fewest = static_cast<std::int64_t>(std::ceil(1.0 / level - 1e-9)) - 1;
+  problems.push_back(problem_at(
+      section, "twins",
+      fmt::format("{} clean twins cannot show a chance below {:.2g}, and a name needs {:.2g}{}: none could be given",
+                  options.twins, 1.0 / static_cast<double>(options.twins + 1), level,
+                  joints > 1 ? fmt::format(" (q over {} joints)", joints) : std::string()),
+      fmt::format("write twins = {} or more", fewest)));
 }
 
 std::vector<Effect const*> chosen_effects(DiagnoseOptions const& options, JointKind joint,

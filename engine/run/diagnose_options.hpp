@@ -34,6 +34,11 @@ struct DiagnoseOptions {
   static OptionTable<DiagnoseOptions> const& table();
 };
 
+// A name needs a p of at most q over the number of joints (Bonferroni), and replicates show none below 1 / (twins + 1):
+// with fewer of them no name could ever be given
+void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Section const& section,
+                          std::vector<Problem>& problems);
+
 // the effects to look for: those named, in that order, or the whole catalogue as far as the joint can have it, without
 // the terms that the model has already. `section`: [diagnose], for the places in messages
 // laws of several joints exist in arms alone

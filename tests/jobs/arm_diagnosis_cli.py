@@ -80,6 +80,17 @@ class ArmDiagnosis(arm_cli.Arm):
         for joint in (1, 2):
             self.assertIn(f"progress stage=joint{joint}:search ", done.err)
 
+    def test_too_few_twins_for_any_name_are_refused(self):
+        """Two joints at q = 0.02: a name needs a p of 0.01, and 60 twins show none below 1 / 61."""
+        self.write("arm.csv", recording(seconds=4.0))
+        self.write("arm.toml", JOB + "q = 0.02\n")
+        done = self.here("diagnose", "arm.toml", "--out", "told.h5")
+        self.assertEqual(done.code, 78, done.err)
+        self.assertIn("arm.toml:", done.err)
+        self.assertIn("60 clean twins cannot show a chance below 0.016, and a name", done.err)
+        self.assertIn("needs 0.01 (q over 2 joints)", done.err)
+        self.assertIn("twins = 99 or more", done.err)
+
     def test_a_law_is_named_at_its_own_joint_and_the_arm_predicts_better(self):
         laws = {"spring": lambda q, _dq, _load: 1.5 * q,
                 "load_dependent_friction": lambda _q, dq, load: 0.15 * abs(load) * math.copysign(1.0, dq)}
