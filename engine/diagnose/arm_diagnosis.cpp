@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "engine/diagnose/arm_simulator.hpp"
+#include "engine/arms/arm_simulator.hpp"
+#include "engine/arms/rigid_rows.hpp"
+#include "engine/arms/whole_arm_search.hpp"
 #include "engine/diagnose/beside_shared_arm.hpp"
 #include "engine/diagnose/first_look.hpp"
-#include "engine/diagnose/rigid_rows.hpp"
+#include "engine/diagnose/whole_arm_account.hpp"
 #include "engine/pipeline/held_torque.hpp"
 #include "engine/statistics/blocked_cv.hpp"
 #include "engine/words/arm_sentences.hpp"
@@ -59,12 +61,21 @@ enum class RigidArm { shared, corrected };
 class ArmWork {
  public:
   ArmWork(ArmDiagnosisInput const& input, StageSink const& progress)
-      : input_(input), progress_(progress), filter_{input.filter, input.filter_section} {
-    if (has_simulator(input.train)) apart_ = without_simulator(input.model, input.train, input.validate, filter_);
+      : input_(input),
+        progress_(progress),
+        filter_{input.filter, input.filter_section},
+        train_(input.train),
+        unseen_(input.validate) {
+    if (!has_simulator(input.train)) return;
+    ArmWithoutSimulator apart = without_simulator(input.model, input.train, input.validate, filter_);
+    train_ = std::move(apart.train);
+    unseen_ = std::move(apart.validate);
+    parameter_share_ = std::move(apart.parameter_share);
   }
 
   Diagnosis run() {
     std::size_t const n = input_.model.joints();
+    take_laws_of_whole_arm(LawsOfJoints(n));
     arm_ = beside(LawsOfJoints(n));
     for (std::size_t j = 0; j < n; ++j) alone_.push_back(searched(j, RigidArm::shared));
     outcomes_ = alone_;
@@ -73,18 +84,63 @@ class ArmWork {
     take_laws_in_turn();
     for (std::size_t j = 0; j < n; ++j)
       if (outcomes_[j].diagnosis.verdict == Verdict::unexplained && try_beside_pilot(j)) take_laws_in_turn();
+    // what joints lacked may have hidden what the whole arm lacks
+    if (names_anything(arm_.laws) && take_laws_of_whole_arm(arm_.laws)) {
+      arm_ = beside(std::move(arm_.laws));
+      search_those_that_moved();
+      take_laws_in_turn();
+    }
     Diagnosis diagnosis;
     diagnosis.seed = input_.seed;
     diagnosis.q = input_.selection.q;
+    diagnosis.arm = account_for_whole_arm(answers_, names_of(train_), whole_arm_level());
     for (auto& outcome : outcomes_) diagnosis.joints.push_back(joint_of(outcome.diagnosis));
-    diagnosis.verdict = verdict_of_arm(diagnosis.joints);
+    diagnosis.verdict = verdict_of_arm(diagnosis.joints, diagnosis.arm->effects);
     diagnosis.reason = arm_reason_sentence(diagnosis);
     return diagnosis;
   }
 
  private:
-  std::vector<RecordedArm> const& train_files() const { return apart_ ? apart_->train : input_.train; }
-  std::vector<RecordedArm> const& unseen_files() const { return apart_ ? apart_->validate : input_.validate; }
+  double whole_arm_level() const { return whole_arm_share * input_.selection.q; }
+
+  static std::vector<std::string> names_of(std::vector<RecordedArm> const& recordings) {
+    std::vector<std::string> names;
+    for (auto const& one : recordings) names.push_back(one.joints.front().name);
+    return names;
+  }
+
+  static bool names_anything(LawsOfJoints const& laws) {
+    return std::any_of(laws.begin(), laws.end(), [](auto const& of_joint) { return !of_joint.empty(); });
+  }
+
+  // Takes out of all recordings what acts on several joints at once, as far as it shows beside laws of joints. Whether
+  // there was any
+  bool take_laws_of_whole_arm(LawsOfJoints const& beside_laws) {
+    if (progress_) progress_("whole arm", 0, 1);
+    std::vector<RecordedArm> const train = less(beside_laws);
+    WholeArmQuestion const question{
+        input_.model,      train,       unseen_,       filter_, input_.candidates.front(), input_.levels,
+        whole_arm_level(), input_.seed, input_.threads};
+    answers_.push_back(search_whole_arm(question));
+    auto const& accepted = answers_.back().accepted;
+    if (!accepted.empty()) {
+      for (std::size_t k = 0; k < train_.size(); ++k) take_out(train_[k], question, accepted, {train[k], k, false});
+      for (std::size_t k = 0; k < unseen_.size(); ++k) take_out(unseen_[k], question, accepted, {unseen_[k], k, true});
+    }
+    if (progress_) progress_("whole arm", 1, 1);
+    return !accepted.empty();
+  }
+
+  static void take_out(RecordedArm& recording, WholeArmQuestion const& question,
+                       std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
+    auto const torques = whole_arm_torques(question, accepted, of);
+    for (std::size_t j = 0; j < torques.size(); ++j) {
+      Recording& joint = recording.joints[j];
+      joint.torque -= torque_to_hold(torques[j]);
+      // it passes the gear all the same
+      joint.gear_load = joint.gear_load.size() > 0 ? (joint.gear_load + torques[j]).eval() : torques[j];
+    }
+  }
 
   static JointDiagnosis joint_of(Diagnosis& made) {
     JointDiagnosis joint = std::move(made.joints.front());
@@ -94,7 +150,7 @@ class ArmWork {
   }
 
   std::vector<RecordedArm> less(LawsOfJoints const& laws) const {
-    std::vector<RecordedArm> left = train_files();
+    std::vector<RecordedArm> left = train_;
     for (std::size_t j = 0; j < laws.size(); ++j)
       for (std::size_t k = 0; k < left.size() && !laws[j].empty(); ++k)
         left[k].joints[j].torque -= torque_to_hold(laws[j][k]);
@@ -130,9 +186,9 @@ class ArmWork {
     ArmBesideLaws arm;
     arm.fitted = fit_arm(input_.model, less(laws), filter_);
     arm.laws = std::move(laws);
-    for (auto const& recording : train_files())
+    for (auto const& recording : train_)
       arm.train.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
-    for (auto const& recording : unseen_files())
+    for (auto const& recording : unseen_)
       arm.unseen.push_back(joints_alone(input_.model, arm.fitted, recording, filter_));
     return arm;
   }
@@ -162,7 +218,7 @@ class ArmWork {
 
   // rows that the parallel filter couples, of the joints' rows
   Eigen::Index filter_memory() const {
-    Recording const& first = train_files().front().joints.front();
+    Recording const& first = train_.front().joints.front();
     Regressor const terms = own_terms(input_.model, 0);
     return guard_rows({terms, input_.filter, first.rate_hz, first.position.size(), input_.filter_section});
   }
@@ -231,7 +287,7 @@ class ArmWork {
     DiagnosisInput joint{arm_.train.front()[j], others, regressor, input_.filter, input_.filter_section};
     joint.selection = input_.selection;
     joint.selection.candidates = input_.candidates[j];
-    joint.selection.q = input_.selection.q / static_cast<double>(input_.model.joints());  // Bonferroni over joints
+    joint.selection.q = level_of_joint(input_.selection.q, input_.model.joints());
     joint.levels = input_.levels;
     joint.twins = input_.twins;
     joint.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
@@ -241,7 +297,7 @@ class ArmWork {
     joint.joint = static_cast<int>(j) + 1;
     joint.further_training = arm_.train.size() - 1;
     joint.exchange = input_.exchange;
-    if (apart_) joint.parameter_share = apart_->parameter_share[j];
+    if (!parameter_share_.empty()) joint.parameter_share = parameter_share_[j];
     StageSink const progress = of_joint(j);
     JointOutcome outcome;
     // a joint that hardly moves in one recording is no reason to say nothing of the others
@@ -264,7 +320,9 @@ class ArmWork {
   ArmDiagnosisInput const& input_;
   StageSink const& progress_;
   ArmFilter filter_;
-  std::optional<ArmWithoutSimulator> apart_{};
+  std::vector<RecordedArm> train_, unseen_;  // less what a simulator and laws of the whole arm explain
+  std::vector<double> parameter_share_{};    // [N] with a simulator
+  std::vector<WholeArmAnswer> answers_{};
   ArmBesideLaws arm_{};
   std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without laws; as it is told
   std::vector<Eigen::VectorXd> searched_on_{};      // [N] rigid torque of the last search

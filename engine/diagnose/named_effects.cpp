@@ -18,12 +18,7 @@ NamedEffect described(Selection const& selection, std::size_t i, double blocked)
   auto const& effect = *accepted.effect;
   double const residual = selection.first_energy.residual;
   EffectAccount account = account_of(*selection.final, i);
-  NamedEffect named;
-  named.name = effect.name();
-  named.family = word(effect.family());
-  named.title = effect.title();
-  named.equation = effect.equation();
-  named.acts_on = word(effect.acts_on());
+  NamedEffect named = named_after(effect);
   named.p = accepted.scan.p;
   named.q = accepted.q;
   named.z = accepted.scan.z;

@@ -4,7 +4,8 @@
 // Equation   tau_effect = columns(input, shape) * linear parameters
 // Parameters linear ones first (solved for), then shapes (searched within shape_bounds(scales)). Bounds of linear ones
 //            are plausible sizes, except 0, which is physics (sign())
-// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8; full rate, before the parallel filter
+// Shapes     columns: n_samples x n_linear(), column-major; n_linear() <= 8, of a whole arm 10; full
+//            rate, before the parallel filter
 // Units      SI of a revolute joint (N m, rad); unit_for() gives the prismatic ones (N, m)
 // Threads    const objects, any number of threads; a runner belongs to one
 // Source     each file in effects/ names its own; table of all: effects/README.md. How to add one: engine/README.md
@@ -135,6 +136,7 @@ struct EffectDescription {
   bool is_level_free =
       false;              // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
   bool is_given = false;  // columns come with the recording (given_effect.hpp)
+  bool is_of_whole_arm = false;  // acts on several joints at once, and is judged on the rows of all
   bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
 };
@@ -163,6 +165,7 @@ class Effect {
   bool is_level_free() const { return description_.is_level_free; }
   bool is_rigid_body() const { return description_.is_rigid_body; }
   bool is_given() const { return description_.is_given; }
+  bool is_of_whole_arm() const { return description_.is_of_whole_arm; }
   std::string const& plain_equation() const { return description_.plain_equation; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;

@@ -1,6 +1,6 @@
 #pragma once
 // A law of several joints, as one of them feels it: its columns come with the recording (EffectInput::given), since
-// they are functions of the other joints' motion. Looked for in whole arms alone (diagnose/arm_laws.hpp).
+// they are functions of the other joints' motion. Looked for in whole arms alone (arms/arm_laws.hpp).
 //
 // Columns    zero where the recording has none
 // Simulation in replicates, whose other joints move as recorded (simulate/lane_effect.hpp). A single joint cannot be

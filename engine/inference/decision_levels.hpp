@@ -21,6 +21,12 @@ struct DecisionLevels {
   double least_fall = 0.05;
 };
 
+// of alpha, what laws of a whole arm may spend; its joints share the rest alike (weighted Bonferroni: Genovese, Roeder,
+// Wasserman 2006, doi:10.1093/biomet/93.3.509)
+inline constexpr double whole_arm_share = 0.1;
+constexpr double level_of_joint(double alpha, std::size_t joints) {
+  return joints > 1 ? (1.0 - whole_arm_share) * alpha / static_cast<double>(joints) : alpha;
+}
 // laws of a model that is not adequate are named when they explain more of the mismatch than they leave
 inline constexpr double most_of_it = 0.5;
 // of adequacy: training rows weighed, in the torque itself, and unseen (Bonferroni)

@@ -26,23 +26,39 @@ LeftOutGains::LeftOutGains(FoldProducts const& gram, FoldProducts const& product
   }
 }
 
+LeftOutGains::Beside LeftOutGains::beside(std::size_t f, FoldProducts const& cross, FoldProducts const& own,
+                                          FoldProducts const& products) const {
+  Fit const& basis = folds_[f];
+  Eigen::MatrixXd const &outside = cross.left_out[f], &inside = cross.inside[f];  // r x k
+  Eigen::MatrixXd const u = basis.inverse * outside.transpose();                  // k x r
+  Eigen::MatrixXd const schur = seen_gram(own.left_out[f]) - outside * u;
+  Eigen::MatrixXd const crossed = inside * u;
+  return {schur.llt().solve(products.whole - products.left_out[f] + outside * basis.fit),
+          products.inside[f] - inside * basis.fit + u.transpose() * basis.left,
+          own.inside[f] + crossed + crossed.transpose() + u.transpose() * basis.gram_inside * u};
+}
+
 Eigen::MatrixXd LeftOutGains::of(FoldProducts const& cross, FoldProducts const& own,
                                  FoldProducts const& products) const {
   TORQUESCOPE_EXPECT(cross.inside.size() == folds_.size() && own.inside.size() == folds_.size());
   Eigen::MatrixXd gains(static_cast<Eigen::Index>(folds_.size()), products.whole.cols());
   for (std::size_t f = 0; f < folds_.size(); ++f) {
-    Fit const& beside = folds_[f];
-    Eigen::MatrixXd const &outside = cross.left_out[f], &inside = cross.inside[f];  // r x k
-    Eigen::MatrixXd const u = beside.inverse * outside.transpose();                 // k x r
-    Eigen::MatrixXd const schur = seen_gram(own.left_out[f]) - outside * u;
-    Eigen::MatrixXd const c = schur.llt().solve(products.whole - products.left_out[f] + outside * beside.fit);
-    Eigen::MatrixXd const with_left = products.inside[f] - inside * beside.fit + u.transpose() * beside.left;
-    Eigen::MatrixXd const crossed = inside * u;
-    Eigen::MatrixXd const square =
-        own.inside[f] + crossed + crossed.transpose() + u.transpose() * beside.gram_inside * u;
-    gains.row(static_cast<Eigen::Index>(f)) = (c.array() * (2.0 * with_left - square * c).array()).colwise().sum();
+    Beside const law = beside(f, cross, own, products);
+    gains.row(static_cast<Eigen::Index>(f)) =
+        (law.fit.array() * (2.0 * law.left - law.square * law.fit).array()).colwise().sum();
   }
   return gains;
+}
+
+Eigen::MatrixXd LeftOutGains::form(FoldProducts const& cross, FoldProducts const& own,
+                                   FoldProducts const& products) const {
+  TORQUESCOPE_EXPECT(cross.inside.size() == folds_.size() && own.inside.size() == folds_.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(products.whole.cols(), products.whole.cols());
+  for (std::size_t f = 0; f < folds_.size(); ++f) {
+    Beside const law = beside(f, cross, own, products);
+    sum += law.fit.transpose() * (2.0 * law.left - law.square * law.fit);
+  }
+  return sum;
 }
 
 }  // namespace torquescope

@@ -26,12 +26,22 @@ class LeftOutGains {
   // Returns folds x m
   Eigen::MatrixXd of(FoldProducts const& cross, FoldProducts const& own, FoldProducts const& products) const;
 
+  // Over all folds, for combinations of the signals: that with the weights w gains w' form w. m x m
+  Eigen::MatrixXd form(FoldProducts const& cross, FoldProducts const& own, FoldProducts const& products) const;
+
  private:
   struct Fit {
     Eigen::MatrixXd inverse{};      // of A, whose eigenvalues are r at least
     Eigen::MatrixXd gram_inside{};  // N_F' N_F
     Eigen::MatrixXd fit{}, left{};  // b, and N_F' (y_F - N_F b): k x m
   };
+  // of one fold: c, W' (y_F - N_F b), W' W
+  struct Beside {
+    Eigen::MatrixXd fit{}, left{}, square{};
+  };
+  Beside beside(std::size_t fold, FoldProducts const& cross, FoldProducts const& own,
+                FoldProducts const& products) const;
+
   std::vector<Fit> folds_{};
 };
 

@@ -63,7 +63,9 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
     entry.text.push_back(fmt::format("acts on    {}{}", word(effect->acts_on()),
                                      effect->is_plain_term() ? "; may be a term of [model]" : "") +
                          (effect->has_plain_form() ? fmt::format(", there {}", effect->plain_equation()) : ""));
-    if (effect->is_given()) entry.text.push_back("arms       looked for at the joints of whole arms alone");
+    if (effect->is_given())
+      entry.text.push_back(effect->is_of_whole_arm() ? "arms       looked for in all joints of a whole arm at once"
+                                                     : "arms       looked for at the joints of whole arms alone");
     if (is_time_of_a_channel(*effect))
       entry.text.push_back(
           "counted    from a drive that holds the torque of a row until the next row; where rows are instants it is "

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "engine/effects/given_effect.hpp"
+#include "engine/inference/decision_levels.hpp"
 #include "engine/optim/optimiser.hpp"
 #include "engine/pipeline/reversal_rows.hpp"
 #include "engine/twin/null_kind.hpp"
@@ -104,14 +105,14 @@ std::vector<std::string> DiagnoseOptions::ablations() const {
 
 void refuse_too_few_twins(DiagnoseOptions const& options, std::size_t joints, Section const& section,
                           std::vector<Problem>& problems) {
-  double const level = options.q / static_cast<double>(joints);
+  double const level = level_of_joint(options.q, joints);
   if (1.0 / static_cast<double>(options.twins + 1) <= level) return;
   auto const fewest = static_cast<std::int64_t>(std::ceil(1.0 / level - 1e-9)) - 1;
   problems.push_back(problem_at(
       section, "twins",
       fmt::format("{} clean twins cannot show a chance below {:.2g}, and a name needs {:.2g}{}: none could be given",
                   options.twins, 1.0 / static_cast<double>(options.twins + 1), level,
-                  joints > 1 ? fmt::format(" (q over {} joints)", joints) : std::string()),
+                  joints > 1 ? fmt::format(" (q over {} joints and the arm)", joints) : std::string()),
       fmt::format("write twins = {} or more", fewest)));
 }
 

@@ -156,11 +156,15 @@ Json finding_json(Finding const& finding) {
 }  // namespace
 
 std::string diagnosis_json(Diagnosis const& diagnosis) {
-  Json const document = {{"schema", 1},
-                         {"verdict", word(diagnosis.verdict)},
-                         {"reason", diagnosis.reason},
-                         {"findings", list(diagnosis.findings, finding_json)},
-                         {"joints", list(diagnosis.joints, joint_json)}};
+  Json document = {{"schema", 1},
+                   {"verdict", word(diagnosis.verdict)},
+                   {"reason", diagnosis.reason},
+                   {"findings", list(diagnosis.findings, finding_json)},
+                   {"joints", list(diagnosis.joints, joint_json)}};
+  if (diagnosis.arm)
+    document["arm"] = {
+        {"effects", list(diagnosis.arm->effects, [](NamedEffect const& one) { return effect_json(one, 0); })},
+        {"candidates", list(diagnosis.arm->candidates, [](Candidate const& one) { return candidate_json(one, 0); })}};
   // texts of a job may hold anything: broken UTF-8 is replaced, not refused
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

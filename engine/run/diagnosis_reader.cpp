@@ -241,6 +241,12 @@ Diagnosis read_diagnosis(ResultReader const& reader) {
   diagnosis.q = in.number(root, "q");
   for (auto const& group : in.numbered(root, "joint")) diagnosis.joints.push_back(read_joint(in, group));
   read_verdicts(in, diagnosis);
+  std::string const arm = std::string(root) + "/arm";
+  if (in.exists(arm)) {
+    diagnosis.arm = WholeArmDiagnosis{{}, read_candidates(in, arm + "/candidates")};
+    for (auto const& effect : in.numbered(arm + "/effects", "effect"))
+      diagnosis.arm->effects.push_back(read_effect(in, effect));
+  }
   return diagnosis;
 }
 

@@ -12,18 +12,12 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 std::string standing_text(DiagnosisStanding const& standing) {
-  Json const text = {{"diagnosis", standing.job},
-                     {"inputs_sha256", standing.inputs_sha256},
-                     {"shard", standing.shard},
-                     {"shards", standing.shards},
-                     {"began", standing.began},
-                     {"told", standing.told},
-                     {"stage", standing.stage},
-                     {"counted", standing.counted},
-                     {"done", standing.done},
-                     {"total", standing.total},
-                     {"seconds", standing.seconds},
-                     {"expected_seconds", standing.expected_seconds}};
+  Json const text = {{"diagnosis", standing.job},   {"inputs_sha256", standing.inputs_sha256},
+                     {"shard", standing.shard},     {"shards", standing.shards},
+                     {"began", standing.began},     {"told", standing.told},
+                     {"stage", standing.stage},     {"counted", standing.counted},
+                     {"done", standing.done},       {"total", standing.total},
+                     {"seconds", standing.seconds}, {"expected_seconds", standing.expected_seconds}};
   return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -288,6 +288,11 @@ void write_diagnosis(ResultWriter& writer, Diagnosis const& diagnosis) {
   writer.attribute(group, "joints", static_cast<std::int64_t>(diagnosis.joints.size()));
   writer.texts(group + "/verdict_json", std::vector<std::string>{diagnosis_json(diagnosis)},
                {"1", "the verdict as the JSON document of torquescope diagnose --json"});
+  if (diagnosis.arm) {
+    write_candidates(writer, group + "/arm/candidates", diagnosis.arm->candidates);
+    for (std::size_t i = 0; i < diagnosis.arm->effects.size(); ++i)
+      write_effect(writer, fmt::format("{}/arm/effects/effect_{}", group, i + 1), diagnosis.arm->effects[i], "N m");
+  }
   for (std::size_t i = 0; i < diagnosis.joints.size(); ++i)
     write_joint(writer, fmt::format("{}/joint_{}", group, i + 1), diagnosis.joints[i]);
 }

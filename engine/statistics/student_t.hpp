@@ -10,6 +10,7 @@
 namespace torquescope {
 
 inline constexpr double normal_quantile_95 = 1.6448536269514722;
+inline constexpr double normal_quantile_975 = 1.959963984540054;
 
 // z: the normal quantile of the same chance
 double student_t_quantile(double z, double degrees_of_freedom);

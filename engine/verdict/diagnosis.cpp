@@ -47,6 +47,16 @@ std::string word(Decision decision) {
   return {};
 }
 
+NamedEffect named_after(Effect const& effect) {
+  NamedEffect named;
+  named.name = effect.name();
+  named.family = word(effect.family());
+  named.title = effect.title();
+  named.equation = effect.equation();
+  named.acts_on = word(effect.acts_on());
+  return named;
+}
+
 bool is_fault(NamedEffect const& effect) {
   bool const acts_on_a_channel = !effect.acts_on.empty() && effect.acts_on != word(ActsOn::joint);
   return acts_on_a_channel && std::none_of(effect.equivalent.begin(), effect.equivalent.end(), [](auto const& name) {
@@ -64,12 +74,15 @@ bool looks_at_less_than_half(JointDiagnosis const& joint) {
   return joint.train_left_out.energy > half || joint.validation_left_out.energy > half;
 }
 
-Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints) {
+Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints, std::vector<NamedEffect> const& of_the_arm) {
   auto const any = [&](Verdict verdict) {
     return std::any_of(joints.begin(), joints.end(), [&](auto const& joint) { return joint.verdict == verdict; });
   };
   bool const has_riddle = any(Verdict::unexplained) || any(Verdict::data_fault) || any(Verdict::partly);
-  bool const has_class = any(Verdict::one_of_class), has_name = any(Verdict::named);
+  bool const arm_has_class =
+      std::any_of(of_the_arm.begin(), of_the_arm.end(), [](NamedEffect const& one) { return !one.equivalent.empty(); });
+  bool const has_class = any(Verdict::one_of_class) || arm_has_class;
+  bool const has_name = any(Verdict::named) || !of_the_arm.empty();
   if (any(Verdict::partly) || ((has_class || has_name) && has_riddle)) return Verdict::partly;
   if (has_class) return Verdict::one_of_class;
   if (has_name) return Verdict::named;

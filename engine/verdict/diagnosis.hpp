@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,6 +123,10 @@ struct NamedEffect {
   std::string sentence{};
   EffectCurve curve{};
 };
+
+class Effect;
+// what the catalogue says of it, nothing found yet
+NamedEffect named_after(Effect const& effect);
 
 // of a recorded channel, not physics of the joint; nor may any effect that cannot be excluded be physics
 bool is_fault(NamedEffect const& effect);
@@ -238,6 +243,12 @@ std::string which_joint(JointDiagnosis const& joint);
 // whether the rows that were looked at hold less than half of the residual's energy, in training or unseen
 bool looks_at_less_than_half(JointDiagnosis const& joint);
 
+// of an arm: laws that act on several joints at once
+struct WholeArmDiagnosis {
+  std::vector<NamedEffect> effects{};   // in the order of acceptance
+  std::vector<Candidate> candidates{};  // strongest first
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::none;
   std::string reason;     // one sentence for a person
@@ -245,11 +256,13 @@ struct Diagnosis {
   std::string way_out{};  // data_fault, insufficient: what to do
   std::vector<Finding> findings{};  // of the examination of the recordings
   std::vector<JointDiagnosis> joints{};
+  std::optional<WholeArmDiagnosis> arm{};  // none: of one joint
   std::uint64_t seed = 0;
   double q = 0.05;
 };
 
-// of an arm, from those of its joints: a name counts as the whole answer only where no joint is left with a riddle
-Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints);
+// of an arm, from those of its joints and the laws of the whole: a name counts as the whole answer only where no joint
+// is left with a riddle
+Verdict verdict_of_arm(std::vector<JointDiagnosis> const& joints, std::vector<NamedEffect> const& of_the_arm = {});
 
 }  // namespace torquescope

@@ -74,6 +74,30 @@ double over_joints(std::vector<JointDiagnosis> const& joints, double JointDiagno
 
 }  // namespace
 
+std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& facts) {
+  std::vector<std::string> values, alike{effect.title};
+  for (auto const& one : effect.parameters) {
+    double const half = 0.5 * (one.upper - one.lower);
+    std::string const spread = std::isfinite(half) ? " +- " + quantity_text(half, one.unit) : "";
+    if (one.unit != "s") values.push_back(fmt::format("{} {}{}", one.name, quantity_text(one.value, one.unit), spread));
+  }
+  for (auto const& other : effect.equivalent) alike.push_back(in_words(other));
+  bool const has_begin = std::isfinite(facts.from_s), has_end = std::isfinite(facts.until_s);
+  std::string when;
+  if (has_begin && has_end)
+    when = fmt::format("{} of {} ", between_text(facts.from_s, facts.until_s, "s"), facts.recording);
+  if (has_begin && !has_end) when = fmt::format("from {} of {} on ", quantity_text(facts.from_s, "s"), facts.recording);
+  if (!has_begin && has_end) when = fmt::format("up to {} of {} ", quantity_text(facts.until_s, "s"), facts.recording);
+  when += "all joints feel ";
+  when.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(when.front())));
+  std::string text = fmt::format("{}{} ({}): on rows left out relerr over all joints falls from {} to {}", when,
+                                 name_list(alike, "or"), fmt::join(values, ", "), percent_text(facts.before),
+                                 percent_text(facts.after));
+  if (facts.unseen_before > 0.0)
+    text += fmt::format(", unseen from {} to {}", percent_text(facts.unseen_before), percent_text(facts.unseen_after));
+  return text + ".";
+}
+
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
   return fmt::format("{} {} too few rows of this joint moving one way to judge it.", name_list(recordings, "and"),
                      recordings.size() == 1 ? "has" : "have");
@@ -87,6 +111,8 @@ std::string arm_reason_sentence(Diagnosis const& diagnosis) {
   }
   if (!text.empty())
     text = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front()))) + text.substr(1) + ".";
+  if (diagnosis.arm)
+    for (auto const& effect : diagnosis.arm->effects) text += (text.empty() ? "" : " ") + effect.sentence;
   double const before = over_joints(diagnosis.joints, &JointDiagnosis::validation_relerr),
                after = over_joints(diagnosis.joints, &JointDiagnosis::augmented_validation_relerr);
   if (!std::isfinite(before)) return text;

@@ -5,8 +5,8 @@
 OUT is a folder of run_arm_suite.py; several are the shards of one suite. FOLDER (default: the first OUT) takes
 arms_board.json. A verdict that is missing counts as a failure and as a false name.
 
-    right joint     a name at the concealed joint, and at no other; of what the whole arm has (gravity_direction), the
-                    law or a class with it at every joint that has a name, and at one at least
+    right joint     a name at the concealed joint, and at no other. Names of the whole arm count as of joint 0; of a
+                    law that the whole arm has (gravity_direction, joint_zero) it is a name there, and at no joint
     right family    the first name there is of a family the law may answer to, or a class with the law
     exact or class  the law itself, or a class with it
     false name      at a joint that has nothing, or a law of no family that answers (of a decoy: any name but those of
@@ -38,10 +38,16 @@ def seal(out, folder):
     return hashlib.sha256(truth_path(out, folder).read_bytes()).hexdigest()
 
 
+WHOLE_ARM = 0
+LAWS_OF_THE_ARM = ("gravity_direction", "joint_zero")
+
+
 def named_at(verdict):
-    """{joint: [(name, family, the names of its class)]} of the joints that have names."""
-    return {one["joint"]: [(e["name"], e["family"], {e["name"], *e["equivalent"]}) for e in one["effects"]]
-            for one in verdict["joints"] if one["effects"]}
+    """{joint: [(name, family, the names of its class)]} of the joints that have names; 0: of the whole arm."""
+    of_all = {WHOLE_ARM: verdict.get("arm", {}).get("effects", []),
+              **{one["joint"]: one["effects"] for one in verdict["joints"]}}
+    return {joint: [(e["name"], e["family"], {e["name"], *e["equivalent"]}) for e in effects]
+            for joint, effects in of_all.items() if effects}
 
 
 def answers(effect, truth):
@@ -51,12 +57,9 @@ def answers(effect, truth):
 
 
 def judged_law(truth, named, row):
-    """A law of the whole arm is joint 0: it may be found wherever it acts."""
-    own = [joint for joint in named if joint == truth["joint"] or truth["joint"] == 0]
+    place = WHOLE_ARM if truth["law"] in LAWS_OF_THE_ARM else truth["joint"]
+    own = [joint for joint in named if joint == place]
     first = [named[joint][0] for joint in own]
-    if truth["joint"] == 0:
-        own = [joint for joint in own if any(truth["law"] in kin for _, _, kin in named[joint])]
-        first = [next(e for e in named[joint] if truth["law"] in e[2]) for joint in own]
     others = set(named) - set(own)
     row["right_joint"] = bool(own) and not others
     row["right_family"] = row["right_joint"] and answers(first[0], truth)

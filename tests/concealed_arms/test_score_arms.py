@@ -19,11 +19,12 @@ SWAPPED = truth("decoy", decoy="swapped", joint=2, other=3, may_name=[])
 
 
 def said(word="named", verdicts=("none", "none", "none"), **names):
-    """names: j2=[("spring", "static_position", "cable")]: name, family, the rest of the class"""
+    """names: j2=[("spring", "static_position", "cable")], arm=[...]: name, family, the rest of the class"""
     joints = [{"joint": j, "verdict": verdicts[j - 1],
                "effects": [{"name": name, "family": family, "equivalent": kin}
                            for name, family, *kin in names.get(f"j{j}", [])]} for j in (1, 2, 3)]
-    return {"verdict": word, "reason": "", "joints": joints}
+    whole = [{"name": name, "family": family, "equivalent": kin} for name, family, *kin in names.get("arm", [])]
+    return {"verdict": word, "reason": "", "joints": joints, "arm": {"effects": whole}}
 
 
 def judged(one_truth, verdict):
@@ -46,10 +47,14 @@ def laws():
 
 
 def the_whole_arm():
-    tilt, spring = ("gravity_direction", "static_position"), ("spring", "static_position")
-    assert judged(TILT, said(j1=[tilt], j3=[(*spring, "gravity_direction")])) == [True, True, True, False, []]
-    assert judged(TILT, said(j1=[tilt], j2=[spring])) == [False, False, False, False, [2]]
+    tilt, zero, spring = (("gravity_direction", "static_position"), ("joint_zero", "static_position"),
+                          ("spring", "static_position"))
+    assert judged(TILT, said(arm=[tilt])) == [True, True, True, False, []]
+    assert judged(TILT, said(arm=[(*zero, "gravity_direction")])) == [True, True, True, False, []], "a class with it"
+    assert judged(TILT, said(arm=[tilt], j2=[spring])) == [False, False, False, False, [2]]
+    assert judged(TILT, said(j2=[spring])) == [False, False, False, False, [2]], "of one joint alone"
     assert judged(TILT, said("none")) == [False, False, False, False, []]
+    assert judged(SPRING, said(arm=[tilt])) == [False, False, False, False, [0]]
 
 
 def decoys():

@@ -83,9 +83,9 @@ def two_sines(t, a, wa, b, wb, phase):
     return q, dq, ddq
 
 
-def torques(first, second):
+def torques(first, second, p=None):
     (q1, dq1, ddq1), (q2, dq2, ddq2) = first, second
-    p, g = TRUTH, 9.81
+    p, g = p or TRUTH, 9.81
     bend = LENGTH * p["mx2"] * math.cos(q2)
     swing = LENGTH * p["mx2"] * math.sin(q2)
     weight = g * p["mx2"] * math.cos(q1 + q2)

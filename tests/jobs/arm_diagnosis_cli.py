@@ -23,10 +23,12 @@ twins = 60
 """
 
 
-def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None, simulator=None, everywhere=None):
+def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None, simulator=None, everywhere=None,
+              seed=7):
     """law: (q, dq, torque that the rigid joint needs) -> torque in addition; other: of the other joint's speed.
-    simulator: (both motions) -> both torques, in two more columns; everywhere: the same, in addition to the truth."""
-    noise = random.Random(7)
+    simulator: (both motions) -> both torques, in two more columns; everywhere: the same at a time, in
+    addition to the truth."""
+    noise = random.Random(seed)
     lines = ["t_s,q1_rad,q2_rad,i1_A,i2_A" + (",s1_Nm,s2_Nm" if simulator else "")]
     for k in range(int(seconds * rate_hz)):
         t = k / rate_hz
@@ -41,16 +43,26 @@ def recording(law=None, joint=2, seconds=40.0, rate_hz=200.0, other=None, simula
         if other:
             tau[joint - 1] += other(moves[2 - joint][1])
         if everywhere:
-            tau = [value + more for value, more in zip(tau, everywhere(moves))]
+            tau = [value + more for value, more in zip(tau, everywhere(moves, t))]
         current = [value / gain + noise.gauss(0.0, 0.02) for value, gain in zip(tau, arm_cli.GAIN)]
         simulated = "".join(f",{value:.7f}" for value in simulator(moves)) if simulator else ""
         lines.append(f"{t:.4f},{moves[0][0]:.9f},{moves[1][0]:.9f},{current[0]:.7f},{current[1]:.7f}{simulated}")
     return "\n".join(lines) + "\n"
 
 
-def shoulder_spring(moves):
+def shoulder_spring(moves, _t=None):
     """A law of the machine that its user knows: a counterbalance at the shoulder."""
     return 6.0 * moves[0][0], 0.0
+
+
+def picked_up(moves, t, mass=1.2, at=0.35, when=9.0):
+    """A point mass on the second link, from an instant on."""
+    if t < when:
+        return 0.0, 0.0
+    truth, length = arm_cli.TRUTH, arm_cli.LENGTH
+    heavier = dict(truth, zzr1=truth["zzr1"] + mass * length**2, mxr1=truth["mxr1"] + mass * length,
+                   zz2=truth["zz2"] + mass * at**2, mx2=truth["mx2"] + mass * at)
+    return [with_it - without for with_it, without in zip(arm_cli.torques(*moves, heavier), arm_cli.torques(*moves))]
 
 
 def users_simulator(moves):
@@ -81,15 +93,15 @@ class ArmDiagnosis(arm_cli.Arm):
             self.assertIn(f"progress stage=joint{joint}:search ", done.err)
 
     def test_too_few_twins_for_any_name_are_refused(self):
-        """Two joints at q = 0.02: a name needs a p of 0.01, and 60 twins show none below 1 / 61."""
+        """Two joints at q = 0.02: a name needs a p of 0.009, and 60 twins show none below 1 / 61."""
         self.write("arm.csv", recording(seconds=4.0))
         self.write("arm.toml", JOB + "q = 0.02\n")
         done = self.here("diagnose", "arm.toml", "--out", "told.h5")
         self.assertEqual(done.code, 78, done.err)
         self.assertIn("arm.toml:", done.err)
         self.assertIn("60 clean twins cannot show a chance below 0.016, and a name", done.err)
-        self.assertIn("needs 0.01 (q over 2 joints)", done.err)
-        self.assertIn("twins = 99 or more", done.err)
+        self.assertIn("needs 0.009 (q over 2 joints and the arm)", done.err)
+        self.assertIn("twins = 111 or more", done.err)
 
     def test_a_law_is_named_at_its_own_joint_and_the_arm_predicts_better(self):
         laws = {"spring": lambda q, _dq, _load: 1.5 * q,
@@ -143,6 +155,30 @@ class ArmDiagnosis(arm_cli.Arm):
         self.assertEqual(first["effects"], [], told["reason"])
         self.assertEqual([one["name"] for one in second["effects"]], ["load_dependent_friction"], told["reason"])
         self.assertLess(second["budget"]["parameter_error"], 0.9)
+
+    def test_a_payload_picked_up_is_named_with_its_instant(self):
+        """Both joints feel it at once: its numbers are of the arm, and no joint gets a name for it."""
+        job = JOB.replace('"spring", ', '"spring", "payload_change", "payload_picked_up", "gravity_direction", ')
+        job = job.replace("train_share = 0.6", 'validate = "bare.csv"\ndelay_s = -0.0025')
+        self.write("bare.csv", recording(seconds=16.0, seed=8))
+        _, told = self.said_of(recording(everywhere=picked_up, seconds=24.0), job)
+        self.assertEqual([joint["effects"] for joint in told["joints"]], [[], []], told["reason"])
+        [payload] = told["arm"]["effects"]
+        self.assertEqual([payload["name"], payload["equivalent"]], ["payload_picked_up", []])
+        values = {one["name"]: one["value"] for one in payload["parameters"]}
+        self.assertAlmostEqual(values["payload_mass"], 1.2, delta=0.03)
+        self.assertAlmostEqual(values["payload_mx"], 1.2 * 0.35, delta=0.01)
+        self.assertAlmostEqual(values["payload_from"], 9.0, delta=0.1)
+        self.assertNotIn("payload_until", values)
+        self.assertEqual(told["verdict"], "named")
+        self.assertIn("of arm.csv on all joints feel a payload", told["reason"])
+        looked_at = {one["name"]: one["decision"] for one in told["arm"]["candidates"]}
+        self.assertEqual(looked_at, {"payload_picked_up": "named", "gravity_direction": "no"})
+        shown = self.here("show", "told.h5")
+        self.assertIn("a payload of the last link, picked up or put down", shown.out)
+        with h5py.File(os.path.join(self.folder, "told.h5"), "r", locking=False) as result:
+            kept = result["diagnosis/arm/effects/effect_1"].attrs
+            self.assertEqual(kept["name"].decode(), "payload_picked_up")
 
     def test_a_law_of_several_joints_is_no_term_of_one(self):
         self.write("arm.csv", recording(seconds=1.0))

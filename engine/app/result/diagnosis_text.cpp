@@ -138,6 +138,11 @@ std::string verdict_of_joint(JointDiagnosis const& joint, bool utf8, Ink const& 
 
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
   std::string text;
+  if (diagnosis.arm && !diagnosis.arm->candidates.empty()) {
+    JointDiagnosis whole;
+    whole.candidates = diagnosis.arm->candidates;
+    text += "\n" + ink.bold("whole arm") + "\n" + candidates_text(whole, options.all_candidates);
+  }
   for (auto const& joint : diagnosis.joints) {
     bool const is_one_of_many = !joint.reason.empty();
     Verdict const verdict = is_one_of_many ? joint.verdict : diagnosis.verdict;

@@ -18,7 +18,8 @@ Effect const& gravity_direction() {
        .separated_by = "slow motions through poses all over the workspace",
        .parameters = {{"tilt_1", "rad", "rad", {-0.5}, {0.5}}, {"tilt_2", "rad", "rad", {-0.5}, {0.5}}},
        .families = {EffectFamily::static_position},
-       .signature = {SignatureAxis::position}});
+       .signature = {SignatureAxis::position},
+       .is_of_whole_arm = true});
   return effect;
 }
 

@@ -15,7 +15,8 @@ Effect const& joint_zero() {
                                    .separated_by = "slow motions through poses all over the joint's range",
                                    .parameters = {{"zero", "rad", "m", {-0.5}, {0.5}}},
                                    .families = {EffectFamily::static_position},
-                                   .signature = {SignatureAxis::position}});
+                                   .signature = {SignatureAxis::position},
+                                   .is_of_whole_arm = true});
   return effect;
 }
 

@@ -66,15 +66,21 @@ def _parameters_of_diagnosis(result):
 def _effects(result):
     keys = ("family", "title", "p", "p_is_bound", "q", "z", "gain_train", "gain_cv", "gain_validation", "rms", "peak",
             "is_fault", "sentence")
-    return [{"joint": joint.joint, "effect": one.name, **{key: getattr(one, key) for key in keys},
+    return [{"joint": number, "effect": one.name, **{key: getattr(one, key) for key in keys},
              "equivalent": ", ".join(one.equivalent)}
-            for joint in result.joints for one in joint.effects], ["joint", "effect"]
+            for number, of in _with_the_arm(result) for one in of.effects], ["joint", "effect"]
+
+
+def _with_the_arm(result):
+    """(number, what has effects and candidates): the whole arm as joint 0, then its joints."""
+    arm = result.diagnosis.arm if result.diagnosis else None
+    return [*([(0, arm)] if arm else []), *((joint.joint, joint) for joint in result.joints)]
 
 
 def _candidates(result):
     keys = ("family", "decision", "reason", "z", "p", "p_is_bound", "q", "gain", "cv_gain", "chance_z")
-    return [{"joint": joint.joint, "effect": one.name, **{key: getattr(one, key) for key in keys}}
-            for joint in result.joints for one in joint.candidates], ["joint", "effect"]
+    return [{"joint": number, "effect": one.name, **{key: getattr(one, key) for key in keys}}
+            for number, of in _with_the_arm(result) for one in of.candidates], ["joint", "effect"]
 
 
 def _map(result):

@@ -54,8 +54,9 @@ class Result(read_result.Result):
 
     @property
     def effects(self) -> list[NamedEffect]:
-        """Of all joints, in the order of acceptance."""
-        return [effect for joint in self.joints for effect in joint.effects]
+        """Of the whole arm, then of all joints, in the order of acceptance."""
+        arm = self.diagnosis.arm if self.diagnosis else None
+        return [*(arm.effects if arm else []), *(effect for joint in self.joints for effect in joint.effects)]
 
     @property
     def parameters(self) -> dict[str, Parameter]:

@@ -44,6 +44,8 @@ TITLES = {
     "inertia_of_previous_joint": "inertia shared with the drive of the previous joint",
     "gravity_direction": "a base that is tilted against the robot file's gravity",
     "joint_zero": "an encoder's zero that differs from the robot file's",
+    "payload_picked_up": "a payload of the last link, picked up or put down",
+    "tip_contact": "a constant force on the last link for some time",
 }
 TERMS = ("inertia", "viscous", "coulomb_positive", "coulomb_negative", "coulomb", "offset", "gravity",
          "asymmetric_viscous", "speed_drag", "spring")

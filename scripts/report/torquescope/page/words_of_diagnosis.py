@@ -56,7 +56,8 @@ def kept_together(text):
 
 def _set(found):
     sentences = _SENTENCE.split(found.reason)
-    effects = {name: effect for joint in found.joints for effect in joint.effects for name in [effect.sentence.strip()]}
+    places = [*found.joints, *([found.arm] if found.arm else [])]
+    effects = {effect.sentence.strip(): effect for place in places for effect in place.effects}
     headlines, evidence = [], []
     for number, sentence in enumerate(sentences):
         is_effect = sentence in effects

@@ -210,6 +210,13 @@ class Joint:
 
 
 @dataclass
+class WholeArm:
+    """Laws that act on several joints at once."""
+    effects: list  # [NamedEffect] in the order of acceptance
+    candidates: list  # [Candidate] strongest first
+
+
+@dataclass
 class Diagnosis:
     verdict: str  # "none", "named", "class", "partly", "unexplained", "insufficient", "data_fault"
     reason: str
@@ -219,3 +226,4 @@ class Diagnosis:
     q: float
     verdict_json: str  # the document of diagnose --json
     joints: list
+    arm: "WholeArm | None" = None  # of an arm

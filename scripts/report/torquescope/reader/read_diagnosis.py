@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from .diagnosis_records import (Advice, Candidate, Curve, Diagnosis, Forward, Interval, Joint, MapRow, NamedEffect,
-                               Parameter, Region, Trace)
+                               Parameter, Region, Trace, WholeArm)
 
 UNKNOWN = math.nan
 
@@ -26,7 +26,14 @@ def read_diagnosis(group):
     joints = [_joint(getattr(group, f"joint_{number}")) for number in range(1, group.joints + 1)]
     texts = {key: group.get(key, "") for key in ("verdict", "reason", "finding", "way_out")}
     json = str(group.verdict_json[0]) if "verdict_json" in group else ""
-    return Diagnosis(**texts, seed=group.seed, q=group.q, verdict_json=json, joints=joints)
+    return Diagnosis(**texts, seed=group.seed, q=group.q, verdict_json=json, joints=joints, arm=_arm(group.get("arm")))
+
+
+def _arm(group):
+    if group is None:
+        return None
+    effects = [_effect(one, 0) for one in _numbered(group.get("effects"), "effect")]
+    return WholeArm(effects, _candidates(group.get("candidates"), 0))
 
 
 def _joint(group):

@@ -1,4 +1,4 @@
-#include "engine/diagnose/rigid_corrections.hpp"
+#include "engine/arms/rigid_corrections.hpp"
 
 #include <string>
 

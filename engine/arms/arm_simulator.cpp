@@ -1,4 +1,4 @@
-#include "engine/diagnose/arm_simulator.hpp"
+#include "engine/arms/arm_simulator.hpp"
 
 #include <algorithm>
 

@@ -20,18 +20,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/data/motion.hpp"
-#include "engine/diagnose/rigid_corrections.hpp"
+#include "engine/arms/filtered_arm.hpp"
+#include "engine/arms/rigid_corrections.hpp"
 #include "engine/problem/arm_model.hpp"
 #include "engine/problem/recorded_arm.hpp"
 
 namespace torquescope {
-
-// what all recordings share; outlives what is made with it
-struct ArmFilter {
-  FilterOptions const& options;
-  Section const& section;
-};
 
 struct FittedArm {
   Eigen::VectorXd parameters;    // [R] of the model

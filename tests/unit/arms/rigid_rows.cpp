@@ -1,7 +1,7 @@
 // An arm told apart into joints: what is left to each is its own equation of motion, by an inverse dynamics that the
 // columns of the fit share nothing with.
 
-#include "engine/diagnose/rigid_rows.hpp"
+#include "engine/arms/rigid_rows.hpp"
 
 #include <gtest/gtest.h>
 

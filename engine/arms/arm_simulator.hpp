@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/diagnose/rigid_rows.hpp"
+#include "engine/arms/rigid_rows.hpp"
 
 namespace torquescope {
 

@@ -1,10 +1,10 @@
-#include "engine/diagnose/rigid_rows.hpp"
+#include "engine/arms/rigid_rows.hpp"
 
 #include <algorithm>
 #include <memory>
 
+#include "engine/arms/arm_laws.hpp"
 #include "engine/data/filter_checks.hpp"
-#include "engine/diagnose/arm_laws.hpp"
 #include "engine/pipeline/held_torque.hpp"
 #include "engine/pipeline/reversal_mask.hpp"
 #include "engine/problem/arm_regression.hpp"
@@ -18,21 +18,6 @@
 
 namespace torquescope {
 namespace {
-
-std::vector<Motion> motion_of(RecordedArm const& recording, ArmFilter const& filter) {
-  std::vector<Motion> motion;
-  for (auto const& joint : recording.joints) motion.push_back(differentiate(joint, filter.options, filter.section));
-  return motion;
-}
-
-RecordedRows rows_of(ArmModel const& model, RecordedArm const& recording, ArmFilter const& filter) {
-  auto const motion = motion_of(recording, filter);
-  std::vector<std::vector<bool>> moves;
-  for (auto const& joint : motion)
-    moves.push_back(moving_samples(joint.dq, joint.rate_hz, parallel_cutoff_of(filter.options)));
-  return make_recorded_rows(recording.joints.front().name, motion, moves, filter.options, model, filter.section,
-                            recording.payload);
-}
 
 // [N] means of M_jj over instants spread evenly over the recordings
 Eigen::VectorXd mean_inertias(ArmModel const& model, Eigen::VectorXd const& parameters,
@@ -89,7 +74,8 @@ struct RowFit {
 RowFit rows_to_fit(ArmModel const& model, std::span<RecordedArm const> recordings, ArmFilter const& filter,
                    std::optional<Eigen::VectorXd> const& deviation) {
   std::vector<RecordedRows> rows;
-  for (auto const& recording : recordings) rows.push_back(rows_of(model, recording, filter));
+  for (auto const& recording : recordings)
+    rows.push_back(rows_of(model, recording, motion_of(recording, filter), filter));
   RowFit fit;
   fit.grams = filtered_grams(rows, model);
   fit.noise = deviation ? *deviation : noise_levels(fit.grams, static_cast<Eigen::Index>(model.size())).deviation;
@@ -162,7 +148,7 @@ std::vector<Recording> joints_alone(ArmModel const& model, FittedArm const& fitt
   auto const motion = motion_of(recording, filter);
   auto const rows = model.rows(motion, recording.payload);
   std::vector<Recording> alone = recording.joints;
-  auto laws = arm_law_signals(model, fitted.parameters, motion);
+  auto laws = arm_law_signals(model, motion);
   for (std::size_t j = 0; j < alone.size(); ++j) {
     Eigen::VectorXd beside = rigid_torque(model, fitted.parameters, j, rows[j]);
     if (recording.payload) beside += model.known_torque(j, rows[j], *recording.payload);

@@ -1,0 +1,23 @@
+#include "engine/arms/filtered_arm.hpp"
+
+#include "engine/data/filter_checks.hpp"
+#include "engine/pipeline/reversal_mask.hpp"
+
+namespace torquescope {
+
+std::vector<Motion> motion_of(RecordedArm const& recording, ArmFilter const& filter) {
+  std::vector<Motion> motion;
+  for (auto const& joint : recording.joints) motion.push_back(differentiate(joint, filter.options, filter.section));
+  return motion;
+}
+
+RecordedRows rows_of(ArmModel const& model, RecordedArm const& recording, std::vector<Motion> const& motion,
+                     ArmFilter const& filter) {
+  std::vector<std::vector<bool>> moves;
+  for (auto const& joint : motion)
+    moves.push_back(moving_samples(joint.dq, joint.rate_hz, parallel_cutoff_of(filter.options)));
+  return make_recorded_rows(recording.joints.front().name, motion, moves, filter.options, model, filter.section,
+                            recording.payload);
+}
+
+}  // namespace torquescope

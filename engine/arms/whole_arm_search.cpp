@@ -1,0 +1,275 @@
+#include "engine/arms/whole_arm_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/statistics/bounded_projection.hpp"
+#include "engine/statistics/scaled_solution.hpp"
+
+namespace torquescope {
+namespace {
+
+Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& more) {
+  Eigen::MatrixXd both(basis.rows(), basis.cols() + more.cols());
+  both << basis, more;
+  return both;
+}
+
+// energy of noise on the rows of a stretch of one joint after the other, from rows that follow each other
+double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, RowBlock const& block,
+                    std::size_t joints) {
+  std::vector<Eigen::Index> last(joints, -1);
+  std::vector<double> squares(joints, 0.0), pairs(joints, 0.0), count(joints, 0.0);
+  for (Eigen::Index i = block.from; i < block.to; ++i) {
+    ArmRow const& row = rows.rows[static_cast<std::size_t>(i)];
+    count[row.joint] += 1.0;
+    Eigen::Index& before = last[row.joint];
+    if (before >= 0 && rows.rows[static_cast<std::size_t>(before)].instant + 1 == row.instant) {
+      double const step = residual[i] - residual[before];
+      squares[row.joint] += step * step;
+      pairs[row.joint] += 1.0;
+    }
+    before = i;
+  }
+  double energy = 0.0;
+  for (std::size_t j = 0; j < joints; ++j)
+    if (pairs[j] > 0.0) energy += count[j] * squares[j] / (2.0 * pairs[j]);
+  return energy;
+}
+
+// energy over all joints in their own units
+double plain_energy(WholeArmRows const& rows, Eigen::VectorXd const& noise, Eigen::VectorXd const& of, RowBlock block) {
+  double energy = 0.0;
+  for (Eigen::Index i = block.from; i < block.to; ++i) {
+    double const scale = noise[static_cast<Eigen::Index>(rows.rows[static_cast<std::size_t>(i)].joint)];
+    energy += scale * scale * of[i] * of[i];
+  }
+  return energy;
+}
+
+double energy_on(Eigen::VectorXd const& of, RowBlock const& block) {
+  return of.segment(block.from, block.size()).squaredNorm();
+}
+
+class WholeArmWork {
+ public:
+  explicit WholeArmWork(WholeArmQuestion const& question) : question_(question) {
+    PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
+    noise_ = fit.noise;
+    rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted);
+    for (auto const& recording : question.unseen)
+      unseen_.push_back(whole_arm_rows(question.model, fit.parameters, noise_, std::span(&recording, 1),
+                                       question.filter, question.wanted));
+    basis_ = orthonormal_basis(rows_.model);
+    residual_ = left_by(basis_);
+  }
+
+  WholeArmAnswer run() {
+    WholeArmAnswer answer;
+    for (std::uint32_t step = 0; !rows_.places.empty(); ++step) {
+      auto scanned = scan_whole_arm_laws(rows_, basis_, residual_, {question_.seed, step, question_.threads});
+      if (scanned.empty()) break;
+      std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
+      Eigen::VectorXd const left = left_out_of_stretches(rows_, basis_, residual_);
+      if (step == 0)
+        for (ScannedLaw const& one : scanned) answer.tried.push_back(judged(one, left).found);
+      Judged best = judged(scanned.front(), left);
+      if (best.found.reason != WholeArmReason::accepted) break;
+      best.found.alike = alike_to(best, scanned, left);
+      basis_ = beside(basis_, best.fit.directions);
+      residual_ = left_by(basis_);
+      accepted_.push_back(best.found);
+    }
+    answer.accepted = accepted_;
+    return answer;
+  }
+
+ private:
+  struct Judged {
+    FoundWholeArmLaw found{};
+    WholeArmFit fit{};
+    Eigen::VectorXd left{};
+  };
+
+  Eigen::VectorXd left_by(Eigen::MatrixXd const& basis) const {
+    return rows_.torque - basis * inner_products(basis, rows_.torque);
+  }
+
+  // stretches of the recordings it may act in
+  std::vector<ArmStretch> concerned(std::optional<ActingTime> const& time) const {
+    std::vector<ArmStretch> stretches;
+    for (ArmStretch const& one : rows_.stretches)
+      if (one.rows.size() > 0 && (!time || one.recording == time->recording)) stretches.push_back(one);
+    return stretches;
+  }
+
+  static HeldOutGain gain_of(std::vector<ArmStretch> const& stretches, Eigen::VectorXd const& before,
+                             Eigen::VectorXd const& after, Blocks which) {
+    std::vector<HeldOutBlock> blocks;
+    for (ArmStretch const& one : stretches)
+      blocks.push_back({energy_on(before, one.rows), energy_on(after, one.rows), energy_on(before - after, one.rows),
+                        static_cast<double>(one.rows.size())});
+    return held_out_gain(blocks, which);
+  }
+
+  Judged judged(ScannedLaw const& scanned, Eigen::VectorXd const& left) const {
+    Judged one;
+    one.fit = fit_whole_arm_law(rows_, scanned, basis_, residual_);
+    one.left = left_out_of_stretches(rows_, beside(basis_, one.fit.directions), residual_);
+    FoundWholeArmLaw& found = one.found;
+    found.law = rows_.places[scanned.law];
+    found.time = one.fit.time;
+    found.values = one.fit.values;
+    found.errors = one.fit.errors;
+    found.is_told = one.fit.is_told;
+    found.z = scanned.z;
+    found.p = scanned.p;
+    auto const stretches = concerned(found.time);
+    double before = 0.0, after = 0.0, noise = 0.0, plain_before = 0.0, plain_after = 0.0, plain_torque = 0.0;
+    for (ArmStretch const& stretch : stretches) {
+      before += energy_on(left, stretch.rows);
+      after += energy_on(one.left, stretch.rows);
+      noise += noise_energy(rows_, residual_, stretch.rows, question_.model.joints());
+      plain_before += plain_energy(rows_, noise_, left, stretch.rows);
+      plain_after += plain_energy(rows_, noise_, one.left, stretch.rows);
+      plain_torque += plain_energy(rows_, noise_, rows_.torque, stretch.rows);
+    }
+    found.explained = before > noise ? (before - after) / (before - noise) : 0.0;
+    found.before = std::sqrt(plain_before / plain_torque);
+    found.after = std::sqrt(plain_after / plain_torque);
+    look_at_unseen(found);
+    Blocks const which = found.time ? Blocks::where_it_acts : Blocks::alike;
+    found.reason = reason_of(found, gain_of(stretches, left, one.left, which), std::sqrt(after / before));
+    return one;
+  }
+
+  WholeArmReason reason_of(FoundWholeArmLaw const& found, HeldOutGain const& held_out, double left_share) const {
+    if (found.p > question_.alpha) return WholeArmReason::chance;
+    if (!is_within_bounds(found)) return WholeArmReason::out_of_bounds;
+    if (held_out.change != HeldOutChange::lower) return WholeArmReason::not_held_out;
+    if (left_share > 1.0 - question_.levels.least_fall) return WholeArmReason::too_small;
+    if (found.explained <= most_of_it) return WholeArmReason::most_is_left;
+    if (found.unseen_after > found.unseen_before) return WholeArmReason::unseen;
+    return WholeArmReason::accepted;
+  }
+
+  // bounds of such laws are plain numbers
+  static bool is_within_bounds(FoundWholeArmLaw const& found) {
+    auto const& parameters = found.law.effect->parameters();
+    for (Eigen::Index i = 0; i < found.values.size(); ++i) {
+      EffectParameter const& one = parameters[static_cast<std::size_t>(i)];
+      if (found.values[i] < one.lower.factor || found.values[i] > one.upper.factor) return false;
+    }
+    return true;
+  }
+
+  // torque of accepted laws and of one more, on the rows of a recording: divided by noise as these are
+  static Eigen::VectorXd law_torque(WholeArmRows const& rows, FoundWholeArmLaw const& law) {
+    return rows.laws.middleCols(law.law.first, law.law.count) * law.values;
+  }
+
+  Eigen::VectorXd trained_torque(FoundWholeArmLaw const& law) const {
+    Eigen::VectorXd torque = law_torque(rows_, law);
+    if (!law.time) return torque;
+    for (ArmStretch const& stretch : rows_.stretches)
+      for (Eigen::Index i = stretch.rows.from; i < stretch.rows.to; ++i)
+        if (!law.time->holds(stretch.recording, rows_.rows[static_cast<std::size_t>(i)].time_s)) torque[i] = 0.0;
+    return torque;
+  }
+
+  // what unseen recordings leave, of all laws beside the model as fitted with them
+  Eigen::VectorXd unseen_left(std::size_t which, std::vector<FoundWholeArmLaw> const& laws) const {
+    Eigen::VectorXd torque = rows_.torque;
+    for (auto const& law : laws) torque -= trained_torque(law);
+    Eigen::VectorXd const parameters = solve_scaled(rows_.model, torque);
+    WholeArmRows const& rows = unseen_[which];
+    Eigen::VectorXd left = rows.torque - rows.model * parameters;
+    for (auto const& law : laws)
+      if (law.acts_in[which]) left -= law_torque(rows, law);
+    return left;
+  }
+
+  void look_at_unseen(FoundWholeArmLaw& found) const {
+    double before = 0.0, after = 0.0, torque = 0.0;
+    std::vector<FoundWholeArmLaw> with = accepted_;
+    with.push_back(found);
+    with.back().acts_in.assign(unseen_.size(), true);
+    found.acts_in = with.back().acts_in;
+    for (std::size_t k = 0; k < unseen_.size(); ++k) {
+      if (unseen_[k].stretches.empty()) continue;
+      RowBlock const all{0, unseen_[k].torque.size()}, head = unseen_[k].stretches.front().rows;
+      with.back().acts_in[k] = true;
+      Eigen::VectorXd left = unseen_left(k, with);
+      if (found.time) {
+        with.back().acts_in[k] = false;
+        Eigen::VectorXd const without = unseen_left(k, with);
+        found.acts_in[k] = energy_on(left, head) < energy_on(without, head);
+        if (!found.acts_in[k]) left = without;
+      }
+      before += plain_energy(unseen_[k], noise_, unseen_left(k, accepted_), all);
+      after += plain_energy(unseen_[k], noise_, left, all);
+      torque += plain_energy(unseen_[k], noise_, unseen_[k].torque, all);
+    }
+    if (!(torque > 0.0)) return;
+    found.unseen_before = std::sqrt(before / torque);
+    found.unseen_after = std::sqrt(after / torque);
+  }
+
+  std::vector<Effect const*> alike_to(Judged const& best, std::vector<ScannedLaw> const& scanned,
+                                      Eigen::VectorXd const& left) const {
+    std::vector<Effect const*> alike;
+    auto const stretches = concerned(best.found.time);
+    for (ScannedLaw const& one : scanned) {
+      Effect const* effect = rows_.places[one.law].effect;
+      bool const is_known =
+          effect == best.found.law.effect || std::find(alike.begin(), alike.end(), effect) != alike.end();
+      if (is_known || one.p > question_.alpha) continue;
+      Judged const rival = judged(one, left);
+      bool const is_worse =
+          gain_of(stretches, rival.left, best.left, Blocks::where_it_acts).change == HeldOutChange::lower;
+      if (!is_worse) alike.push_back(effect);
+    }
+    return alike;
+  }
+
+  WholeArmQuestion const& question_;
+  Eigen::VectorXd noise_{};  // [N]
+  WholeArmRows rows_{};
+  std::vector<WholeArmRows> unseen_{};
+  Eigen::MatrixXd basis_{};     // of the model and of what was accepted
+  Eigen::VectorXd residual_{};  // what it leaves
+  std::vector<FoundWholeArmLaw> accepted_{};
+};
+
+}  // namespace
+
+WholeArmAnswer search_whole_arm(WholeArmQuestion const& question) {
+  bool const any = std::any_of(question.wanted.begin(), question.wanted.end(),
+                               [](Effect const* one) { return one->is_of_whole_arm(); });
+  return any ? WholeArmWork(question).run() : WholeArmAnswer{};
+}
+
+std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
+                                               std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
+  PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
+  auto const motion = motion_of(of.recording, question.filter);
+  auto const laws = whole_arm_laws(question.model, fit.parameters, motion, question.wanted);
+  std::vector<Eigen::VectorXd> torques(motion.size(), Eigen::VectorXd::Zero(motion.front().q.size()));
+  for (FoundWholeArmLaw const& found : accepted) {
+    auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
+      return one.effect == found.law.effect && one.joint == found.law.joint;
+    });
+    if (of.is_unseen && !found.acts_in[of.which]) continue;
+    for (std::size_t j = 0; j < torques.size(); ++j) {
+      Eigen::VectorXd torque = law->columns[j] * found.values;
+      for (Eigen::Index i = 0; i < torque.size() && found.time && !of.is_unseen; ++i)
+        if (!found.time->holds(of.which, motion[j].time_s[i])) torque[i] = 0.0;
+      torques[j] += torque;
+    }
+  }
+  return torques;
+}
+
+}  // namespace torquescope

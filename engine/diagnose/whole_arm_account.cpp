@@ -1,0 +1,121 @@
+#include "engine/diagnose/whole_arm_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "engine/statistics/student_t.hpp"
+#include "engine/words/arm_sentences.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// "zero_3" of the law that is joint 3's
+std::string name_of(EffectParameter const& parameter, LawPlace const& law) {
+  return law.joint ? parameter.name + "_" + std::to_string(*law.joint + 1) : parameter.name;
+}
+
+std::vector<ParameterEstimate> parameters_of(FoundWholeArmLaw const& found) {
+  auto const& all = found.law.effect->parameters();
+  double const t = student_t_quantile(normal_quantile_975, static_cast<double>(stretches_per_recording - 1));
+  std::vector<ParameterEstimate> parameters;
+  for (Eigen::Index i = 0; i < found.values.size(); ++i) {
+    auto const& one = all[static_cast<std::size_t>(i)];
+    if (!found.is_told[static_cast<std::size_t>(i)]) continue;
+    double const value = found.values[i], half = t * found.errors[i];
+    parameters.push_back({name_of(one, found.law), one.unit_revolute, value, value - half, value + half});
+  }
+  if (!found.time) return parameters;
+  double const instants[] = {found.time->from_s, found.time->until_s};
+  for (std::size_t k = 0; k < std::size(instants); ++k)
+    if (std::isfinite(instants[k]))
+      parameters.push_back({all[found.law.effect->n_linear() + k].name, "s", instants[k], unknown, unknown});
+  return parameters;
+}
+
+NamedEffect named(FoundWholeArmLaw const& found, std::vector<std::string> const& recordings, double alpha) {
+  Effect const& effect = *found.law.effect;
+  NamedEffect made = named_after(effect);
+  for (Effect const* other : found.alike) made.equivalent.push_back(other->name());
+  made.p = found.p;
+  made.q = alpha;
+  made.z = found.z;
+  made.gain.cv = found.explained;
+  made.parameters = parameters_of(found);
+  WholeArmFacts facts{"", -infinite, infinite, found.before, found.after, found.unseen_before, found.unseen_after};
+  if (found.time) {
+    facts.recording = recordings[found.time->recording];
+    facts.from_s = found.time->from_s;
+    facts.until_s = found.time->until_s;
+    made.region = {word(SignatureAxis::time), facts.from_s, facts.until_s, "s"};
+  }
+  made.sentence = whole_arm_sentence(made, facts);
+  return made;
+}
+
+char const* clause_of(WholeArmReason reason) {
+  switch (reason) {
+    case WholeArmReason::accepted:
+      return "";
+    case WholeArmReason::chance:
+      return "within chance";
+    case WholeArmReason::out_of_bounds:
+      return "a parameter at the end of what is plausible";
+    case WholeArmReason::not_held_out:
+      return "does not make the error on rows left out clearly lower";
+    case WholeArmReason::too_small:
+      return "lowers the error on rows left out by too little";
+    case WholeArmReason::most_is_left:
+      return "explains less than half of the mismatch of all joints";
+    case WholeArmReason::unseen:
+      return "makes the error on unseen recordings larger";
+  }
+  return "";
+}
+
+std::string name_of(LawPlace const& law) {
+  return law.effect->name() + (law.joint ? "_" + std::to_string(*law.joint + 1) : "");
+}
+
+Candidate candidate_of(FoundWholeArmLaw const& found, double alpha) {
+  Candidate one;
+  one.name = name_of(found.law);
+  one.family = word(found.law.effect->family());
+  one.z = found.z;
+  one.p = found.p;
+  one.q = alpha;
+  one.cv_gain = found.explained;
+  one.reason = clause_of(found.reason);
+  return one;
+}
+
+void mark(std::vector<Candidate>& candidates, FoundWholeArmLaw const& accepted) {
+  for (Candidate& one : candidates) {
+    if (one.name == name_of(accepted.law)) one.decision = Decision::named;
+    for (Effect const* other : accepted.alike)
+      if (one.name.starts_with(other->name())) one.decision = Decision::equivalent;
+  }
+}
+
+}  // namespace
+
+WholeArmDiagnosis account_for_whole_arm(std::vector<WholeArmAnswer> const& answers,
+                                        std::vector<std::string> const& recordings, double alpha) {
+  WholeArmDiagnosis made;
+  for (WholeArmAnswer const& answer : answers) {
+    if (made.candidates.empty() || !answer.accepted.empty()) {
+      made.candidates.clear();
+      for (auto const& one : answer.tried) made.candidates.push_back(candidate_of(one, alpha));
+    }
+    for (auto const& one : answer.accepted) {
+      made.effects.push_back(named(one, recordings, alpha));
+      mark(made.candidates, one);
+    }
+  }
+  return made;
+}
+
+}  // namespace torquescope
