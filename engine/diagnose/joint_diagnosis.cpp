@@ -118,12 +118,7 @@ class JointWork {
     // an arm's fit has seen the rows of training: what is not known of it shows in none of them
     for (std::size_t i = 0; i < others_.training; ++i) others_.all[i].load_errors = {};
     setting.trained = std::make_shared<TrainedMotion const>(trained_motion_of(setting, others_.others().training));
-    leave_out_unjudged(setting);
-    // its faults are known by now: what stops the search is a motion that cannot carry it
-    why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      search_ = search_in_time(setting, recording, others_, {selection, levels()}, torque_late_s_, progress_);
-      return std::nullopt;
-    });
+    why = search(setting, recording, selection);
     if (why) return hopeless(*why);
     kept_ = keep_what_predicts(*search_, others_.others());
     look_at_reversals(setting, recording, selection);
@@ -145,6 +140,29 @@ class JointWork {
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
   }
 
+  // Its faults are known by now: what stops the search is a motion that cannot carry it. One that reverses all the time
+  // leaves too few rows between reversals: then these are weighed from the beginning
+  std::optional<Hopeless> search(StageSetting& setting, Recording& recording, SelectionOptions const& selection) {
+    Recording const recording_before = recording;
+    OwnedRecordings const others_before = others_;
+    auto const remarks_before = joint_.remarks;
+    auto const attempt = [&] {
+      leave_out_unjudged(setting);
+      return verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
+        search_ = search_in_time(setting, recording, others_, {selection, levels()}, torque_late_s_, progress_);
+        return std::nullopt;
+      });
+    };
+    auto const why = attempt();
+    if (!why || input_.reversals != ReversalRows::both || !has_reference_) return why;
+    recording = recording_before;
+    others_ = others_before;
+    joint_.remarks = remarks_before;
+    torque_late_s_ = 0.0;
+    setting.reversals = ReversalRows::weigh;
+    return attempt() ? why : std::nullopt;
+  }
+
   // recordings to predict of which hardly a row can be judged
   void leave_out_unjudged(StageSetting const& setting) {
     std::vector<std::string> names;
@@ -163,11 +181,14 @@ class JointWork {
     return !kept.state.selection.accepted.empty() && kept.is_held_out_lower && kept.state.adequacy.holds();
   }
 
-  // Where the mask left nothing to explain, the rows that it hides are looked at by their weight
+  // Where the mask left nothing to explain, the rows that it hides are looked at by their weight: for a name; where the
+  // rows between reversals could not have shown much, also for what nothing explains
   void look_at_reversals(StageSetting setting, Recording& recording, SelectionOptions selection) {
     auto const& first = search_->states.front();
     bool const is_led = first.selection.baseline->twin->loop.source != LoopSource::tracking;
-    if (input_.reversals != ReversalRows::both || !first.adequacy.holds() || is_named(kept_) || !is_led) return;
+    bool const is_weighed = setting.reversals == ReversalRows::weigh;
+    if (input_.reversals != ReversalRows::both || is_weighed || !first.adequacy.holds() || is_named(kept_) || !is_led)
+      return;
     setting.reversals = ReversalRows::weigh;
     selection.only_a_mismatch = true;
     // the search moves torque in time, and what it moved has to be put back when nothing comes of it
@@ -181,7 +202,9 @@ class JointWork {
     });
     KeptModel kept;
     if (!failed) kept = keep_what_predicts(*again, others_.others());
-    if (failed || !is_named(kept)) {
+    bool const shows_more =
+        !failed && (is_named(kept) || (hides_much(kept_) && !again->states.front().adequacy.holds()));
+    if (!shows_more) {
       recording = recording_before;
       others_ = others_before;
       return;
@@ -189,6 +212,14 @@ class JointWork {
     search_ = std::move(again);
     kept_ = std::move(kept);
     torque_late_s_ = late_s;
+  }
+
+  // the smallest share of the torque that could have been seen to be missing; of unseen rows the replicates' error
+  static double visible_share(ModelStage const& baseline, double unseen_floor) {
+    return std::max(smallest_visible_share(baseline), std::isfinite(unseen_floor) ? unseen_floor : 0.0);
+  }
+  bool hides_much(KeptModel const& kept) const {
+    return visible_share(*kept.state.selection.baseline, floor_of(kept.held_out)) >= levels().tolerance;
   }
 
   DecisionLevels levels() const {
@@ -218,12 +249,8 @@ class JointWork {
                                                          : "unseen",
                        held_out.gain.blocks == 0 ? "" : word(held_out.gain.change), held_out.gain.t,
                        held_out.gain.asked_for, held_out.gain.blocks};
-    double floor = 0.0;
-    bool has_twins = false;
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
     for (auto& result : held_out.unseen) {
-      floor += result.floor * result.floor * result.torque_energy;
-      has_twins = has_twins || std::isfinite(result.promised);
       for (std::size_t i = 0; i < without.size(); ++i) without[i] += result.by_effect[i].before - result.energies.after;
       joint_.forward.push_back(result.forward);
       auto const& residual = selection_.accepted.empty() ? result.trace.before : result.trace.after;
@@ -244,7 +271,7 @@ class JointWork {
     joint_.validation_torque_energy = held_out.torque;
     joint_.validation_relerr = std::sqrt(held_out.before / held_out.torque);
     joint_.augmented_validation_relerr = std::sqrt(held_out.after / held_out.torque);
-    if (has_twins) joint_.floor_relerr = std::sqrt(floor / held_out.torque);
+    if (double const floor = floor_of(held_out); std::isfinite(floor)) joint_.floor_relerr = floor;
     for (std::size_t i = 0; i < without.size(); ++i) {
       double& gain = joint_.effects[place_[i]].gain.validation;
       gain = (std::isfinite(gain) ? gain : 0.0) + without[i] / held_out.before;
@@ -351,8 +378,7 @@ class JointWork {
   // a motion that could not have shown much, or a noise that hides what is not small
   std::optional<Hopeless> blamed_for_silence() const {
     if (auto why = first_look_.blamed_for_silence()) return why;
-    double const unseen = std::isfinite(joint_.floor_relerr) ? joint_.floor_relerr : 0.0;
-    double const visible = std::max(smallest_visible_share(baseline()), unseen);
+    double const visible = visible_share(baseline(), joint_.floor_relerr);
     if (visible < levels().tolerance) return std::nullopt;
     return noise_hides(visible);
   }

@@ -168,4 +168,14 @@ HeldOut held_out_errors(StageSetting const& setting, OtherRecordings const& othe
   return result;
 }
 
+double floor_of(HeldOut const& held_out) {
+  double energy = 0.0;
+  bool is_known = false;
+  for (auto const& one : held_out.unseen) {
+    energy += one.floor * one.floor * one.torque_energy;
+    is_known = is_known || std::isfinite(one.promised);
+  }
+  return is_known ? std::sqrt(energy / held_out.torque) : unknown;
+}
+
 }  // namespace torquescope

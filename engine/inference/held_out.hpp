@@ -55,4 +55,8 @@ HeldOut held_out_errors(StageSetting const& setting, OtherRecordings const& othe
 // noise: what a complete model would leave of every row
 ExplainedShare explained_share(std::span<HeldOutBlock const> blocks, double noise);
 
+// over all unseen recordings, what a complete model would leave there, as a share of their torque; NaN where no
+// replicates could tell
+double floor_of(HeldOut const& held_out);
+
 }  // namespace torquescope

@@ -78,9 +78,9 @@ class Verdicts(unittest.TestCase):
         with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
 
-    def said_of(self, rows, further=None, effects='["spring"]', unseen=None):
+    def said_of(self, rows, further=None, effects='["spring"]', unseen=None, filters=""):
         self.write("recorded.csv", rows)
-        job = JOB.replace('["spring"]', effects)
+        job = JOB.replace('["spring"]', effects).replace("[model]", filters + "[model]")
         if further:
             self.write("further.csv", further)
             job = job.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
@@ -114,6 +114,18 @@ class Verdicts(unittest.TestCase):
             one = self.said_of(rows, further)
             self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
             self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
+
+    def test_rows_near_reversals_are_weighed_where_hardly_any_other_is_left(self):
+        """The slower the filter, the longer the stretch round each reversal that it spoils."""
+        slow = "parallel_cutoff_hz = 5\n"
+        short, sound = self.with_spring(self.rows)[:1000], self.rows[:1000]
+        masked = self.said_of(short, effects='["spring"]\nreversals = "mask"', filters=slow)
+        self.assertEqual(masked["verdict"], "insufficient")
+        self.assertIn("rows are left between reversals, 100 are needed", masked["reason"])
+        weighed = self.said_of(short, filters=slow)
+        self.assertEqual(weighed["verdict"], "named", weighed["reason"])
+        self.assertEqual([one["name"] for one in weighed["joints"][0]["effects"]], ["spring"])
+        self.assertNotEqual(self.said_of(sound, filters=slow)["verdict"], "named")
 
     def test_an_unseen_recording_with_too_few_rows_is_left_out_and_told(self):
         sprung = self.with_spring(self.rows)
