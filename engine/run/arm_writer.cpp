@@ -8,6 +8,7 @@
 #include "engine/robot/gather_text.hpp"
 #include "engine/run/arm_findings.hpp"
 #include "engine/run/robot_tables.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 namespace {
@@ -43,6 +44,12 @@ Eigen::VectorXd values_of_file(SerialChain const& chain, BaseParameters const& b
   return values;
 }
 
+std::vector<std::string> joint_names(SerialChain const& chain) {
+  std::vector<std::string> names;
+  for (auto const& joint : chain.joints) names.push_back(joint.name);
+  return names;
+}
+
 void write_robot(ResultWriter& writer, ArmParts const& arm) {
   auto const& chain = arm.model.chain();
   auto const& base = arm.model.base();
@@ -56,12 +63,14 @@ void write_robot(ResultWriter& writer, ArmParts const& arm) {
   write_robot_tables(writer, chain);
   writer.attribute("/robot", "file", arm.robot_file);
   writer.attribute("/robot", "sha256", arm.sha256);
-  writer.texts("/robot/base_parameters", parameters, {"1", "base parameters"});
-  writer.texts("/robot/base_units", units, {"1", "their units"});
-  writer.texts("/robot/gathers", gathers, {"1", "standard parameters that each is the sum of"});
+  write_names(writer, "/robot", "parameter", parameters);
+  writer.texts("/robot/base_parameters", parameters, Note{"1", "base parameters"}.over({"parameter"}));
+  writer.texts("/robot/base_units", units, Note{"1", "their units"}.over({"parameter"}));
+  writer.texts("/robot/gathers", gathers, Note{"1", "standard parameters that each is the sum of"}.over({"parameter"}));
   if (chain.has_inertias())
     write_vector(writer, "/robot/file_values", values_of_file(chain, base, arm.model.drives()),
-                 {"SI", "base parameters of the robot file's inertias; NaN where it gives no drive inertia"});
+                 Note{"SI", "base parameters of the robot file's inertias; NaN where it gives no drive inertia"}.over(
+                     {"parameter"}));
 }
 
 void write_joint_errors(ResultWriter& writer, std::string const& group, std::string const& prefix,
@@ -73,7 +82,7 @@ void write_joint_errors(ResultWriter& writer, std::string const& group, std::str
     rms.push_back(joint.residual_rms());
   }
   auto const write = [&](char const* name, std::vector<double> const& values, Note const& note) {
-    writer.numbers(group + "/" + prefix + name, {values.size()}, values, note);
+    writer.numbers(group + "/" + prefix + name, {values.size()}, values, note.over({"joint"}));
   };
   write("joint_relerr", relerr, {"1", "relative error of each joint, rows that move one way"});
   write("joint_relerr_all_rows", all_rows, {"1", "relative error of each joint, all rows"});
@@ -88,10 +97,13 @@ void write_arm(ResultWriter& writer, Experiment::Parts const& parts) {
   write_robot(writer, arm);
   writer.attribute("/arm", "joints", static_cast<std::int64_t>(arm.model.joints()));
   writer.attribute("/arm", "noise_iterations", std::int64_t{arm.noise.iterations});
-  write_vector(writer, "/arm/noise", arm.noise.deviation, {"N m or N", "noise of each joint: rows are divided by it"});
+  write_vector(writer, "/arm/noise", arm.noise.deviation,
+               Note{"N m or N", "noise of each joint: rows are divided by it"}.over({"joint"}));
+  write_names(writer, "/arm", "joint", joint_names(arm.model.chain()));
   std::vector<std::string> seen;
   for (auto const one : arm_identifiability(parts).seen) seen.push_back(word(one));
-  writer.texts("/arm/seen", seen, {"1", "how the training rows tell each parameter"});
+  writer.texts("/arm/seen", seen, Note{"1", "how the training rows tell each parameter"}.over({"parameter"}));
+  write_names(writer, "/arm", "parameter", parts.parameter_names());
   for (std::size_t j = 0; j < arm.grams.size(); ++j) {
     auto const& gram = arm.grams[j];
     std::string const group = joint_group("/arm", j);
@@ -110,6 +122,7 @@ void write_arm_samples(ResultWriter& writer, std::string const& group, DataSet c
   writer.attribute(group, "samples", static_cast<std::int64_t>(rows.rows()));
   writer.attribute(group, "samples_all_rows", static_cast<std::int64_t>(rows.rows() + set.other_rows.rows()));
   if (!parts.output.samples) return;
+  auto const names = parts.parameter_names();
   for (std::size_t j = 0; j < model.joints(); ++j) {
     std::vector<Eigen::Index> own;
     std::vector<std::int64_t> recording;
@@ -124,14 +137,18 @@ void write_arm_samples(ResultWriter& writer, std::string const& group, DataSet c
     bool const revolute = model.chain().joints[j].kind == JointKind::revolute;
     std::string const length = revolute ? "rad" : "m";
     double const noise = parts.arm->noise.deviation[static_cast<Eigen::Index>(j)];
-    write_vector(writer, path + "/time", rows.time_s(own), {"s", "time"});
-    writer.whole_numbers(path + "/recording", {recording.size()}, recording, {"1", "index of the recording"});
-    write_vector(writer, path + "/position", rows.q(own), {length, "position"});
-    write_vector(writer, path + "/velocity", rows.dq(own), {length + "/s", "velocity"});
-    write_vector(writer, path + "/acceleration", rows.ddq(own), {length + "/s2", "acceleration"});
-    write_vector(writer, path + "/torque", noise * rows.tau(own), {model.torque_unit(j), "torque"});
+    write_vector(writer, path + "/time", rows.time_s(own), Note{"s", "time"}.over({"time"}));
+    writer.whole_numbers(path + "/recording", {recording.size()}, recording,
+                         Note{"1", "index of the recording"}.over({"time"}));
+    write_vector(writer, path + "/position", rows.q(own), Note{length, "position"}.over({"time"}));
+    write_vector(writer, path + "/velocity", rows.dq(own), Note{length + "/s", "velocity"}.over({"time"}));
+    write_vector(writer, path + "/acceleration", rows.ddq(own), Note{length + "/s2", "acceleration"}.over({"time"}));
+    write_vector(writer, path + "/torque", noise * rows.tau(own), Note{model.torque_unit(j), "torque"}.over({"time"}));
     write_matrix(writer, path + "/regressor", noise * rows.phi(own, model.parameters_of(j)),
-                 {"SI", "columns of the joint's own parameters"});
+                 Note{"SI", "columns of the joint's own parameters"}.over({"time", "parameter"}));
+    std::vector<std::string> labels;
+    for (Eigen::Index const column : model.parameters_of(j)) labels.push_back(names[static_cast<std::size_t>(column)]);
+    write_names(writer, path, "parameter", labels);
     writer.plottable(path, "torque", {"time"});
   }
 }
@@ -143,6 +160,7 @@ void write_arm_accuracy(ResultWriter& writer, std::string const& label, Experime
   RunResults const some = results.only(present);
   auto const& parameters = some.parameters[lower_median_index(some.gap)];
   std::string const group = "/runs/" + label;
+  write_names(writer, group, "joint", joint_names(parts.arm->model.chain()));
   write_joint_errors(writer, group, "", arm_accuracy(parts.train.regression, parts.train.other_rows, parameters));
   if (parts.validate)
     write_joint_errors(writer, group, "validation_",

@@ -5,6 +5,7 @@
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/study_writer.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 
@@ -21,7 +22,8 @@ void write_matrix(ResultWriter& writer, std::string const& path, Eigen::MatrixXd
 }
 
 void write_record(ResultWriter& writer, std::string const& group, RecordColumns const& record,
-                  std::vector<ShapedCandidate> const& candidates, JointKind joint) {
+                  std::vector<ShapedCandidate> const& candidates, JointKind joint,
+                  std::vector<std::string> const& parameters) {
   bool const revolute = joint == JointKind::revolute;
   std::string const length = revolute ? "rad" : "m";
   auto const n = static_cast<std::size_t>(record.torque.size());
@@ -29,13 +31,18 @@ void write_record(ResultWriter& writer, std::string const& group, RecordColumns 
   writer.attribute(group, "kept_rate_hz", record.kept_rate_hz);
   writer.attribute(group, "cutoff_hz", record.cutoff_hz);
   std::vector<std::int64_t> const rows(record.kept_rows.begin(), record.kept_rows.end());
-  writer.whole_numbers(group + "/row", {n}, rows, {"1", "index among the kept samples, masked reversals left out"});
-  writer.numbers(group + "/time", {n}, span_of(record.time_s), {"s", "time"});
-  writer.numbers(group + "/position", {n}, span_of(record.q), {length, "position"});
-  writer.numbers(group + "/velocity", {n}, span_of(record.dq), {length + "/s", "velocity"});
-  writer.numbers(group + "/acceleration", {n}, span_of(record.ddq), {length + "/s2", "acceleration"});
-  writer.numbers(group + "/torque", {n}, span_of(record.torque), {revolute ? "N m" : "N", "torque, filtered"});
-  write_matrix(writer, group + "/regressor", record.regressor, {"SI", "columns of the model, filtered"});
+  writer.whole_numbers(group + "/row", {n}, rows,
+                       Note{"1", "index among the kept samples, masked reversals left out"}.over({"time"}));
+  writer.numbers(group + "/time", {n}, span_of(record.time_s), Note{"s", "time"}.over({"time"}));
+  writer.numbers(group + "/position", {n}, span_of(record.q), Note{length, "position"}.over({"time"}));
+  writer.numbers(group + "/velocity", {n}, span_of(record.dq), Note{length + "/s", "velocity"}.over({"time"}));
+  writer.numbers(group + "/acceleration", {n}, span_of(record.ddq),
+                 Note{length + "/s2", "acceleration"}.over({"time"}));
+  writer.numbers(group + "/torque", {n}, span_of(record.torque),
+                 Note{revolute ? "N m" : "N", "torque, filtered"}.over({"time"}));
+  write_matrix(writer, group + "/regressor", record.regressor,
+               Note{"SI", "columns of the model, filtered"}.over({"time", "parameter"}));
+  write_names(writer, group, "parameter", parameters);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     write_matrix(writer, group + "/candidates/" + candidates[i].effect->name(), record.candidates[i],
                  {"SI", candidates[i].effect->title() + ": columns at the shape found in training, filtered"});
@@ -90,9 +97,10 @@ ColumnsReport write_candidate_columns(Experiment const& experiment, DiagnoseRequ
   if (!names.empty()) writer.attribute("/columns", "effects", names);
   if (!not_testable.empty()) writer.attribute("/columns", "not_testable", not_testable);
   JointKind const joint = parts.regressor->joint();
-  write_record(writer, "/columns/train", found.train, found.candidates, joint);
+  write_record(writer, "/columns/train", found.train, found.candidates, joint, parts.parameter_names());
   for (std::size_t k = 0; k < found.validate.size(); ++k)
-    write_record(writer, "/columns/validate_" + std::to_string(k + 1), found.validate[k], found.candidates, joint);
+    write_record(writer, "/columns/validate_" + std::to_string(k + 1), found.validate[k], found.candidates, joint,
+                 parts.parameter_names());
   finish_result(writer, request.output, request.threads, beginning);
   return {names.size(), static_cast<std::size_t>(found.train.torque.size())};
 }

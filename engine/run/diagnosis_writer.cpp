@@ -3,38 +3,12 @@
 #include <fmt/format.h>
 
 #include "engine/run/diagnosis_json.hpp"
+#include "engine/run/table_columns.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 
 namespace {
-
-// the columns of a table of records: one dataset per member, nothing for a table without rows
-template <class Record>
-class Columns {
- public:
-  Columns(ResultWriter& writer, std::string group, std::vector<Record> const& records)
-      : writer_(writer), group_(std::move(group)), records_(records) {}
-
-  template <class Get>
-  Columns& numbers(std::string const& name, Get&& get, Note const& note) {
-    std::vector<double> values;
-    for (auto const& record : records_) values.push_back(get(record));
-    if (!values.empty()) writer_.numbers(group_ + "/" + name, {values.size()}, values, note);
-    return *this;
-  }
-  template <class Get>
-  Columns& texts(std::string const& name, Get&& get, std::string const& long_name) {
-    std::vector<std::string> values;
-    for (auto const& record : records_) values.push_back(get(record));
-    if (!values.empty()) writer_.texts(group_ + "/" + name, values, {"1", long_name});
-    return *this;
-  }
-
- private:
-  ResultWriter& writer_;
-  std::string group_;
-  std::vector<Record> const& records_;
-};
 
 void text_list(ResultWriter& writer, std::string const& object, std::string const& name,
                std::vector<std::string> const& texts) {
@@ -52,7 +26,9 @@ void write_interval(ResultWriter& writer, std::string const& group, std::string 
 void write_parameters(ResultWriter& writer, std::string const& group,
                       std::vector<ParameterEstimate> const& parameters) {
   using P = ParameterEstimate;
-  Columns<P>(writer, group, parameters)
+  TableColumns<P>(writer, group, parameters, "parameter")
+      .texts(
+          "parameter", [](P const& p) { return p.name; }, "parameter")
       .texts(
           "names", [](P const& p) { return p.name; }, "parameter names")
       .texts(
@@ -60,8 +36,10 @@ void write_parameters(ResultWriter& writer, std::string const& group,
       .numbers("values", [](P const& p) { return p.value; }, {"SI", "estimates"});
   std::vector<double> intervals;
   for (auto const& parameter : parameters) intervals.insert(intervals.end(), {parameter.lower, parameter.upper});
-  if (!intervals.empty())
-    writer.numbers(group + "/ci95", {parameters.size(), 2}, intervals, {"SI", "95 % intervals: lower, upper"});
+  if (intervals.empty()) return;
+  writer.numbers(group + "/ci95", {parameters.size(), 2}, intervals,
+                 Note{"SI", "95 % intervals: lower, upper"}.over({"parameter", "bound"}));
+  write_bounds(writer, group);
 }
 
 void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const& axis, std::string const& torque) {
@@ -74,9 +52,9 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
 
   std::vector<std::int64_t> samples;
   for (auto const& cell : axis.cells) samples.push_back(cell.samples);
-  writer.whole_numbers(group + "/samples", {samples.size()}, samples, {"1", "rows in the cell"});
+  writer.whole_numbers(group + "/samples", {samples.size()}, samples, Note{"1", "rows in the cell"}.over({"centre"}));
   using C = MapCell;
-  Columns<C>(writer, group, axis.cells)
+  TableColumns<C>(writer, group, axis.cells, "centre")
       .numbers("from", [](C const& c) { return c.from; }, {axis.unit, "lower end of the cell"})
       .numbers("to", [](C const& c) { return c.to; }, {axis.unit, "upper end of the cell"})
       .numbers("centre", [](C const& c) { return 0.5 * (c.from + c.to); }, {axis.unit, "middle of the cell"})
@@ -90,7 +68,7 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
   writer.plottable(group, "mean_residual", {"centre"});
 
   using R = MismatchRegion;
-  Columns<R>(writer, group + "/regions", axis.regions)
+  TableColumns<R>(writer, group + "/regions", axis.regions)
       .numbers("from", [](R const& r) { return r.where.from; }, {axis.unit, "lower end of the region"})
       .numbers("to", [](R const& r) { return r.where.to; }, {axis.unit, "upper end of the region"})
       .numbers("time_share", [](R const& r) { return r.time_share; }, {"1", "share of the rows"})
@@ -101,7 +79,9 @@ void write_map_axis(ResultWriter& writer, std::string const& map, MapAxis const&
 
 void write_candidates(ResultWriter& writer, std::string const& group, std::vector<Candidate> const& candidates) {
   using C = Candidate;
-  Columns<C>(writer, group, candidates)
+  TableColumns<C>(writer, group, candidates, "candidate")
+      .texts(
+          "candidate", [](C const& c) { return c.name; }, "candidate")
       .texts(
           "names", [](C const& c) { return c.name; }, "effects, strongest first")
       .texts(
@@ -123,10 +103,13 @@ void write_curve(ResultWriter& writer, std::string const& group, EffectCurve con
   if (curve.at.empty()) return;
   write_interval(writer, group, "range", curve.axis);
   h5::Shape const shape{curve.at.size()};
-  writer.numbers(group + "/at", shape, curve.at, {curve.axis.unit, curve.axis.axis});
-  writer.numbers(group + "/partial", shape, curve.partial, {torque, "effect and what is left, mean"});
-  writer.numbers(group + "/modelled", shape, curve.modelled, {torque, "effect as modelled, mean"});
-  writer.numbers(group + "/spread", shape, curve.spread, {torque, "spread of one clean twin's mean"});
+  writer.numbers(group + "/at", shape, curve.at, Note{curve.axis.unit, curve.axis.axis}.over({"at"}));
+  auto const column = [&](char const* name, std::vector<double> const& values, char const* long_name) {
+    writer.numbers(group + "/" + name, shape, values, Note{torque, long_name}.over({"at"}));
+  };
+  column("partial", curve.partial, "effect and what is left, mean");
+  column("modelled", curve.modelled, "effect as modelled, mean");
+  column("spread", curve.spread, "spread of one clean twin's mean");
   writer.plottable(group, "partial", {"at"});
 }
 
@@ -147,7 +130,7 @@ void write_effect(ResultWriter& writer, std::string const& group, NamedEffect co
   writer.attribute(group, "gain_cv", effect.gain.cv);
   writer.attribute(group, "gain_validation", effect.gain.validation);
   write_interval(writer, group, "region", effect.region);
-  Columns<AxisInterval>(writer, group + "/places", effect.places)
+  TableColumns<AxisInterval>(writer, group + "/places", effect.places)
       .numbers("from", [](AxisInterval const& i) { return i.from; }, {effect.region.unit, "lower end"})
       .numbers("to", [](AxisInterval const& i) { return i.to; }, {effect.region.unit, "upper end"});
   writer.attribute(group, "region_gain", effect.region_gain);
@@ -164,7 +147,7 @@ void write_trace(ResultWriter& writer, std::string const& group, TorqueTrace con
   writer.attribute(group, "rate_hz", trace.rate_hz);
   auto const column = [&](char const* name, Eigen::VectorXd const& values, Note const& note) {
     auto const n = static_cast<std::size_t>(values.size());
-    if (n > 0) writer.numbers(group + "/" + name, {n}, {values.data(), n}, note);
+    if (n > 0) writer.numbers(group + "/" + name, {n}, {values.data(), n}, note.over({"time"}));
   };
   column("time", trace.time_s, {"s", "time"});
   column("torque", trace.torque, {joint.unit_torque, "measured torque, filtered"});
@@ -177,7 +160,7 @@ void write_trace(ResultWriter& writer, std::string const& group, TorqueTrace con
 
 void write_lists(ResultWriter& writer, std::string const& group, JointDiagnosis const& joint) {
   using U = UnexplainedPart;
-  Columns<U>(writer, group + "/unexplained", joint.unexplained)
+  TableColumns<U>(writer, group + "/unexplained", joint.unexplained)
       .texts(
           "axes", [](U const& u) { return u.where.axis; }, "axes")
       .texts(
@@ -187,7 +170,9 @@ void write_lists(ResultWriter& writer, std::string const& group, JointDiagnosis 
       .numbers("energy_share", [](U const& u) { return u.energy_share; }, {"1", "share of the residual's energy"});
   using F = ForwardSimulation;
   std::string const length = joint.unit_position;
-  Columns<F>(writer, group + "/forward", joint.forward)
+  TableColumns<F>(writer, group + "/forward", joint.forward, "recording")
+      .texts(
+          "recording", [](F const& f) { return f.recording; }, "recording")
       .texts(
           "recordings", [](F const& f) { return f.recording; }, "recordings")
       .numbers("before_rms", [](F const& f) { return f.before_rms; }, {length, "position error of the baseline"})
@@ -270,9 +255,10 @@ void write_joint(ResultWriter& writer, std::string const& group, JointDiagnosis 
   for (std::size_t i = 0; i < joint.traces.size(); ++i)
     write_trace(writer, fmt::format("{}/traces/trace_{}", group, i + 1), joint.traces[i], joint);
   write_lists(writer, group, joint);
-  if (!joint.twin_energy.empty())
-    writer.numbers(group + "/twin_energy", {joint.twin_energy.size()}, joint.twin_energy,
-                   {"1", "residual energy of each clean twin over that of the recording"});
+  if (joint.twin_energy.empty()) return;
+  writer.numbers(group + "/twin_energy", {joint.twin_energy.size()}, joint.twin_energy,
+                 Note{"1", "residual energy of each clean twin over that of the recording"}.over({"twin"}));
+  write_index(writer, group, "twin", joint.twin_energy.size());
 }
 
 }  // namespace

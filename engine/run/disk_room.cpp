@@ -70,6 +70,7 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts) {
     if (plan.is_closed_form()) continue;
     HistoryShape const shape = history_shape(parts, plan);
     bytes += history_bytes(shape, runs);
+    bytes += (runs + shape.generations + 1 + shape.members) * sizeof(double);  // scales
     if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
   }
   return stored_bytes(parts, bytes + all_sample_bytes(parts));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/effects/joint_form.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 
@@ -33,16 +34,18 @@ std::vector<HistoryDataset> per_generation(std::string const& torque_unit = "") 
   };
 }
 
-void write_numbers(ResultWriter& writer, std::string const& path, std::vector<double> const& values, Note const& note) {
-  writer.numbers(path, {values.size()}, values, note);
+// [run]
+void write_per_run(ResultWriter& writer, std::string const& path, std::vector<double> const& values, Note const& note) {
+  writer.numbers(path, {values.size()}, values, note.over({"run"}));
 }
 
-// [run][R]
-void write_parameters(ResultWriter& writer, std::string const& path, std::vector<Eigen::VectorXd> const& vectors,
-                      Note const& note) {
+// [run][width], the width's labels being the scale `labels`
+void write_vectors(ResultWriter& writer, std::string const& path, std::vector<Eigen::VectorXd> const& vectors,
+                   Note const& note, std::string const& labels) {
   std::vector<double> rows;
   for (auto const& vector : vectors) rows.insert(rows.end(), vector.begin(), vector.end());
-  writer.numbers(path, {vectors.size(), static_cast<std::size_t>(vectors.front().size())}, rows, note);
+  writer.numbers(path, {vectors.size(), static_cast<std::size_t>(vectors.front().size())}, rows,
+                 note.over({"run", labels}));
 }
 
 void write_summary(ResultWriter& writer, std::string const& group, RunResults const& all) {
@@ -87,14 +90,16 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
   std::size_t const generations = shape.generations + 1;
   if (shape.members > 0) {
     writer.declare_runs(group + "population", shape.runs, {generations, shape.members, shape.parameters},
-                        {"SI", "population after selection"});
+                        Note{"SI", "population after selection"}.over({"run", "generation", "member", "parameter"}));
     writer.declare_runs(group + "fitness", shape.runs, {generations, shape.members},
-                        {"1", "fitness of the population"});
+                        Note{"1", "fitness of the population"}.over({"run", "generation", "member"}));
+    write_index(writer, group_of(label), "member", shape.members);
   }
+  write_index(writer, group_of(label), "generation", generations);
   for (auto const& dataset : per_generation(torque_unit))
-    writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note);
-  writer.declare_runs(group + "evaluations", shape.runs, {generations}, {"1", "evaluations so far"},
-                      RunValues::whole_number);
+    writer.declare_runs(group + dataset.name, shape.runs, {generations}, dataset.note.over({"run", "generation"}));
+  writer.declare_runs(group + "evaluations", shape.runs, {generations},
+                      Note{"1", "evaluations so far"}.over({"run", "generation"}), RunValues::whole_number);
 }
 
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
@@ -110,14 +115,16 @@ void write_history(ResultWriter& writer, std::string const& label, std::size_t r
 }
 
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
-                   std::string const& torque_unit) {
+                   std::string const& torque_unit, std::vector<std::string> const& parameters) {
   std::string const group = group_of(plan.label);
   writer.attribute(group, "kind", plan.kind);
   writer.attribute(group, "title", plan.title);
   for (auto const& [key, value] : plan.options) writer.attribute(group, key, value);
-  write_parameters(writer, group + "/parameters", results.parameters, {"SI", "estimated parameters"});
+  write_index(writer, group, "run", results.runs());
+  write_names(writer, group, "parameter", parameters);
+  write_vectors(writer, group + "/parameters", results.parameters, {"SI", "estimated parameters"}, "parameter");
   auto const metric = [&](char const* name, double PredictionMetrics::*member, Note const& note) {
-    write_numbers(writer, group + "/" + name, RunResults::each(results.train, member), note);
+    write_per_run(writer, group + "/" + name, RunResults::each(results.train, member), note);
   };
   metric("mse", &PredictionMetrics::mse, {squared(torque_unit), "mean squared error"});
   metric("sse", &PredictionMetrics::sse, {squared(torque_unit), "sum of squared errors", "seed eq. 10"});
@@ -125,10 +132,10 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   metric("residual_std", &PredictionMetrics::residual_std, {torque_unit, "standard deviation of the residual"});
   metric("residual_mean", &PredictionMetrics::residual_mean, {torque_unit, "mean residual"});
   if (!results.validate.empty())
-    write_numbers(writer, group + "/validation_relerr", RunResults::each(results.validate, &PredictionMetrics::relerr),
+    write_per_run(writer, group + "/validation_relerr", RunResults::each(results.validate, &PredictionMetrics::relerr),
                   {"1", "relative error on unseen data"});
-  write_numbers(writer, group + "/gap", results.gap, {squared(torque_unit), "MSE above the least-squares floor"});
-  writer.texts(group + "/stop_reason", results.stop_reason, {"1", "why each run ended"});
+  write_per_run(writer, group + "/gap", results.gap, {squared(torque_unit), "MSE above the least-squares floor"});
+  writer.texts(group + "/stop_reason", results.stop_reason, Note{"1", "why each run ended"}.over({"run"}));
   write_summary(writer, group, results);
 }
 
@@ -142,16 +149,20 @@ void write_least_squares(ResultWriter& writer, std::string const& label, LeastSq
                          JointForm const* form) {
   std::string const group = group_of(label);
   if (!fit.remark.empty()) writer.attribute(group, "remark", fit.remark);
-  write_parameters(writer, group + "/standard_error", {fit.standard_error}, {"SI", "standard error", "Newey-West"});
-  write_parameters(writer, group + "/standard_error_naive", {fit.standard_error_naive},
-                   {"SI", "standard error if residuals were white"});
+  write_vectors(writer, group + "/standard_error", {fit.standard_error}, {"SI", "standard error", "Newey-West"},
+                "parameter");
+  write_vectors(writer, group + "/standard_error_naive", {fit.standard_error_naive},
+                {"SI", "standard error if residuals were white"}, "parameter");
   auto const n = static_cast<std::size_t>(fit.parameters.size());
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> const intervals = fit.ci95;
-  writer.numbers(group + "/ci95", {1, n, 2}, {intervals.data(), 2 * n}, {"SI", "95 % interval"});
+  writer.numbers(group + "/ci95", {1, n, 2}, {intervals.data(), 2 * n},
+                 Note{"SI", "95 % interval"}.over({"run", "parameter", "bound"}));
+  write_bounds(writer, group);
   if (!form) return;
-  write_parameters(writer, group + "/joint_form", {form->values(fit.parameters)}, {"SI", "equivalent form"});
-  write_parameters(writer, group + "/joint_form_standard_error", {form->standard_errors(fit.covariance_hac)},
-                   {"SI", "standard error of the equivalent form"});
+  write_names(writer, group, "form", form->names);
+  write_vectors(writer, group + "/joint_form", {form->values(fit.parameters)}, {"SI", "equivalent form"}, "form");
+  write_vectors(writer, group + "/joint_form_standard_error", {form->standard_errors(fit.covariance_hac)},
+                {"SI", "standard error of the equivalent form"}, "form");
 }
 
 }  // namespace torquescope

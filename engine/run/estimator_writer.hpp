@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/problem/fitness_choice.hpp"
 #include "engine/run/estimator_plan.hpp"
@@ -23,7 +24,7 @@ void declare_histories(ResultWriter& writer, std::string const& label, HistorySh
 void write_history(ResultWriter& writer, std::string const& label, std::size_t run,
                    std::shared_ptr<RunHistory const> const& history);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
-                   std::string const& torque_unit);
+                   std::string const& torque_unit, std::vector<std::string> const& parameters);
 
 // what the fitness of a population method was made from, and why
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/base/error.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 namespace {
@@ -76,8 +77,9 @@ void write_robot_tables(ResultWriter& writer, SerialChain const& chain) {
   }
   writer.attribute("/robot", "name", chain.name);
   writer.attribute("/robot", "gravity", std::vector<double>{chain.gravity.x(), chain.gravity.y(), chain.gravity.z()});
-  writer.texts("/robot/joints", names, {"1", "joint names, from the base to the tip"});
-  writer.texts("/robot/kinds", kinds, {"1", "how each joint moves"});
+  writer.texts("/robot/joints", names, Note{"1", "joint names, from the base to the tip"}.over({"joint"}));
+  write_names(writer, "/robot", "joint", names);
+  writer.texts("/robot/kinds", kinds, Note{"1", "how each joint moves"}.over({"joint"}));
   write_joints(writer, "/robot/frames", chain, frame_columns,
                {"SI", "alpha, a, offset, d: modified Denavit-Hartenberg"});
   write_joints(writer, "/robot/limits", chain, limit_columns,

@@ -7,6 +7,7 @@
 #include "engine/effects/joint_form.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/arm_writer.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
 
@@ -27,11 +28,13 @@ void write_job(ResultWriter& writer, Experiment::Parts const& parts) {
 
 void write_model(ResultWriter& writer, Experiment::Parts const& parts) {
   std::size_t const n = parts.parameters();
-  writer.texts("/model/names", parts.parameter_names(), {"1", "parameter names"});
-  writer.texts("/model/units", parts.parameter_units(), {"1", "parameter units"});
-  writer.numbers("/model/truth", {n}, numbers_of(parts.truth), {"SI", "true parameters of the simulated joint"});
-  writer.numbers("/model/lower", {n}, parts.box.lower, {"SI", "lower end of the box"});
-  writer.numbers("/model/upper", {n}, parts.box.upper, {"SI", "upper end of the box"});
+  write_names(writer, "/model", "parameter", parts.parameter_names());
+  writer.texts("/model/names", parts.parameter_names(), Note{"1", "parameter names"}.over({"parameter"}));
+  writer.texts("/model/units", parts.parameter_units(), Note{"1", "parameter units"}.over({"parameter"}));
+  writer.numbers("/model/truth", {n}, numbers_of(parts.truth),
+                 Note{"SI", "true parameters of the simulated joint"}.over({"parameter"}));
+  writer.numbers("/model/lower", {n}, parts.box.lower, Note{"SI", "lower end of the box"}.over({"parameter"}));
+  writer.numbers("/model/upper", {n}, parts.box.upper, Note{"SI", "upper end of the box"}.over({"parameter"}));
   if (parts.arm) {
     writer.attribute("/model", "joint", std::string("arm"));
     writer.attribute("/model", "equation", parts.arm->model.equation());
@@ -42,8 +45,9 @@ void write_model(ResultWriter& writer, Experiment::Parts const& parts) {
   writer.attribute("/model", "joint", std::string(revolute ? "revolute" : "prismatic"));
   writer.attribute("/model", "equation", regressor.equation());
   if (auto const form = joint_form(regressor)) {
-    writer.texts("/model/joint_form_names", form->names, {"1", "names of the equivalent form"});
-    writer.texts("/model/joint_form_units", form->units, {"1", "units of the equivalent form"});
+    write_names(writer, "/model", "form", form->names);
+    writer.texts("/model/joint_form_names", form->names, Note{"1", "names of the equivalent form"}.over({"form"}));
+    writer.texts("/model/joint_form_units", form->units, Note{"1", "units of the equivalent form"}.over({"form"}));
   }
 }
 
@@ -69,14 +73,15 @@ void write_data_attributes(ResultWriter& writer, std::string const& group, DataS
   writer.attribute(group, "reversals", reversals);
 }
 
-void write_samples(ResultWriter& writer, std::string const& group, RegressionData const& data, JointKind joint) {
+void write_samples(ResultWriter& writer, std::string const& group, RegressionData const& data, JointKind joint,
+                   std::vector<std::string> const& parameters) {
   auto const n = static_cast<std::size_t>(data.rows());
   bool const revolute = joint == JointKind::revolute;
   std::string const length = revolute ? "rad" : "m";
   std::string const torque_unit = revolute ? "N m" : "N";
-  writer.numbers_in_blocks(group + "/time", {n},
-                           [&](std::size_t first, std::span<double> seconds) { data.time(first, seconds); },
-                           {"s", "time"});
+  writer.numbers_in_blocks(
+      group + "/time", {n}, [&](std::size_t first, std::span<double> seconds) { data.time(first, seconds); },
+      Note{"s", "time"}.over({"time"}));
   writer.whole_numbers_in_blocks(
       group + "/recording", {n},
       [&](std::size_t first, std::span<std::int64_t> values) {
@@ -88,20 +93,23 @@ void write_samples(ResultWriter& writer, std::string const& group, RegressionDat
           i = end;
         }
       },
-      {"1", "index of the recording"});
-  writer.numbers(group + "/position", {n}, numbers_of(data.q), {length, "position"});
-  writer.numbers(group + "/velocity", {n}, data.velocity(), {length + "/s", "velocity"});
-  writer.numbers(group + "/acceleration", {n}, data.acceleration(), {length + "/s2", "acceleration"});
-  writer.numbers(group + "/torque", {n}, numbers_of(data.tau), {torque_unit, revolute ? "torque" : "force"});
+      Note{"1", "index of the recording"}.over({"time"}));
+  writer.numbers(group + "/position", {n}, numbers_of(data.q), Note{length, "position"}.over({"time"}));
+  writer.numbers(group + "/velocity", {n}, data.velocity(), Note{length + "/s", "velocity"}.over({"time"}));
+  writer.numbers(group + "/acceleration", {n}, data.acceleration(),
+                 Note{length + "/s2", "acceleration"}.over({"time"}));
+  writer.numbers(group + "/torque", {n}, numbers_of(data.tau),
+                 Note{torque_unit, revolute ? "torque" : "force"}.over({"time"}));
   auto const columns = static_cast<std::size_t>(data.parameters());
-  writer.numbers_in_blocks(group + "/regressor", {n, columns},
-                           [&](std::size_t first, std::span<double> values) {
-                             auto const count = static_cast<Eigen::Index>(values.size() / columns);
-                             Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-                                 values.data(), count, data.parameters()) =
-                                 data.phi.middleRows(static_cast<Eigen::Index>(first), count);
-                           },
-                           {"SI", "regressor"});
+  writer.numbers_in_blocks(
+      group + "/regressor", {n, columns},
+      [&](std::size_t first, std::span<double> values) {
+        auto const count = static_cast<Eigen::Index>(values.size() / columns);
+        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            values.data(), count, data.parameters()) = data.phi.middleRows(static_cast<Eigen::Index>(first), count);
+      },
+      Note{"SI", "regressor"}.over({"time", "parameter"}));
+  write_names(writer, group, "parameter", parameters);
   writer.plottable(group, "torque", {"time"});
 }
 
@@ -110,7 +118,7 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   if (parts.arm)
     write_arm_samples(writer, group, set, parts);
   else if (parts.output.samples)
-    write_samples(writer, group, set.regression, parts.regressor->joint());
+    write_samples(writer, group, set.regression, parts.regressor->joint(), parts.parameter_names());
   else
     writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
   std::vector<std::string> warnings;
@@ -122,15 +130,20 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   for (auto const& recording : set.recordings)
     for (auto const& warning : recording.warnings)
       warnings.push_back(fmt::format("{}: {}: {}", recording.name, warning.topic, warning.text));
-  if (!warnings.empty()) writer.texts(group + "/warnings", warnings, {"1", "what `check` would say"});
+  if (!warnings.empty()) {
+    writer.texts(group + "/warnings", warnings, Note{"1", "what `check` would say"}.over({"warning"}));
+    write_index(writer, group, "warning", warnings.size());
+  }
   write_data_attributes(writer, group, set, parts.filter);
 }
 
-void write_health(ResultWriter& writer, RegressorHealth const& health) {
+void write_health(ResultWriter& writer, RegressorHealth const& health, std::vector<std::string> const& parameters) {
   Eigen::MatrixXd const& correlation = health.correlation;  // symmetric: row-major is column-major
   auto const n = static_cast<std::size_t>(correlation.rows());
   writer.numbers("/data/regressor_health/correlation", {n, n}, {correlation.data(), n * n},
-                 {"1", "correlation of the regressor's columns (uncentred)"});
+                 Note{"1", "correlation of the regressor's columns (uncentred)"}.over({"parameter", "with_parameter"}));
+  for (std::string const name : {"parameter", "with_parameter"})
+    write_names(writer, "/data/regressor_health", name, parameters);
   writer.attribute("/data/regressor_health", "condition_number", health.condition_number);
   writer.attribute("/data/regressor_health", "words", health.words);
 }
@@ -145,7 +158,7 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   if (parts.arm) write_arm(writer, parts);
   write_data_set(writer, "/data/train", parts.train, parts);
   if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts);
-  write_health(writer, parts.health);
+  write_health(writer, parts.health, parts.parameter_names());
 }
 
 }  // namespace torquescope

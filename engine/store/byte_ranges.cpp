@@ -6,6 +6,7 @@
 namespace torquescope {
 
 void ByteRanges::add(std::uint64_t begin, std::uint64_t end) {
+  if (closed_) return remove(begin, end);
   if (begin >= end) return;
   auto at = ends_.upper_bound(begin);
   if (at != ends_.begin() && std::prev(at)->second >= begin) --at;

@@ -124,7 +124,20 @@ OptionValue as_stored(OptionValue const& value);
 void write_attribute(Handle const& object, std::string const& name, OptionValue const& value);
 // int64, double, text, numbers or texts; nothing when there is no such attribute
 std::optional<OptionValue> read_attribute(Handle const& object, std::string const& name);
-std::vector<std::string> attribute_names(Handle const& object);  // sorted by bytes
+// sorted by bytes; without those of scales, which hold addresses, and whose lists lie in a heap without checksums
+std::vector<std::string> attribute_names(Handle const& object);
+
+// h5_scale.cpp (dimension_scales.hpp)
+struct ScaleUse {
+  std::string dataset;  // path
+  std::size_t dimension = 0;
+};
+bool is_about_scales(std::string const& attribute);
+// the dataset at `path` is the scale `name` of these dimensions
+void make_scale(Handle const& file, std::string const& path, std::string const& name,
+                std::vector<ScaleUse> const& uses);
+// the other way round: paths of the scales, one per dimension of the dataset at `path`
+void write_scales(Handle const& file, std::string const& path, std::vector<std::string> const& scales);
 
 // for h5*.cpp
 Handle property_list(std::int64_t kind);

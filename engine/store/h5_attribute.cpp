@@ -125,6 +125,7 @@ std::vector<std::string> attribute_names(Handle const& object) {
   };
   hsize_t position = 0;
   checked(H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_NATIVE, &position, collect, &names), "list attributes");
+  if (!is_group(object)) std::erase_if(names, is_about_scales);
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -177,7 +177,7 @@ ReadFacts ResultReader::read_everything(FilePart part) const {
 
 ReadFacts ResultReader::verified_content() const {
   auto const format = attribute<std::int64_t>("/", "format");
-  if (format != result_format)
+  if (format < first_format_of_this_digest)
     throw refused(fmt::format("{} has format {}: its digest was taken in another way", open_.path().string(), format),
                   "run the job again to get a file whose content can be verified");
   ReadFacts found = read_everything(FilePart::content);

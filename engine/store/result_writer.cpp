@@ -105,7 +105,8 @@ h5::Handle ResultWriter::create(std::string const& path, h5::DatasetPlan const& 
   h5::Handle dataset = h5::create_dataset(this->group(group), name, plan);
   digest_.dataset(path, plan.element, plan.shape);
   written_.keep_object(path, plan.shape);
-  add_attribute(dataset, path, "unit", note.unit);
+  scales_.add(path, plan.shape, note.dimensions);
+  add_attribute(dataset, path, "units", note.unit);
   add_attribute(dataset, path, "long_name", note.long_name);
   if (!note.source.empty()) add_attribute(dataset, path, "source", note.source);
   return dataset;
@@ -270,6 +271,9 @@ std::string ResultWriter::finish() {
     guarded(path, [&, &runs = runs] { runs.blocks.put_rest(write); });
   }
   runs_.clear();
+  values_
+      .close();  // HDF5 calls the lists of scales raw data, and they have no checksum of their own: the seal has them
+  guarded("/", [&] { scales_.attach(file_); });
   std::string sha256 = digest_.hex();
   attribute("/", content_digest_key, sha256);
   if (h5::exists(file_, provenance_path)) attribute("/", provenance_digest_key, digest_.hex(FilePart::provenance));

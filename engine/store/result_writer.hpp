@@ -28,6 +28,7 @@
 #include "engine/store/byte_ranges.hpp"
 #include "engine/store/chunk_writer.hpp"
 #include "engine/store/content_digest.hpp"
+#include "engine/store/dimension_scales.hpp"
 #include "engine/store/file_seal.hpp"
 #include "engine/store/h5.hpp"
 #include "engine/store/run_blocks.hpp"
@@ -36,7 +37,8 @@
 
 namespace torquescope {
 
-inline constexpr std::int64_t result_format = 2;
+inline constexpr std::int64_t result_format = 3;
+inline constexpr std::int64_t first_format_of_this_digest = 2;
 
 struct ResultWriterOptions {
   bool gzip = false;                  // level 1 without shuffle: a fifth of the size for histories, five times the time
@@ -47,9 +49,12 @@ struct ResultWriterOptions {
 
 // what a dataset says about itself
 struct Note {
-  std::string unit;       // "1" for none
-  std::string long_name;  // for people: label of an axis
-  std::string source{};   // paper, section, equation; "" when there is none
+  std::string unit;                       // "1" for none
+  std::string long_name;                  // for people: label of an axis
+  std::string source{};                   // paper, section, equation; "" when there is none
+  std::vector<std::string> dimensions{};  // each names its scale (dimension_scales.hpp); none: no scales
+
+  Note over(std::vector<std::string> const& names) const { return {unit, long_name, source, names}; }
 };
 
 enum class RunValues { number, whole_number };
@@ -115,6 +120,7 @@ class ResultWriter {
 
   ResultWriterOptions options_;
   ContentDigest digest_;
+  DimensionScales scales_;
   WrittenResult written_;
   ChunkWriter chunks_;
   TempFile temp_;  // before the handles: it outlives them

@@ -37,9 +37,30 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def test_root(self):
-        self.assertEqual(self.result.format, 2)
+        self.assertEqual(self.result.format, 3)
         self.assertEqual(self.result.content_sha256, self.sha256)
         self.assertTrue(self.result.creator.startswith("torquescope "))
+
+    def test_a_file_of_format_2_is_read_and_verified(self):
+        """It had no scales and called units unit; the digest is taken in the same way."""
+        name = self.folder / "format_2.h5"
+        shutil.copy(self.name, name)
+        with h5py.File(name, "r+") as file:
+            file.attrs["format"] = np.int64(2)
+            del file.attrs["sealed"]
+
+            def older(_, node):
+                if isinstance(node, h5py.Dataset):
+                    node.attrs["unit"] = np.bytes_(node.attrs["units"])
+                    for key in ("units", "CLASS", "NAME", "REFERENCE_LIST", "DIMENSION_LIST"):
+                        node.attrs.pop(key, None)
+
+            file.visititems(older)
+            file.attrs["content_sha256"] = np.bytes_(content_sha256(file))
+        with Result(name) as result:
+            result.verify()
+            self.assertEqual(result.estimators["fade"].unit("mse"), "(N m)2")
+            self.assertEqual(self.result.estimators["fade"].unit("mse"), "(N m)2")
 
     def test_texts_are_str(self):
         self.assertEqual(self.result.job.name, "crs_a465_joint")
@@ -80,7 +101,7 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
     def test_what_is_not_there(self):
         self.assertIsNone(self.result.validate)
         self.assertIsNone(self.result.get("diagnosis"))
-        with self.assertRaisesRegex(AttributeError, "/runs/fade has no 'banana'; it has: evaluations, mse"):
+        with self.assertRaisesRegex(AttributeError, "/runs/fade has no 'banana'; it has: evaluations, generation"):
             self.result.estimators["fade"].banana
 
     def test_h5py_reads_it_in_one_line(self):
@@ -159,7 +180,7 @@ class ReadsWhatTheStoreWrote(unittest.TestCase):
         self.assertIn("its values lie in another file", self.refusal(virtual))
         self.assertIn("it has two names", self.refusal(itself))
         self.assertIn("claims more values than the file can hold", self.refusal(huge))
-        self.assertIn("has format 3", self.refusal(set_attribute("format", np.int64(3))))
+        self.assertIn("has format 4", self.refusal(set_attribute("format", np.int64(4))))
         self.assertIn("never finished", self.refusal(set_attribute("complete", np.int64(0))))
         self.assertIn("not an HDF5 file", self.refusal(lambda name: name.write_text("t_s,q_rad\n")))
         self.assertIn("damaged in /runs/fade/population", self.refusal(damage))

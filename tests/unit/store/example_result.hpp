@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/store/result_writer.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope::example {
 
@@ -43,7 +43,8 @@ inline void write_job(ResultWriter& writer) {
   writer.texts("/model/names", std::vector<std::string>{"inertia", "viscous"}, {"1", "parameter names"});
   writer.attribute("/data/train", "recordings", std::vector<std::string>{"a.csv", "b.csv"});
   writer.attribute("/data/train", "rate_hz", 200.0);
-  writer.numbers("/data/train/torque", {samples}, torque(), {"N m", "measured torque"});
+  writer.numbers("/data/train/torque", {samples}, torque(), Note{"N m", "measured torque"}.over({"sample"}));
+  write_index(writer, "/data/train", "sample", samples);
   writer.attribute("/runs", "order", std::vector<std::string>{"ols", "fade"});
   writer.attribute("/runs/ols", "kind", std::string("ols"));
   writer.numbers("/runs/ols/parameters", {1, 2}, std::vector<double>{0.0036, 0.0164}, {"1", "estimates"});
@@ -53,9 +54,14 @@ inline void declare_fade(ResultWriter& writer) {
   writer.attribute("/runs/fade", "kind", std::string("fade"));
   writer.attribute("/runs/fade", "cr_start", 0.5);
   writer.attribute("/runs/fade", "parameters_mean", std::vector<double>{0.0036, 0.0164});
-  writer.declare_runs("/runs/fade/population", runs, {entries, members, parameters}, {"1", "members", "FADE, eq. 3"});
+  writer.declare_runs("/runs/fade/population", runs, {entries, members, parameters},
+                      Note{"1", "members", "FADE, eq. 3"}.over({"run", "generation", "member", "parameter"}));
   writer.declare_runs("/runs/fade/evaluations", runs, {entries}, {"1", "evaluations so far"}, RunValues::whole_number);
-  writer.declare_runs("/runs/fade/mse", runs, {}, {"(N m)2", "mean squared error"});
+  writer.declare_runs("/runs/fade/mse", runs, {}, Note{"(N m)2", "mean squared error"}.over({"run"}));
+  write_index(writer, "/runs", "run", runs);  // a scale of a group around
+  write_index(writer, "/runs/fade", "generation", entries);
+  write_index(writer, "/runs/fade", "member", members);
+  write_names(writer, "/runs/fade", "parameter", std::vector<std::string>{"inertia", "viscous"});
 }
 
 inline void write_fade_run(ResultWriter& writer, std::size_t run) {

@@ -74,7 +74,7 @@ TEST(ResultReader, RefusesANewerFormatAndAnUnfinishedFile) {
   EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("was never finished"));
   tamper(folder / "R.h5", [](hid_t file) { set_root_number(file, "format", result_format + 1); });
   EXPECT_EQ(opening(folder / "R.h5").first, ExitCode::bad_data);
-  EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("has format 3; this version reads up to 2"));
+  EXPECT_THAT(opening(folder / "R.h5").second, HasSubstr("has format 4; this version reads up to 3"));
 }
 
 TEST(ResultReader, DoesNotCallAnOlderFormatDamaged) {
@@ -188,8 +188,9 @@ TEST(ResultReader, ListsWhatThereIsAndSaysWhatIsNot) {
   test::TemporaryFolder const folder;
   example::write_result(folder / "R.h5");
   ResultReader const reader(folder / "R.h5");
-  EXPECT_EQ(reader.children("/runs"), (std::vector<std::string>{"fade", "ols"}));
-  EXPECT_EQ(reader.children("/runs/fade"), (std::vector<std::string>{"evaluations", "mse", "population"}));
+  EXPECT_EQ(reader.children("/runs"), (std::vector<std::string>{"fade", "ols", "run"}));
+  EXPECT_EQ(reader.children("/runs/fade"),
+            (std::vector<std::string>{"evaluations", "generation", "member", "mse", "parameter", "population"}));
   EXPECT_TRUE(reader.exists("/runs/fade/mse"));
   EXPECT_FALSE(reader.exists("/runs/fade/mse/deeper"));
   EXPECT_FALSE(reader.exists("/diagnosis/verdict"));

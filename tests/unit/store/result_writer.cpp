@@ -49,7 +49,7 @@ TEST(ResultWriter, RoundTripsEveryKindOfValue) {
     EXPECT_EQ(reader.whole_numbers("/runs/fade/evaluations").values[5], example::evaluations(1)[0]);
     EXPECT_EQ(reader.numbers("/runs/fade/mse").values, (std::vector<double>{0.09, 0.09 + 0.001, 0.09 + 0.002}));
 
-    EXPECT_EQ(reader.attribute<std::string>("/runs/fade/population", "unit"), "1");
+    EXPECT_EQ(reader.attribute<std::string>("/runs/fade/population", "units"), "1");
     EXPECT_EQ(reader.attribute<std::string>("/runs/fade/population", "long_name"), "members");
     EXPECT_EQ(reader.attribute<std::string>("/runs/fade/population", "source"), "FADE, eq. 3");
     EXPECT_EQ(reader.find_attribute<std::string>("/runs/fade/mse", "source"), std::nullopt);

@@ -28,12 +28,12 @@ import h5py
 import numpy as np
 
 from ..errors import ResultError
-from .content_digest import content_sha256
+from .content_digest import FIRST_FORMAT, content_sha256
 from .file_seal import check_seal
 from .first_look import WHAT_H5PY_RAISES, look_first
 from .read_diagnosis import read_diagnosis
 
-NEWEST_FORMAT = 2
+NEWEST_FORMAT = 3
 
 
 def _plain(value):
@@ -110,7 +110,8 @@ class Group:
 
     def unit(self, name):
         """Unit of a dataset; "1" for none."""
-        return _plain(self._group[name].attrs["unit"])
+        attributes = self._group[name].attrs
+        return _plain(attributes["units" if "units" in attributes else "unit"])  # "unit": format 2
 
     def long_name(self, name):
         """Label of a dataset, for people."""
@@ -216,9 +217,9 @@ class Result(Group):
 
     def verify(self):
         """Read everything; ResultError unless the content is what its sha256 says."""
-        if self.format != NEWEST_FORMAT:
+        if self.format < FIRST_FORMAT:
             raise ResultError(
-                f"{self._file.filename} has format {self.format}; only the digest of format {NEWEST_FORMAT} is known"
+                f"{self._file.filename} has format {self.format}; digests are known from format {FIRST_FORMAT} on"
             )
         with _told_of(self._group):
             found = content_sha256(self._file)
