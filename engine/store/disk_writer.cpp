@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/huge_pages.hpp"
+#include "engine/base/wait_until_true.hpp"
 
 namespace torquescope {
 namespace {
@@ -67,7 +68,7 @@ void DiskWriter::put(FilePiece piece) {
   }
   {
     std::unique_lock lock(guard_);
-    changed_.wait(lock, [this] { return waiting_.size() < most_waiting_; });
+    wait_until_true(changed_, lock, [this] { return waiting_.size() < most_waiting_; });
     waiting_.push_back(std::move(piece));
   }
   changed_.notify_all();
@@ -76,7 +77,7 @@ void DiskWriter::put(FilePiece piece) {
 void DiskWriter::run() {
   std::unique_lock lock(guard_);
   for (;;) {
-    changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    wait_until_true(changed_, lock, [this] { return ending_ || !waiting_.empty(); });
     if (ending_) return;
     FilePiece& piece = waiting_.front();  // a deque moves nothing when more is put behind it
     lock.unlock();
@@ -90,7 +91,7 @@ void DiskWriter::run() {
 
 void DiskWriter::wait() {
   std::unique_lock lock(guard_);
-  changed_.wait(lock, [this] { return waiting_.empty(); });
+  wait_until_true(changed_, lock, [this] { return waiting_.empty(); });
 }
 
 PageAlignedBytes DiskWriter::memory(std::size_t room) {

@@ -2,11 +2,13 @@
 include(CMakePackageConfigHelpers)
 get_property(layers GLOBAL PROPERTY TORQUESCOPE_LAYERS)
 list(TRANSFORM layers PREPEND torquescope_ OUTPUT_VARIABLE targets)
-install(TARGETS ${targets} EXPORT torquescope_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT torquescope_targets NAMESPACE torquescope:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)
-install(DIRECTORY engine kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope FILES_MATCHING PATTERN "*.hpp")
+install(TARGETS ${targets} EXPORT torquescope_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT torquescope_targets NAMESPACE torquescope:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope
+        COMPONENT development)
+install(DIRECTORY engine kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${CMAKE_BINARY_DIR}/generated/engine/base/version.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base)
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/torquescope/engine/base COMPONENT development)
 # the page builder with its templates, where the installed program looks for it
 install(DIRECTORY scripts/report DESTINATION ${CMAKE_INSTALL_DATADIR}/torquescope
         PATTERN "__pycache__" EXCLUDE)
@@ -23,4 +25,4 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/torquescope-config-
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/torquescope-config-version.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/torquescope COMPONENT development)

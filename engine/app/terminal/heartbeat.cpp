@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/fork_guard.hpp"
+#include "engine/base/wait_until_true.hpp"
 
 namespace torquescope {
 
@@ -33,7 +34,7 @@ Heartbeat::Heartbeat(std::chrono::milliseconds period, std::function<void()> bea
       })) {
   // a thread that begins takes locks too, which a fork must not meet (fork_guard.hpp)
   std::unique_lock lock(guard_);
-  ends_.wait(lock, [this] { return began_; });
+  wait_until_true(ends_, lock, [this] { return began_; });
 }
 
 Heartbeat::~Heartbeat() {
