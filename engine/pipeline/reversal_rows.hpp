@@ -4,8 +4,8 @@
 // mask       reversal_mask.hpp
 // weigh      each row counts by what replicates with drawn sticking laws show there (twin/reversal_weights.hpp); rests
 //            alone are left out
-// both       mask; where nothing is missing beside it, weigh: what is named there counts, and what nothing explains where
-//            the other rows hide much. weigh from the beginning where the mask leaves too few rows
+// both       mask; where nothing is missing beside it, weigh: what is named there counts, and what nothing explains
+//            where the other rows hide much. weigh from the beginning where the mask leaves too few rows
 // Threads    free functions
 
 #include <string>
