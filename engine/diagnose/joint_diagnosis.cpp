@@ -236,6 +236,9 @@ class JointWork {
                                       {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
     joint_.effects = std::move(named.effects);
     joint_.augmented = std::move(named.parameters);
+    JointScales const& scales = final_stage().model().reference().scales;
+    FrictionSign const sign = scales.friction_sign();
+    joint_.law_levels = {sign.forward, sign.backward, scales.inertia};
     place_ = std::move(named.place);
   }
 

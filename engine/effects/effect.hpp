@@ -139,6 +139,8 @@ struct EffectDescription {
   bool is_of_whole_arm = false;  // acts on several joints at once, and is judged on the rows of all
   bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
+  // the torque as an expression in C (instant_code.hpp); empty where one instant of the motion does not tell it
+  std::string code{}, plain_code{};
 };
 
 class Effect {
@@ -167,6 +169,8 @@ class Effect {
   bool is_given() const { return description_.is_given; }
   bool is_of_whole_arm() const { return description_.is_of_whole_arm; }
   std::string const& plain_equation() const { return description_.plain_equation; }
+  std::string const& code() const { return description_.code; }
+  std::string const& plain_code() const { return description_.plain_code; }
   bool has_plain_form() const { return !description_.plain_equation.empty(); }
   virtual bool has_memory() const = 0;
   // false: the law can be computed there, but would be something else than its name says; n_shape()

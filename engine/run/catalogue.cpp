@@ -7,6 +7,7 @@
 #include "engine/data/motion.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/effects/given_effect.hpp"
+#include "engine/effects/instant_code.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/excite/excite_options.hpp"
 #include "engine/job/job_options.hpp"
@@ -56,6 +57,9 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
     entry.text.push_back("family     " + joined(effect->families()));
     entry.text.push_back(
         fmt::format("equation   {}{}", effect->acts_on() == ActsOn::joint ? "tau = " : "", effect->equation()));
+    entry.text.push_back("code       " +
+                         (effect->code().empty() ? "none: it " + why_no_code(*effect) : effect->code()) +
+                         (effect->plain_code().empty() ? "" : ", as a term of a model " + effect->plain_code()));
     for (auto const& parameter : effect->parameters()) entry.text.push_back(parameter_line(parameter));
     entry.text.push_back(
         fmt::format("signature  {}; {} in the velocity", joined(effect->signature()),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/run/diagnosis_json.hpp"
+#include "engine/run/model_code.hpp"
 #include "engine/run/table_columns.hpp"
 #include "engine/store/scale_datasets.hpp"
 
@@ -219,6 +220,9 @@ void write_joint_attributes(ResultWriter& writer, std::string const& group, Join
   writer.attribute(group, "explained_share", joint.explained_share);
   writer.attribute(group, "explained_low", joint.explained_low);
   writer.attribute(group, "explained_high", joint.explained_high);
+  writer.attribute(group, "friction_sign_forward", joint.law_levels.forward);
+  writer.attribute(group, "friction_sign_backward", joint.law_levels.backward);
+  writer.attribute(group, "baseline_inertia", joint.law_levels.inertia);
   writer.attribute(group, "budget_parameter_error", joint.budget.parameter_error);
   writer.attribute(group, "budget_missing_physics", joint.budget.missing_physics);
   writer.attribute(group, "budget_unexplained", joint.budget.unexplained);
@@ -279,8 +283,13 @@ void write_diagnosis(ResultWriter& writer, Diagnosis const& diagnosis) {
     for (std::size_t i = 0; i < diagnosis.arm->effects.size(); ++i)
       write_effect(writer, fmt::format("{}/arm/effects/effect_{}", group, i + 1), diagnosis.arm->effects[i], "N m");
   }
-  for (std::size_t i = 0; i < diagnosis.joints.size(); ++i)
-    write_joint(writer, fmt::format("{}/joint_{}", group, i + 1), diagnosis.joints[i]);
+  for (std::size_t i = 0; i < diagnosis.joints.size(); ++i) {
+    JointDiagnosis const& joint = diagnosis.joints[i];
+    std::string const own = fmt::format("{}/joint_{}", group, i + 1);
+    write_joint(writer, own, joint);
+    writer.attribute(own, "model_c", c_of_joint(diagnosis, joint));
+    writer.attribute(own, "model_mjcf", mjcf_of_joint(joint));
+  }
 }
 
 }  // namespace torquescope

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/effects/joint_form.hpp"
+#include "engine/run/model_code.hpp"
 #include "engine/store/scale_datasets.hpp"
 
 namespace torquescope {
@@ -137,6 +138,20 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   write_per_run(writer, group + "/gap", results.gap, {squared(torque_unit), "MSE above the least-squares floor"});
   writer.texts(group + "/stop_reason", results.stop_reason, Note{"1", "why each run ended"}.over({"run"}));
   write_summary(writer, group, results);
+}
+
+void write_model_code(ResultWriter& writer, std::string const& label, Regressor const& regressor,
+                      RunResults const& results) {
+  if (results.runs() == 0 || results.present().size() < results.runs()) return;
+  Eigen::VectorXd const& values = results.parameters[lower_median_index(results.gap)];
+  std::vector<ParameterEstimate> parameters;
+  auto const names = regressor.names(), units = regressor.units();
+  for (std::size_t k = 0; k < names.size(); ++k)
+    parameters.push_back({names[k], units[k], values[static_cast<Eigen::Index>(k)]});
+  auto const laws = laws_of(parameters);
+  JointKind const joint = regressor.joint();
+  writer.attribute(group_of(label), "model_c", c_text(laws, {}, joint, "joint_" + effort_word(joint)));
+  writer.attribute(group_of(label), "model_mjcf", mjcf_joint(laws, joint, "joint"));
 }
 
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice) {

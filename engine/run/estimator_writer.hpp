@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects/regressor.hpp"
 #include "engine/problem/fitness_choice.hpp"
 #include "engine/run/estimator_plan.hpp"
 #include "engine/run/run_part.hpp"
@@ -25,6 +26,10 @@ void write_history(ResultWriter& writer, std::string const& label, std::size_t r
                    std::shared_ptr<RunHistory const> const& history);
 void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults const& results,
                    std::string const& torque_unit, std::vector<std::string> const& parameters);
+
+// the joint of the median run as code; nothing while runs are missing
+void write_model_code(ResultWriter& writer, std::string const& label, Regressor const& regressor,
+                      RunResults const& results);
 
 // what the fitness of a population method was made from, and why
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice);

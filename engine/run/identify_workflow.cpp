@@ -169,6 +169,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
     write_results(writer, plan, results, study.torque_unit, parts.parameter_names());
+    if (parts.regressor) write_model_code(writer, plan.label, *parts.regressor, results);
     if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     order.push_back(plan.label);

@@ -183,6 +183,12 @@ struct LevelChange {
   double relerr_before = unknown, relerr_with = unknown;
 };
 
+// what laws took from the fitted baseline (JointScales); of results before 27 Nov 2026 unknown
+struct LawLevels {
+  double forward = unknown, backward = unknown;  // friction_sign() of either direction
+  double inertia = unknown;
+};
+
 struct JointDiagnosis {
   int joint = 1;
   Verdict verdict = Verdict::none;         // of this joint; of an arm, where each has its own
@@ -195,6 +201,7 @@ struct JointDiagnosis {
   std::vector<Candidate> candidates{};  // strongest first
   std::vector<NamedEffect> effects{};   // in the order of acceptance
   std::vector<ParameterEstimate> augmented{};
+  LawLevels law_levels{};
   double augmented_train_relerr = unknown, augmented_validation_relerr = unknown, augmented_cv_relerr = unknown;
   double validation_torque_energy = unknown;  // of the rows that validation_relerr is of
   double floor_relerr = unknown;              // what a complete model would leave, unseen recording (or training)

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,6 +13,8 @@
 #include "engine/app/result/result_summary.hpp"
 #include "engine/app/result/result_tables.hpp"
 #include "engine/run/arm_export.hpp"
+#include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/model_code.hpp"
 
 namespace torquescope {
 
@@ -48,15 +51,57 @@ void write_text(std::string const& file, std::string const& text, Session const&
   });
 }
 
+// one that the kind of result has, or error 64 that says which it has
+template <class Formats>
+void check_formats(ExportArguments const& arguments, Formats const& formats, std::string const& what,
+                   std::string const& help) {
+  for (auto const& [name, file] : arguments.out) {
+    bool const is_there =
+        std::any_of(formats.begin(), formats.end(), [&](auto const& format) { return format.name == name; });
+    validate(is_there, [&] {
+      return Problem{.code = ExitCode::usage,
+                     .what = fmt::format("{} is {}, which has no --{}", arguments.file, what, name),
+                     .help = help};
+    });
+  }
+}
+
+ExitCode export_models(ExportArguments const& arguments, Diagnosis const& diagnosis, Session const& session) {
+  check_formats(arguments, model_writers(), "a diagnosis of joints",
+                "its models are written by --c, --json and --mjcf; a robot file needs the result of torquescope run of "
+                "an arm");
+  validate(arguments.estimator.empty() && !arguments.near_cad, [&] {
+    return Problem{.code = ExitCode::usage,
+                   .what = arguments.file + " is a diagnosis, which has neither estimators nor a robot file's bodies",
+                   .help = "leave --estimator and --cad out"};
+  });
+  for (auto const& writer : model_writers()) {
+    auto const out = arguments.out.find(writer.name);
+    if (out == arguments.out.end()) continue;
+    write_text(out->second, writer.write(diagnosis), session);
+    if (out->second != "-") session.note(session.topic_line("wrote", out->second));
+  }
+  return ExitCode::ok;
+}
+
 ExitCode export_result(ExportArguments const& arguments, Session const& session) {
   validate(!arguments.out.empty(), [] {
     return Problem{.code = ExitCode::usage,
                    .what = "export needs a format",
-                   .help = "torquescope export arm.h5 --urdf arm.urdf; --toml, --json and --mjcf likewise"};
+                   .help =
+                       "torquescope export arm.h5 --urdf arm.urdf; --toml, --json and --mjcf likewise. Of a "
+                       "diagnosis: --c model.c; --json and --mjcf likewise"};
   });
   auto const summary = read_summary(arguments.file);
+  if (summary.has_diagnosis) {
+    look_at_result(summary.file, [](ResultReader const& there) { read_diagnosis(there); });
+    return export_models(arguments, read_diagnosis(ResultReader(summary.file)), session);
+  }
   look_at_result(summary.file, [](ResultReader const& there) { read_identified_arm(there); });
   auto const arm = read_identified_arm(ResultReader(summary.file));
+  check_formats(arguments, export_formats(), "an identified arm",
+                "its robot file is written by --urdf, --toml, --json and --mjcf; functions in C are of a diagnosis: "
+                "torquescope diagnose JOB.toml --out told.h5");
   if (!arm.has_limits)
     session.note(session.topic_line("warning",
                                     "this result is of an earlier version, which kept neither limits nor "
@@ -83,16 +128,28 @@ ExitCode export_result(ExportArguments const& arguments, Session const& session)
 void add_export(CLI::App& app, ChosenCommand& chosen) {
   auto const arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
-      app.add_subcommand("export", "Writes the arm of a result as a robot file: URDF, TOML, JSON, MJCF.");
+      app.add_subcommand("export", "Writes the arm of a result as a robot file, the models of a diagnosis as C.");
   command->footer(
       "  torquescope export arm.h5 --urdf arm.urdf\n"
-      "  torquescope export arm.h5 --json - --estimator wls\n");
-  command->add_option("R.h5", arguments->file, "result file of torquescope run of an arm, HDF5")->required();
+      "  torquescope export arm.h5 --json - --estimator wls\n"
+      "  torquescope export diagnosis.h5 --c model.c\n");
+  command
+      ->add_option("R.h5", arguments->file,
+                   "result file of torquescope run of an arm, or of torquescope diagnose, HDF5")
+      ->required();
   command->add_option("--estimator", arguments->estimator, "whose parameters; the first by default")->group("results");
   command
       ->add_flag("--cad", arguments->near_cad, "masses and inertias left open stay near those of the job's robot file")
       ->group("results");
-  for (auto const& format : export_formats())
+  std::vector<ExportFormat> formats = export_formats();
+  for (auto const& format : model_writers()) {
+    auto const same = std::find_if(formats.begin(), formats.end(), [&](auto& one) { return one.name == format.name; });
+    if (same == formats.end())
+      formats.push_back({format.name, format.meaning});
+    else
+      same->meaning += ", or " + format.meaning;
+  }
+  for (auto const& format : formats)
     command
         ->add_option_function<std::string>(
             "--" + format.name,

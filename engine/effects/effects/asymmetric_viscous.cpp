@@ -26,7 +26,8 @@ class AsymmetricViscous final : public InstantEffect {
                                        {0.5, RelativeTo::viscous}}},
                        .families = {EffectFamily::velocity_law},
                        .signature = {SignatureAxis::velocity},
-                       .parity = Parity::even}) {}
+                       .parity = Parity::even,
+                       .code = "asymmetric_viscous * fabs(dq)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

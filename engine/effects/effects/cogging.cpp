@@ -27,7 +27,8 @@ class Cogging final : public InstantEffect {
                                             {1.0, RelativeTo::highest_order}, Spacing::linear)},
              .families = {EffectFamily::order_locked},
              .signature = {SignatureAxis::order, SignatureAxis::position},
-             .parity = Parity::even}) {}
+             .parity = Parity::even,
+             .code = "cogging_cos * cos(cogging_order * q) + cogging_sin * sin(cogging_order * q)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {

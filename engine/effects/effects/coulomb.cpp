@@ -18,7 +18,8 @@ class Coulomb final : public InstantEffect {
                        .parameters = {{"coulomb", "N m", "N"}},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd,
-                       .is_dry_friction = true}) {}
+                       .is_dry_friction = true,
+                       .code = "coulomb * s"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

@@ -19,7 +19,8 @@ class CoulombNegative final : public InstantEffect {
                        .parameters = {{"coulomb_negative", "N m", "N"}},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::neither,
-                       .is_dry_friction = true}) {}
+                       .is_dry_friction = true,
+                       .code = "coulomb_negative * (dq < 0)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

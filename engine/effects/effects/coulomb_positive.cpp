@@ -18,7 +18,8 @@ class CoulombPositive final : public InstantEffect {
                        .parameters = {{"coulomb_positive", "N m", "N"}},
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::neither,
-                       .is_dry_friction = true}) {}
+                       .is_dry_friction = true,
+                       .code = "coulomb_positive * (dq > 0)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

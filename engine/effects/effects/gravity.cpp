@@ -22,7 +22,8 @@ class Gravity final : public InstantEffect {
                        .families = {EffectFamily::static_position},
                        .signature = {SignatureAxis::position},
                        .parity = Parity::even,
-                       .is_rigid_body = true}) {}
+                       .is_rigid_body = true,
+                       .code = "gravity_sin * sin(q) + gravity_cos * cos(q)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

@@ -18,7 +18,8 @@ class Inertia final : public InstantEffect {
                        .parameters = {{"inertia", "kg m2", "kg"}},
                        .signature = {SignatureAxis::acceleration},
                        .parity = Parity::even,
-                       .is_rigid_body = true}) {}
+                       .is_rigid_body = true,
+                       .code = "inertia * ddq"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

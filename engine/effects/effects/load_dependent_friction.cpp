@@ -35,7 +35,10 @@ class LoadDependentFriction final : public InstantEffect {
              .signature = {SignatureAxis::load, SignatureAxis::velocity},
              .parity = Parity::odd,
              .needs_baseline = true,
-             .is_dry_friction = true}) {}
+             .is_dry_friction = true,
+             .code = "friction_sign * load_dependent_friction "
+                     "* (sqrt(pow(load - (1 - load_friction_inertia_share) * baseline_inertia * ddq, 2) "
+                     "+ pow(load_friction_preload, 2)) - load_friction_preload)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

@@ -17,7 +17,8 @@ class Offset final : public InstantEffect {
                        .source = "Gautier 1997, Dynamic identification of robots with power model",
                        .parameters = {{"offset", "N m", "N"}},
                        .signature = {SignatureAxis::position},
-                       .parity = Parity::even}) {}
+                       .parity = Parity::even,
+                       .code = "offset"}) {}
 
  private:
   void law(JointStates const&, std::span<double const>, JointScales const&, LawColumns out) const override {

@@ -37,7 +37,10 @@ class PositionDependentFriction final : public InstantEffect {
              .signature = {SignatureAxis::position, SignatureAxis::velocity},
              .parity = Parity::odd,
              .is_dry_friction = true,
-             .is_level_free = true}) {}
+             .is_level_free = true,
+             .code = "friction_sign * (position_friction_slope * q "
+                     "+ position_friction_cos * cos(position_friction_order * q) "
+                     "+ position_friction_sin * sin(position_friction_order * q))"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

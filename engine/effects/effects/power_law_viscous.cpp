@@ -27,7 +27,8 @@ class PowerLawViscous final : public InstantEffect {
                                                                   Spacing::linear))},
                        .families = {EffectFamily::velocity_law, EffectFamily::reversal},
                        .signature = {SignatureAxis::velocity},
-                       .parity = Parity::odd}) {}
+                       .parity = Parity::odd,
+                       .code = "s * power_law_viscous * pow(fabs(dq), power_law_exponent)"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {

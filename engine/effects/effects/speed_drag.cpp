@@ -24,7 +24,8 @@ class SpeedDrag final : public InstantEffect {
                             {"cubic_drag", "N m s3/rad3", "N s3/m3", {0.0}, {0.5, RelativeTo::torque_per_speed3}}},
              .families = {EffectFamily::velocity_law},
              .signature = {SignatureAxis::velocity},
-             .parity = Parity::odd}) {}
+             .parity = Parity::odd,
+             .code = "quadratic_drag * dq * fabs(dq) + cubic_drag * dq * dq * dq"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

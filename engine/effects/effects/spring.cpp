@@ -37,7 +37,9 @@ class Spring final : public InstantEffect {
              .signature = {SignatureAxis::position},
              .parity = Parity::even,
              .is_level_free = true,
-             .plain_equation = "k q"}) {}
+             .plain_equation = "k q",
+             .code = "spring * (q + spring_hardening * pow(q - spring_rest, 3))",
+             .plain_code = "spring * q"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {

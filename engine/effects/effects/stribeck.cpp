@@ -30,7 +30,8 @@ class Stribeck final : public InstantEffect {
              .families = {EffectFamily::reversal, EffectFamily::velocity_law},
              .signature = {SignatureAxis::velocity, SignatureAxis::since_velocity_reversal},
              .parity = Parity::odd,
-             .is_dry_friction = true}) {}
+             .is_dry_friction = true,
+             .code = "friction_sign * stribeck * exp(-pow(fabs(dq) / stribeck_speed, stribeck_exponent))"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const& scales,

@@ -17,7 +17,8 @@ class Viscous final : public InstantEffect {
                        .source = "seed eq. 3, x2",
                        .parameters = {{"viscous", "N m s/rad", "N s/m"}},
                        .signature = {SignatureAxis::velocity},
-                       .parity = Parity::odd}) {}
+                       .parity = Parity::odd,
+                       .code = "viscous * dq"}) {}
 
  private:
   void law(JointStates const& at, std::span<double const>, JointScales const&, LawColumns out) const override {

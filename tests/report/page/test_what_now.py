@@ -3,21 +3,17 @@
 import dataclasses
 import math
 import re
-import shutil
-import subprocess
 import unittest
-import xml.etree.ElementTree as xml
 from types import SimpleNamespace
 
 import numpy as np
 import support
 from vary_diagnosis import HOSTILE_WORDS
 
-from torquescope.page import build, diagnosed, model_code, what_now
+from torquescope.page import build, diagnosed, friction_table, what_now
 from torquescope.page.effect_titles import TITLES
 from torquescope.reader.diagnosis_records import Parameter
 
-COMPILER = shutil.which("cc") or shutil.which("gcc")
 FRICTION = {"inertia": 0.09, "viscous": 0.35, "coulomb": 0.6, "offset": 0.04, "stribeck": 0.34, "stribeck_speed": 0.15,
             "stribeck_exponent": 1.1, "gravity_sin": 0.8, "cogging_cos": 0.05, "cogging_order": 12.0, "spring": 0.3,
             "quadratic_drag": 0.02, "power_law_viscous": 0.1, "power_law_exponent": 0.5, "presliding": 0.2}
@@ -27,53 +23,9 @@ def model_of(values, unit="N m"):
     return {name: Parameter(name, unit, value, math.nan, math.nan) for name, value in values.items()}
 
 
-class Code(unittest.TestCase):
-    def test_the_numbers_are_those_of_the_equations(self):
-        q, dq, ddq = 0.3, -0.2, 1.5
-        friction = 0.35 * dq - 0.6 - 0.34 * math.exp(-((0.2 / 0.15) ** 1.1)) + 0.02 * dq * 0.2 - 0.1 * 0.2**0.5
-        expected = 0.09 * ddq + 0.04 + friction + 0.8 * math.sin(q) + 0.05 * math.cos(12 * q) + 0.3 * q
-        self.assertAlmostEqual(model_code.value(model_of(FRICTION), q, dq, ddq), expected, places=12)
-
-    @unittest.skipUnless(COMPILER, "no C compiler here")
-    def test_the_c_function_compiles_without_a_warning_and_computes_the_same(self):
-        model = model_of(FRICTION)
-        source = support.FOLDER / "joint.c"
-        source.write_text(model_code.c_function(model, "revolute", "torque") + "#include <stdio.h>\nint main(void) "
-                          "{ double q, dq, ddq; while (scanf(\"%lf %lf %lf\", &q, &dq, &ddq) == 3) "
-                          "printf(\"%.15g\\n\", joint_torque(q, dq, ddq)); return 0; }\n")
-        subprocess.run([COMPILER, "-std=c99", "-Wall", "-Wextra", "-Werror", source, "-lm", "-o",
-                        source.with_suffix("")], check=True)
-        motion = np.random.default_rng(3).normal(size=(20, 3))
-        given = "\n".join(" ".join(map(repr, map(float, row))) for row in [*motion, (0.1, 0.0, 0.0)])
-        told = subprocess.run([source.with_suffix("")], input=given, capture_output=True, text=True, check=True).stdout
-        np.testing.assert_allclose([float(line) for line in told.split()[:20]],
-                                   [model_code.value(model, *row) for row in motion], rtol=1e-12)
-
-    def test_the_regressor_of_a_study_gives_the_same_torque(self):
-        study = support.study("crs")
-        parameters = study.ols.chosen
-        model = model_of(dict(zip(map(str, study.model.names), map(float, parameters))))
-        train = study.train
-        found = model_code.value(model, train.position, train.velocity, train.acceleration)
-        moving = np.abs(train.velocity) > 0
-        np.testing.assert_allclose(found[moving], train.prediction(parameters)[moving], rtol=1e-9, atol=1e-12)
-
-    def test_what_has_no_expression_is_named_as_left_out(self):
-        self.assertIn("left out, for it needs more than these three: presliding",
-                      model_code.c_function(model_of(FRICTION), "revolute", "torque"))
-
-    def test_a_joint_of_mujoco_has_what_it_has_words_for(self):
-        text = model_code.mjcf_joint(model_of(FRICTION), "elbow", "revolute")
-        joint = xml.fromstring(f"<body>{text}</body>").find("joint")
-        self.assertEqual(joint.attrib, {"name": "elbow", "type": "hinge", "armature": "0.09", "damping": "0.35",
-                                        "frictionloss": "0.6"})
-        self.assertIn("stribeck", text)
-        both = {"coulomb_positive": 0.4, "coulomb_negative": -0.6}
-        self.assertIn('frictionloss="0.5"', model_code.mjcf_joint(model_of(both), "a", "revolute"))
-        self.assertEqual(model_code.mjcf_joint(model_of({"inertia": 0.1}), "a", "revolute"), "")
-
-    def test_the_table_holds_friction_and_nothing_else(self):
-        rows = dict(re.findall(r"(\w+) = \[(.*)\];", model_code.friction_table(model_of(FRICTION), 2.0)))
+class FrictionTable(unittest.TestCase):
+    def test_it_holds_friction_and_nothing_else(self):
+        rows = dict(re.findall(r"(\w+) = \[(.*)\];", friction_table.friction_table(model_of(FRICTION), 2.0)))
         velocity, friction = (np.array(rows[name].split(), dtype=float) for name in ("velocity", "friction"))
         self.assertTrue(np.all(np.diff(velocity) > 0))
         self.assertEqual(velocity[-1], 2.0)
@@ -81,12 +33,16 @@ class Code(unittest.TestCase):
         self.assertAlmostEqual(abs(friction[at]), 0.6 + 0.34, delta=0.01)  # no offset, no gravity
         np.testing.assert_allclose(friction, -friction[::-1], rtol=1e-3)
 
-    def test_hostile_names_and_units_write_no_code(self):
-        model = model_of({"viscous": 0.1, "*/ evil(); /*": 1.0, "--> <evil/>": 2.0}, unit="*/ evil(); /*")
-        text = model_code.c_function(model, "revolute", "torque")
-        self.assertEqual(re.sub(r"/\*.*?\*/", "", text, flags=re.S).count("evil"), 0)
-        joint = model_code.mjcf_joint(model, '"/><evil a="', "revolute")
-        self.assertEqual([one.tag for one in xml.fromstring(f"<body>{joint}</body>")], ["joint"])
+    def test_the_numbers_are_those_of_the_equations(self):
+        dq = -0.2
+        expected = 0.35 * dq - 0.6 - 0.8 * 0.34 * math.exp(-((0.2 / 0.15) ** 1.1)) + 0.02 * dq * 0.2 - 0.1 * 0.2**0.5
+        found = friction_table.value(model_of(FRICTION | {"cubic_drag": 0.0}), dq, (1.2, -0.8))
+        self.assertAlmostEqual(float(found), expected, places=12)
+
+    def test_levels_that_are_not_in_the_file_make_no_table(self):
+        unknown = (math.nan, math.nan)
+        self.assertEqual(friction_table.friction_table(model_of(FRICTION), 2.0, unknown), "")
+        self.assertIn("friction", friction_table.friction_table(model_of({"viscous": 0.1}), 2.0, unknown))
 
 
 @support.needs_diagnoses

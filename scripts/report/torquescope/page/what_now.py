@@ -7,8 +7,9 @@ import math
 
 import numpy as np
 
-from . import diagnosed, model_code, quantities as q
+from . import diagnosed, quantities as q
 from .effect_titles import TERMS
+from .friction_table import friction_table
 from ..reader.diagnosis_records import Parameter
 
 # where the load is inertia alone
@@ -20,7 +21,9 @@ def blocks_of_joint(study, joint):
     """Of a diagnosed joint, single or one of an arm."""
     model = joint.augmented if diagnosed.has_after(joint) and joint.augmented else joint.baseline
     found = [_new_terms(study, joint), _narrower_search(study, joint), _simulation(study, joint, model)]
-    programs = _programs(study, model, joint.name or f"joint_{joint.joint}", _fastest(joint))
+    sign = joint.friction_sign_forward, joint.friction_sign_backward
+    table = "" if study.arm else friction_table(model, _fastest(joint), sign)
+    programs = _programs(joint.model_c, joint.model_mjcf, table)
     return [one for one in found if one] + programs
 
 
@@ -30,7 +33,8 @@ def blocks_of_study(study):
     model = {str(name): Parameter(str(name), str(unit), float(value), math.nan, math.nan)
              for name, unit, value in zip(study.model.names, study.model.units, e.chosen)}
     fastest = float(np.abs(study.train.velocity).max())
-    return [_diagnosis(study), *_programs(study, model, study.job.name, fastest)]
+    programs = _programs(e.get("model_c", ""), e.get("model_mjcf", ""), friction_table(model, fastest))
+    return [_diagnosis(study), *programs]
 
 
 def blocks_of_arm(study):
@@ -98,16 +102,12 @@ def _held(effect, found):
     return [f"{name} = 1" for name in HELD_AT_ONE.get(effect.name, ()) if name not in found]
 
 
-def _programs(study, model, name, fastest):
-    if study.arm:
-        return []
-    joint = study.model.joint
-    texts = (("As a C function", "The torque from position, velocity and acceleration.",
-              model_code.c_function(model, joint, study.effort)),
-             ("As a joint of MJCF", "For MuJoCo.", model_code.mjcf_joint(model, name, joint)),
+def _programs(c, mjcf, table):
+    """What the result holds as code, and the table; nothing of what an earlier version did not write."""
+    texts = (("As a C function", "The torque from position, velocity and acceleration.", c),
+             ("As a joint of MJCF", "For MuJoCo.", mjcf),
              ("As a table for Simulink",
-              "Friction over the recorded speeds, for MATLAB: what depends on the velocity alone.",
-              model_code.friction_table(model, fastest)))
+              "Friction over the recorded speeds, for MATLAB: what depends on the velocity alone.", table))
     return [{"title": title, "words": words, "text": text} for title, words, text in texts if text]
 
 

@@ -196,6 +196,11 @@ class Joint:
     mismatch_rms: float
     left_rms: float
     power_sentence: str
+    friction_sign_forward: float  # what laws took from the fitted baseline; NaN: not in the file
+    friction_sign_backward: float
+    baseline_inertia: float
+    model_c: str  # the model as code; "": there is none
+    model_mjcf: str
     nuisances: list = field(default_factory=list)
     baseline: dict = field(default_factory=dict)  # {name: Parameter}, in the order of the file
     augmented: dict = field(default_factory=dict)
