@@ -36,6 +36,7 @@ TEST(Catalogue, DescribesAnEffectWithFamilyBoundsAndSignature) {
               (std::vector<std::string>{
                   "family     reversal, velocity_law",
                   "equation   tau = s Fs exp(-(|dq| / vs)^delta)",
+                  "code       friction_sign * stribeck * exp(-pow(fabs(dq) / stribeck_speed, stribeck_exponent))",
                   "parameter  stribeck in N m (N on a slide): 0 to 2 x Coulomb level",
                   "shape      stribeck_speed in rad/s (m/s on a slide): 0.002 x peak speed to 0.2 x peak speed, "
                   "logarithmic",

@@ -33,7 +33,7 @@ def blocks_of_study(study):
     model = {str(name): Parameter(str(name), str(unit), float(value), math.nan, math.nan)
              for name, unit, value in zip(study.model.names, study.model.units, e.chosen)}
     fastest = float(np.abs(study.train.velocity).max())
-    programs = _programs(e.get("model_c", ""), e.get("model_mjcf", ""), friction_table(model, fastest))
+    programs = _programs(e.model_c or "", e.model_mjcf or "", friction_table(model, fastest))
     return [_diagnosis(study), *programs]
 
 
