@@ -4,25 +4,30 @@
 // Start      mean uniform in the box (many boxes are symmetric about what is sought), sigma 0.3 of its width
 // Bounds     samples are mirrored; the distribution learns from the unmirrored ones. Resampling needs 2^R samples near
 //            a corner; a penalty would change more than the order of fitness
-// Restart    same population, new mean: when the distribution collapsed, or 100 + 100 R^1.5 / NP generations found
-//            nothing better. A growing population (IPOP) has no end that the result file could make room for
+// Restart    new mean and more samples (restart_plan.hpp), when the start is stuck (start_history.hpp) or its
+//            distribution has collapsed. Batches never grow: the distribution learns from several of them together,
+//            and "generation" counts batches
 // Cut batch  an evaluation budget ends with it: its best counts, the distribution learns nothing
 // Population the candidates last passed to tell(); F, CR, PC, FC are NaN
 // Random     sample of member i in generation t: stream (key, t, i); a start's mean: the last stream of its generation
-// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016); restart: pycma's tolstagnation
+// Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016)
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/optim/bound_repair.hpp"
 #include "engine/optim/covariance_adaptation.hpp"
 #include "engine/optim/make_choice.hpp"
+#include "engine/optim/named_choice.hpp"
 #include "engine/optim/optimiser_state.hpp"
+#include "engine/optim/restart_plan.hpp"
 #include "engine/optim/search_progress.hpp"
 #include "engine/optim/selection.hpp"
+#include "engine/optim/start_history.hpp"
 
 namespace torquescope {
 
@@ -35,6 +40,7 @@ std::size_t usual_cmaes_members(std::size_t dimension) {
 struct CmaesOptions {
   std::int64_t population = 0;
   double sigma = 0.3;
+  std::string restarts = "ipop";
 };
 
 OptionTable<CmaesOptions> const& cmaes_options() {
@@ -42,19 +48,23 @@ OptionTable<CmaesOptions> const& cmaes_options() {
       "estimator", "covariance matrix adaptation evolution strategy",
       {{"population", &CmaesOptions::population, "members", 0, 1e5,
         "candidates per generation; 0: 4 + 3 ln(parameters)"},
-       {"sigma", &CmaesOptions::sigma, "box", 1e-6, 1.0, "standard deviation of the first candidates"}});
+       {"sigma", &CmaesOptions::sigma, "box", 1e-6, 1.0, "standard deviation of the first candidates"},
+       {"restarts", &CmaesOptions::restarts, restart_words(),
+        "what a new start changes; ipop: samples double; bipop: small and large starts in turn; same: nothing"}});
   return table;
 }
 
 class Cmaes final : public Optimiser {
  public:
-  Cmaes(Bounds bounds, RandomKey key, std::size_t n_members, double sigma)
+  Cmaes(Bounds bounds, RandomKey key, std::size_t n_members, double sigma, Restarts restarts)
       : bounds_(std::move(bounds)),
         key_(key),
         first_sigma_(sigma),
         population_(n_members, bounds_.dimension()),
         progress_(no_progress(bounds_.dimension())),
-        distribution_(start(0)) {}
+        plan_(restarts),
+        distribution_(start(plan_, 0)),
+        history_(bounds_.dimension(), n_members) {}
 
   std::size_t dimension() const override { return bounds_.dimension(); }
   std::size_t batch_size() const override { return population_.size(); }
@@ -62,7 +72,7 @@ class Cmaes final : public Optimiser {
   void ask(MatrixView<double> candidates) const override {
     TORQUESCOPE_EXPECT(candidates.rows() == batch_size() && candidates.columns() == dimension());
     for (std::size_t i = 0; i < candidates.rows(); ++i) {
-      Eigen::VectorXd const place = distribution_.sample(deviates(i));
+      Eigen::VectorXd const place = distribution_.sample(deviates(next_generation(), i));
       for (std::size_t j = 0; j < dimension(); ++j) {
         double const lower = bounds_.lower[j], upper = bounds_.upper[j];
         double const inside = reflected(place[static_cast<Eigen::Index>(j)], 0.0, 1.0);
@@ -78,13 +88,17 @@ class Cmaes final : public Optimiser {
     if (!begun() && asked.rows() < batch_size()) ask(population_.members());
     for (std::size_t i = 0; i < fitness.size(); ++i)
       population_.set_member(i, asked.row(i), ranked_fitness(fitness[i]));
-    bool const whole = asked.rows() == batch_size();
-    if (whole) distribution_.learn(ranked_deviates());
 
     progress_.generation = next_generation();
     count_batch(progress_, fitness);
     record_best(progress_, population_);
-    if (whole) restart_if_stuck();
+    plan_.count(static_cast<std::int64_t>(fitness.size()));
+    if (asked.rows() < batch_size()) {
+      told_.clear();
+      return;
+    }
+    told_.insert(told_.end(), population_.fitness.begin(), population_.fitness.end());
+    if (told_.size() == n_samples()) learn();
   }
 
   Progress const& progress() const override { return progress_; }
@@ -94,63 +108,80 @@ class Cmaes final : public Optimiser {
   OptimiserState save() const override {
     OptimiserState state = saved_state("cmaes", key_, progress_, population_);
     state["distribution"] = distribution_.numbers();
-    state["start"] = {start_best_, static_cast<double>(start_improved_)};
+    auto const plan = plan_.numbers();
+    state["start"].assign(plan.begin(), plan.end());
+    state["start history"] = history_.numbers();
+    state["told"] = told_;
     return state;
   }
 
   void restore(OptimiserState const& state) override {
     auto saved = saved_search(state, "cmaes", key_, dimension(), batch_size(), batch_size());
     auto const& distribution = state_entry(state, "distribution", CovarianceAdaptation::numbers_of(dimension()));
-    auto const& start = state_entry(state, "start", 2);
+    auto const& start_numbers = state_entry(state, "start", RestartPlan::n_numbers);
+    auto const& history_numbers = state_rows(state, "start history", 1, 1, std::numeric_limits<std::size_t>::max());
+    RestartPlan plan = plan_;
+    if (!RestartPlan::accepts(start_numbers)) throw std::invalid_argument("the saved start is none that is made");
+    plan.restore(start_numbers);
+    auto const& told = state_rows(state, "told", batch_size(), 0, plan.samples() - 1);
+    StartHistory history(dimension(), plan.samples() * batch_size());
+    if (!history.accepts(history_numbers)) throw std::invalid_argument("the saved history of the start is cut short");
+    history.restore(history_numbers);
     // from here on nothing can fail
     progress_ = std::move(saved.progress);
     population_ = std::move(saved.population);
+    plan_ = plan;
+    distribution_ = start(plan_, 0);
     distribution_.restore(distribution);
-    start_best_ = start[0];
-    start_improved_ = static_cast<std::int64_t>(start[1]);
+    history_ = std::move(history);
+    told_ = told;
   }
 
  private:
   bool begun() const { return progress_.evaluations > 0; }
   std::int64_t next_generation() const { return begun() ? progress_.generation + 1 : 0; }
 
-  // standard normal numbers of a member of the next batch
-  Eigen::VectorXd deviates(std::size_t member) const {
-    RandomStream random(key_, static_cast<std::uint32_t>(next_generation()), static_cast<std::uint32_t>(member));
+  std::size_t n_samples() const { return plan_.samples() * batch_size(); }
+
+  // standard normal numbers of a member of that generation's batch
+  Eigen::VectorXd deviates(std::int64_t generation, std::size_t member) const {
+    RandomStream random(key_, static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(member));
     Eigen::VectorXd z(static_cast<Eigen::Index>(dimension()));
     for (double& number : z) number = random.normal();
     return z;
   }
 
-  // of the members with finite fitness, best first
+  // of the samples with finite fitness, best first: as many as the distribution reads
   Eigen::MatrixXd ranked_deviates() const {
-    auto order = ranking(population_.fitness);
-    std::erase_if(order, [&](std::size_t i) { return !std::isfinite(population_.fitness[i]); });
+    auto order = ranking(told_);
+    std::erase_if(order, [&](std::size_t i) { return !std::isfinite(told_[i]); });
+    order.resize(std::min(order.size(), n_samples() / 2));
+    std::int64_t const first = progress_.generation + 1 - static_cast<std::int64_t>(plan_.samples());
     Eigen::MatrixXd z(static_cast<Eigen::Index>(dimension()), static_cast<Eigen::Index>(order.size()));
-    for (std::size_t k = 0; k < order.size(); ++k) z.col(static_cast<Eigen::Index>(k)) = deviates(order[k]);
+    for (std::size_t k = 0; k < order.size(); ++k)
+      z.col(static_cast<Eigen::Index>(k)) =
+          deviates(first + static_cast<std::int64_t>(order[k] / batch_size()), order[k] % batch_size());
     return z;
   }
 
-  CovarianceAdaptation start(std::int64_t generation) const {
+  CovarianceAdaptation start(RestartPlan const& plan, std::int64_t generation) const {
     RandomStream random(key_, static_cast<std::uint32_t>(generation), std::numeric_limits<std::uint32_t>::max());
     Eigen::VectorXd mean(static_cast<Eigen::Index>(dimension()));
     for (double& place : mean) place = random.uniform();
-    return {mean, first_sigma_, batch_size()};
+    return {mean, first_sigma_ * plan.width(), plan.samples() * batch_size()};
   }
 
-  void restart_if_stuck() {
-    double const best = population_.fitness[best_index(population_.fitness)];
-    if (best < start_best_) {
-      start_best_ = best;
-      start_improved_ = progress_.generation;
-    }
-    double const patience =
-        100.0 + 100.0 * std::pow(static_cast<double>(dimension()), 1.5) / static_cast<double>(batch_size());
-    bool const stagnates = static_cast<double>(progress_.generation - start_improved_) > patience;
-    if (!stagnates && !distribution_.is_collapsed()) return;
-    distribution_ = start(next_generation());
-    start_best_ = std::numeric_limits<double>::infinity();
-    start_improved_ = next_generation();
+  // the generation of the distribution is whole
+  void learn() {
+    distribution_.learn(ranked_deviates());
+    bool const is_stuck = history_.is_stuck_after(told_);
+    told_.clear();
+    if (!is_stuck && !distribution_.is_collapsed() && !plan_.is_spent()) return;
+    std::uint32_t const generation = static_cast<std::uint32_t>(next_generation());
+    RandomStream random(key_, generation, std::numeric_limits<std::uint32_t>::max() - 1);
+    plan_.begin_next(random);
+    distribution_ = start(plan_, next_generation());
+    history_ = StartHistory(dimension(), n_samples());
   }
 
   Bounds bounds_;
@@ -158,16 +189,17 @@ class Cmaes final : public Optimiser {
   double first_sigma_;
   Population population_;
   Progress progress_;
+  RestartPlan plan_;
   CovarianceAdaptation distribution_;
-  // of this start: its best fitness, and the generation that found it
-  double start_best_ = std::numeric_limits<double>::infinity();
-  std::int64_t start_improved_ = 0;
+  StartHistory history_;
+  std::vector<double> told_;  // fitness of the batches from which the distribution has still to learn
 };
 
 MakeSearch configure_cmaes(CmaesOptions const& options) {
-  return [options](Bounds const& bounds, RandomKey key) {
+  auto const restarts = named_choice<Restarts>(restart_words(), options.restarts);
+  return [options, restarts](Bounds const& bounds, RandomKey key) {
     auto const n_members = members_of(options.population, usual_cmaes_members, bounds.dimension());
-    return std::make_unique<Cmaes>(bounds, key, n_members, options.sigma);
+    return std::make_unique<Cmaes>(bounds, key, n_members, options.sigma, restarts);
   };
 }
 

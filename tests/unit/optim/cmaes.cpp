@@ -110,6 +110,30 @@ TEST(Cmaes, BeginsAnewWhereItHasCollapsed) {
   EXPECT_EQ(in_the_end, 10);
 }
 
+// many minima: restarts come soon, and generations of several batches with them
+TEST(Cmaes, GoesOnFromTheMiddleOfALargeGeneration) {
+  for (std::string const restarts : {"ipop", "bipop", "same"}) {
+    std::vector<Setting> const settings{{"restarts", restarts}};
+    auto const whole = make_optimiser("cmaes", box, key, settings);
+    auto resumed = make_optimiser("cmaes", box, key, settings);
+    bool was_in_the_middle = false, had_begun_anew = false;
+    for (std::int64_t generation = 0; generation <= 1500; ++generation) {
+      run_to_generation(*whole, testing::bumpy, generation);
+      run_to_generation(*resumed, testing::bumpy, generation);
+      ASSERT_EQ(ask(*resumed).numbers, ask(*whole).numbers) << restarts << ", " << generation;
+      auto const state = resumed->save();
+      was_in_the_middle |= !state.at("told").empty();
+      had_begun_anew |= state.at("start history").front() < static_cast<double>(generation) / 4.0;
+      if (generation % 7 != 0) continue;
+      resumed = make_optimiser("cmaes", box, key, settings);
+      resumed->restore(state);
+    }
+    EXPECT_EQ(was_in_the_middle, restarts != "same");
+    EXPECT_TRUE(had_begun_anew) << restarts;
+    EXPECT_EQ(whole->batch_size(), whole->largest_batch());
+  }
+}
+
 TEST(Cmaes, EachOptionChangesTheSearch) {
   auto const best_after = [](std::vector<Setting> settings) {
     auto const search = make_optimiser("cmaes", box, key, std::move(settings));

@@ -1,0 +1,54 @@
+// How many instances of each landscape an optimiser solves, and the median of its evaluations when most are solved.
+//
+// Usage      bench_solved_landscapes <dimension> <instances> <optimiser> [key=word or whole number]...
+// Budget     1e4 evaluations per parameter, target 1e-6, box -5 .. 5
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "support/landscapes.hpp"
+
+namespace {
+
+using namespace torquescope;
+
+Setting setting_of(std::string const& word) {
+  auto const split = word.find('=');
+  std::string const value = split == std::string::npos ? "" : word.substr(split + 1);
+  std::int64_t number = 0;
+  auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  bool const is_number = error == std::errc{} && end == value.data() + value.size();
+  return {word.substr(0, split), is_number ? OptionValue{number} : OptionValue{value}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> const words(argv + 1, argv + argc);
+  if (words.size() < 3) {
+    fmt::print(stderr, "bench_solved_landscapes <dimension> <instances> <optimiser> [key=value]...\n");
+    return 64;
+  }
+  auto const dimension = static_cast<std::size_t>(std::stoul(words[0]));
+  auto const instances = static_cast<std::uint32_t>(std::stoul(words[1]));
+  std::int64_t const most = 10000 * static_cast<std::int64_t>(dimension);
+  std::vector<Setting> settings{{"evaluations", most}, {"generations", std::int64_t{0}}};
+  for (std::size_t i = 3; i < words.size(); ++i) settings.push_back(setting_of(words[i]));
+  std::size_t total = 0;
+  for (auto const& name : testing::landscape_names()) {
+    std::vector<std::int64_t> needed;
+    for (std::uint32_t run = 0; run < instances; ++run) {
+      auto const search = testing::make_optimiser(words[2], testing::cube(dimension, -5.0, 5.0), {46, run}, settings);
+      auto const spent = testing::evaluations_to_target(*search, testing::Landscape(name, dimension, run), 1e-6, most);
+      if (spent > 0) needed.push_back(spent);
+    }
+    std::sort(needed.begin(), needed.end());
+    total += needed.size();
+    bool const has_median = 2 * needed.size() > instances;
+    fmt::print("{:18} {:2}/{} {:>8}\n", name, needed.size(), instances,
+               has_median ? fmt::format("{}", needed[instances / 2]) : "-");
+  }
+  fmt::print("{:18} {}/{}\n", "all", total, instances * testing::landscape_names().size());
+}
