@@ -59,6 +59,7 @@ class WholeArmWork {
     PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
     noise_ = fit.noise;
     rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted);
+    if (rows_.stretches.empty()) return;  // no joint moves
     for (auto const& recording : question.unseen)
       unseen_.push_back(whole_arm_rows(question.model, fit.parameters, noise_, std::span(&recording, 1),
                                        question.filter, question.wanted));
@@ -68,7 +69,7 @@ class WholeArmWork {
 
   WholeArmAnswer run() {
     WholeArmAnswer answer;
-    for (std::uint32_t step = 0; !rows_.places.empty(); ++step) {
+    for (std::uint32_t step = 0; !rows_.places.empty() && !rows_.stretches.empty(); ++step) {
       auto scanned = scan_whole_arm_laws(rows_, basis_, residual_, {question_.seed, step, question_.threads});
       if (scanned.empty()) break;
       std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });

@@ -170,6 +170,12 @@ TEST_F(WholeArmSearch, FindsATiltedBaseAndAWrongZero) {
   EXPECT_LT(of_zero.accepted.front().unseen_after, 0.5 * of_zero.accepted.front().unseen_before);
 }
 
+TEST_F(WholeArmSearch, SaysNothingOfAnArmThatStandsStill) {
+  RecordedArm still = recorded({chain}, 1);
+  for (auto& joint : still.joints) joint.position.setConstant(0.3);
+  EXPECT_TRUE(answer({still}, {}).tried.empty());
+}
+
 TEST_F(WholeArmSearch, SaysTheSameForAnyNumberOfThreads) {
   Truth const truth{chain, 1.5, 11.0, 1e9};
   std::vector<RecordedArm> const train{recorded(truth, 1)};
