@@ -4,10 +4,13 @@
 // Parameters power_law_viscous k >= 0 [N m (s/rad)^alpha; N (s/m)^alpha]: the torque at 1 rad/s
 //            power_law_exponent alpha [1]; at 1 it is the viscous friction of the baseline, near 0 the Coulomb
 //            friction; at the least, beside Coulomb friction, the logarithm of the speed (Eyring 1936,
-//            doi:10.1063/1.1749836), at the most a drag of its square
+//            doi:10.1063/1.1749836), at the most a drag of its square. Within a tenth of 1 it differs from viscous
+//            friction by the tangent |dq| log |dq| alone: both grow without limit and cancel
 // Signature  velocity: odd, curved at middle speeds
 // Confused   stribeck with a wide speed, speed_drag
 // Source     Waiboer, Aarts, Jonker 2005
+
+#include <cmath>
 
 #include "engine/effects/instant_effect.hpp"
 
@@ -29,6 +32,11 @@ class PowerLawViscous final : public InstantEffect {
                        .signature = {SignatureAxis::velocity},
                        .parity = Parity::odd,
                        .code = "s * power_law_viscous * pow(fabs(dq), power_law_exponent)"}) {}
+
+  bool is_plausible(std::span<double const> shape, JointScales const&) const override {
+    constexpr double tenth = 0.1;
+    return shape.empty() || std::abs(shape[0] - 1.0) >= tenth;
+  }
 
  private:
   void law(JointStates const& at, std::span<double const> shape, JointScales const&, LawColumns out) const override {
