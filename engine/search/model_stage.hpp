@@ -34,7 +34,7 @@ struct StageSetting {
   Ablation ablation{};
   std::shared_ptr<RecordedLoop const> loop{};     // as the first stage decided; none: decide
   std::shared_ptr<NoiseWeights const> weights{};  // the same
-  std::optional<TwinLevels> levels{};             // of this very model; none: measure
+  std::optional<TwinLevels> levels{};             // of these terms; none: measure
   bool reads_colour = false;  // noise as the model leaves it, whatever the law says (torque_colour.hpp)
   ReversalRows reversals = ReversalRows::mask;
   double least_inertia_share = 0.0;                // of the model without effects (joint_fit.hpp); 0: as a rule

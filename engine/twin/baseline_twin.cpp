@@ -63,7 +63,7 @@ Attempt attempt(RecordedLoop loop, bool reads_colour, ProcessedRecord const& rec
     if (options.levels->colour) take_colour(*options.levels->colour);
     put_disturbance(options.levels->disturbance);
     put_wander(options.levels->friction_wander);
-    correct_from(options.levels->parameters);
+    correct_from(without_negatives(record.parameters + options.levels->correction, pipeline.model()));
     return result;
   }
   correct_from(without_negatives(record.parameters, pipeline.model()));
@@ -143,7 +143,7 @@ Problem runaway(Recording const& recording) {
 }  // namespace
 
 TwinLevels levels_of(BaselineTwin const& made) {
-  return {made.baseline.parameters, made.disturbance, made.friction_wander, made.colour};
+  return {made.baseline.parameters - made.baseline.least_squares, made.disturbance, made.friction_wander, made.colour};
 }
 
 NoiseLevel measured_wander(Recording const& recording, BaselineTwin const& made, RecordPipeline const& pipeline,

@@ -25,9 +25,9 @@
 
 namespace torquescope {
 
-// what was measured on the same recording and model before
+// what was measured on the same recording before, with the same terms; their shapes may be others
 struct TwinLevels {
-  Eigen::VectorXd parameters;  // to begin the correction with
+  Eigen::VectorXd correction;  // of the least squares fit: where the correction of another one begins
   NoiseLevel disturbance;
   NoiseLevel friction_wander;
   std::optional<TorqueColour> colour{};  // where no controller separates it
