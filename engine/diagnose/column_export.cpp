@@ -124,12 +124,10 @@ ColumnExport export_columns(DiagnosisInput const& input) {
   }
   ProcessedRecord record = pipeline.process(train);
   auto const size = input.regressor.size();
-  BaselineReference reference{fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
-                                              smoothing_cutoff(pipeline), encoder_step_of(train))
-                                  .scales,
-                              record.parameters};
-
-  reference.gear_load = gear_load_of(train);
+  BaselineReference reference{.parameters = record.parameters, .gear_load = gear_load_of(train)};
+  reference.scales = fitted_baseline(input.regressor, {record.parameters.data(), size}, record.motion,
+                                     smoothing_cutoff(pipeline), encoder_step_of(train), reference.beside_motion())
+                         .scales;
   ColumnExport result;
   {
     MeasuredRecord const measured(std::move(pipeline), std::move(record), reference);

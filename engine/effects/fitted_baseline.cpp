@@ -29,7 +29,10 @@ double dry_torque(Regressor const& regressor, std::span<double const> parameters
 
 }  // namespace
 
-JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_hz, double encoder_step) {
+JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_hz, double encoder_step,
+                           Eigen::VectorXd const* gear_load) {
+  TORQUESCOPE_EXPECT(gear_load == nullptr || gear_load->size() == motion.torque.size());
+  Eigen::VectorXd const torque = gear_load == nullptr ? motion.torque : (motion.torque + *gear_load).eval();
   TORQUESCOPE_EXPECT(motion.q.size() >= 2 && motion.rate_hz > 0.0 && cutoff_hz > 0.0 && encoder_step >= 0.0);
   JointScales scales;
   scales.joint = joint;
@@ -41,20 +44,20 @@ JointScales measure_scales(Motion const& motion, JointKind joint, double cutoff_
   scales.position_range = motion.q.maxCoeff() - motion.q.minCoeff();
   scales.position_centre = 0.5 * (motion.q.maxCoeff() + motion.q.minCoeff());
   scales.encoder_step = encoder_step;
-  scales.torque_rms = std::sqrt(motion.torque.squaredNorm() / static_cast<double>(motion.torque.size()));
-  scales.torque_peak = motion.torque.cwiseAbs().maxCoeff();
-  scales.torque_highest = std::max(0.0, motion.torque.maxCoeff());
-  scales.torque_lowest = std::max(0.0, -motion.torque.minCoeff());
+  scales.torque_rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
+  scales.torque_peak = torque.cwiseAbs().maxCoeff();
+  scales.torque_highest = std::max(0.0, torque.maxCoeff());
+  scales.torque_lowest = std::max(0.0, -torque.minCoeff());
   return scales;
 }
 
 FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double const> parameters, Motion const& motion,
-                               double cutoff_hz, double encoder_step, GivenSignals const* given) {
+                               double cutoff_hz, double encoder_step, BesideMotion const& beside) {
   TORQUESCOPE_EXPECT(parameters.size() == regressor.size());
   FittedBaseline baseline;
 
   // a Coulomb level of the wrong sign is an offset in disguise, not friction
-  auto& scales = baseline.scales = measure_scales(motion, regressor.joint(), cutoff_hz, encoder_step);
+  auto& scales = baseline.scales = measure_scales(motion, regressor.joint(), cutoff_hz, encoder_step, beside.gear_load);
   scales.coulomb_positive = std::max(0.0, dry_torque(regressor, parameters, 1.0));
   scales.coulomb_negative = std::max(0.0, -dry_torque(regressor, parameters, -1.0));
   scales.inertia = parameter_named(regressor, parameters, "inertia");
@@ -62,7 +65,7 @@ FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double cons
   scales.gravity_sin = parameter_named(regressor, parameters, "gravity_sin");
   scales.gravity_cos = parameter_named(regressor, parameters, "gravity_cos");
 
-  Eigen::MatrixXd const phi = regressor.columns(motion, given);
+  Eigen::MatrixXd const phi = regressor.columns(motion, beside.given);
   baseline.load_torque.setZero(phi.rows());
   baseline.model_torque.setZero(phi.rows());
   scales.bears_only_inertia = true;
@@ -72,6 +75,10 @@ FittedBaseline fitted_baseline(Regressor const& regressor, std::span<double cons
     baseline.model_torque += torque;
     if (column.needs_position || column.needs_acceleration) baseline.load_torque += torque;
     if (column.needs_position) scales.bears_only_inertia = false;
+  }
+  if (beside.gear_load != nullptr) {
+    baseline.model_torque += *beside.gear_load;
+    baseline.load_torque += *beside.gear_load;
   }
   return baseline;
 }

@@ -110,12 +110,8 @@ TwinJoint JointModel::twin_joint(Eigen::VectorXd const& parameters) const {
 FittedBaseline on_motion(Regressor const& regressor, BaselineReference const& reference, Motion const& motion) {
   FittedBaseline baseline =
       fitted_baseline(regressor, {reference.parameters.data(), static_cast<std::size_t>(reference.parameters.size())},
-                      motion, reference.scales.cutoff_hz, reference.scales.encoder_step, reference.given.get());
+                      motion, reference.scales.cutoff_hz, reference.scales.encoder_step, reference.beside_motion());
   baseline.scales = reference.scales;
-  if (reference.gear_load) {
-    TORQUESCOPE_EXPECT(reference.gear_load->size() == baseline.load_torque.size());
-    baseline.load_torque += *reference.gear_load;
-  }
   return baseline;
 }
 

@@ -33,6 +33,7 @@ struct BaselineReference {
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
   std::shared_ptr<GivenSignals const> given{};  // the recording's; none
   double rate_hz = 0.0;                         // of both
+  BesideMotion beside_motion() const { return {given.get(), gear_load.get()}; }
 };
 
 // one per sample

@@ -24,7 +24,10 @@ MotionAxes motion_axes(JointModel const& model, ProcessedRecord const& record, E
     auto const at = static_cast<Eigen::Index>(k);
     if (owners[k].needs_position || owners[k].needs_acceleration) axes.load_torque += columns.col(at) * parameters[at];
   }
-  if (auto const& beside = model.reference().gear_load) axes.load_torque += *beside;
+  if (auto const& beside = model.reference().gear_load) {
+    axes.load_torque += *beside;
+    axes.model_torque += *beside;
+  }
   axes.since_velocity_reversal = distance_since(motion.dq, motion.q);
   axes.since_torque_reversal = distance_since(axes.model_torque, motion.q);
   return axes;

@@ -17,7 +17,7 @@ namespace torquescope {
 struct MotionAxes {
   Eigen::VectorXd time_s{}, q{}, dq{}, ddq{};
   Eigen::VectorXd load_torque{};
-  Eigen::VectorXd model_torque{};             // all terms
+  Eigen::VectorXd model_torque{};             // all terms, and the gear load
   Eigen::VectorXd since_velocity_reversal{};  // rad or m
   Eigen::VectorXd since_torque_reversal{};
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/pipeline/held_torque.hpp"
 #include "engine/search/late_torque.hpp"
 
 namespace torquescope {
@@ -84,14 +85,17 @@ Eigen::VectorXd sinc_weights(double share) {
 
 Recording with_torque_earlier(Recording recording, double late_s) {
   double const samples = late_s * recording.rate_hz;
-  Eigen::VectorXd const read = recording.torque, weights = sinc_weights(samples - std::floor(samples));
+  // what was taken out of the channel was read with it
+  Eigen::VectorXd const taken_out = recording.gear_load.size() > 0 ? torque_to_hold(recording.gear_load)
+                                                                   : Eigen::VectorXd::Zero(recording.torque.size());
+  Eigen::VectorXd const read = recording.torque + taken_out, weights = sinc_weights(samples - std::floor(samples));
   Eigen::Index const last = read.size() - 1;
   auto const first = static_cast<Eigen::Index>(std::floor(samples)) - half_width + 1;
   for (Eigen::Index k = 0; k <= last; ++k) {
     double sum = 0.0;
     for (Eigen::Index j = 0; j < weights.size(); ++j)
       sum += weights[j] * read[std::clamp<Eigen::Index>(k + first + j, 0, last)];
-    recording.torque[k] = sum;
+    recording.torque[k] = sum - taken_out[k];
   }
   return recording;
 }

@@ -186,7 +186,7 @@ BaselineReference ModelStage::reference() const {
   FittedBaseline const baseline =
       fitted_baseline(regressor, {own.data(), regressor.size()}, twin->record.motion,
                       pipeline->cutoff_hz() > 0.0 ? pipeline->cutoff_hz() : 0.4 * pipeline->kept_rate_hz(),
-                      twin->loop.loop.encoder_step, model().reference().given.get());
+                      twin->loop.loop.encoder_step, model().reference().beside_motion());
   return {baseline.scales, own, model().reference().gear_load, model().reference().given, model().reference().rate_hz};
 }
 

@@ -31,6 +31,15 @@ constexpr LaneTorques filled(double value) {
 }
 constexpr LaneTorques none = filled(0.0), one = filled(1.0);
 
+// asked of the law itself, so that no table can disagree; what begins at an instant may do so then
+bool asks_for_acceleration(InstantEffect const& law, std::vector<double> const& parameters, JointScales const& scales) {
+  if (law.is_event()) return true;
+  JointState const coasts{0.0, 0.4, -0.7, 0.0, 1.2, -0.8};
+  JointState speeds_up = coasts;
+  speeds_up.ddq = 1.0;
+  return law.torque(speeds_up, parameters, scales) != law.torque(coasts, parameters, scales);
+}
+
 class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
@@ -47,7 +56,10 @@ class CatalogueEffect final : public LaneEffect {
         parameters_(parameters),
         scales_(scales) {
     if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
-    if (law_ != nullptr) return;
+    if (law_ != nullptr) {
+      asks_for_acceleration_ = asks_for_acceleration(*law_, parameters, scales);
+      return;
+    }
     if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
       memory_ = remembering->memory(std::span(parameters_).subspan(effect.n_linear()), scales, twin_lanes);
       linear_ = std::span(parameters_).first(effect.n_linear());
@@ -61,14 +73,15 @@ class CatalogueEffect final : public LaneEffect {
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;
-    LaneTorques const load = load_torques(at);
+    Borne const borne = borne_at(at, at.time_s);
     LaneTorques time_s;
-    JointStates const now = states_of(at, load, time_s);
+    JointStates const now = states_of(at, borne, time_s);
     advance(now, at.step_s);
     if (is_dry_friction_) return add_sliding(now, demand);
     // with the acceleration of the step before, what goes with the acceleration would lag behind it
     JointStates const coasts = accelerated(now, none);
-    LaneTorques const coasting = torques(coasts), at_one = torques(accelerated(now, one));
+    LaneTorques const coasting = torques(coasts);
+    LaneTorques const at_one = asks_for_acceleration_ ? torques(accelerated(now, one)) : coasting;
     if (!is_partly_dry_) return add_straight(coasting.data(), at_one.data(), demand);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) demand.inertia[lane] += at_one[lane] - coasting[lane];
     add_sliding(coasts, demand);
@@ -83,17 +96,27 @@ class CatalogueEffect final : public LaneEffect {
   }
 
  private:
-  LaneTorques load_torques(LaneInstant const& at) const {
-    LaneTorques load{};
-    if (!needs_baseline_) return load;
-    double const beside = gear_load_at(at.time_s);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) load[lane] = beside + baseline_.inertia * at.ddq[lane];
-    if (!has_weight_) return load;
+  // what needs a baseline is told of the whole torque: at the gear, and of the motor
+  struct Borne {
+    LaneTorques load{}, motor{};
+  };
+
+  // motor_at_s: of the gear load, when the motor's torque is read
+  Borne borne_at(LaneInstant const& at, double motor_at_s) const {
+    Borne borne;
+    std::copy_n(at.motor_torque, twin_lanes, borne.motor.begin());
+    if (!needs_baseline_) return borne;
+    double const beside = gear_load_at(at.time_s), in_motor = gear_load_at(motor_at_s);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      borne.load[lane] = beside + baseline_.inertia * at.ddq[lane];
+      borne.motor[lane] += in_motor;
+    }
+    if (!has_weight_) return borne;
     LaneTorques sine, cosine;
     kernels::cosine_sine_of_multiple(1.0, at.q, twin_lanes, cosine.data(), sine.data());
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      load[lane] += baseline_.gravity_sin * sine[lane] + baseline_.gravity_cos * cosine[lane];
-    return load;
+      borne.load[lane] += baseline_.gravity_sin * sine[lane] + baseline_.gravity_cos * cosine[lane];
+    return borne;
   }
 
   // straight from tick to tick
@@ -102,9 +125,10 @@ class CatalogueEffect final : public LaneEffect {
   }
 
   void shift(LaneInstant const& tick, double* channel) {
-    LaneTorques const load = load_torques(tick);
+    // a channel shows the torque that is held from the tick on: that of its middle (held_torque.hpp)
+    Borne const borne = borne_at(tick, tick.time_s + 0.5 * tick.step_s);
     LaneTorques time_s;
-    JointStates const now = states_of(tick, load, time_s);
+    JointStates const now = states_of(tick, borne, time_s);
     advance(now, tick.step_s);
     add_lanes(torques(now).data(), channel);
   }
@@ -117,10 +141,10 @@ class CatalogueEffect final : public LaneEffect {
   static JointStates::Quantity of_lanes(double const* values) { return {values, twin_lanes}; }
 
   // time_s: room for what the lanes have in common
-  static JointStates states_of(LaneInstant const& at, LaneTorques const& load, LaneTorques& time_s) {
+  static JointStates states_of(LaneInstant const& at, Borne const& borne, LaneTorques& time_s) {
     time_s.fill(at.time_s);
-    return {of_lanes(time_s.data()), of_lanes(at.q),        of_lanes(at.dq),
-            of_lanes(at.ddq),        of_lanes(load.data()), of_lanes(at.motor_torque)};
+    return {of_lanes(time_s.data()),     of_lanes(at.q), of_lanes(at.dq), of_lanes(at.ddq), of_lanes(borne.load.data()),
+            of_lanes(borne.motor.data())};
   }
 
   static JointStates accelerated(JointStates const& at, LaneTorques const& ddq) {
@@ -155,6 +179,7 @@ class CatalogueEffect final : public LaneEffect {
 
   ActsOn acts_on_;
   bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
+  bool asks_for_acceleration_ = true;  // whatever is remembered may
   LaneJoint baseline_;
   std::shared_ptr<Eigen::VectorXd const> gear_load_;
   double gear_load_rate_hz_;

@@ -25,7 +25,7 @@ struct LaneInstant {
   alignas(64) double q[twin_lanes] = {};
   alignas(64) double dq[twin_lanes] = {};
   alignas(64) double ddq[twin_lanes] = {};
-  alignas(64) double motor_torque[twin_lanes] = {};  // held since the last tick
+  alignas(64) double motor_torque[twin_lanes] = {};  // held since the last tick, without the gear load
 };
 
 struct LaneDemand {
@@ -39,7 +39,7 @@ class LaneEffect {
  public:
   virtual ~LaneEffect() = default;
   // true: add() is called at every integration step; false: once per tick, for its middle (second order in the tick,
-  // and the torque is held between ticks anyway)
+  // and the torque is held between ticks anyway), unless the joint is faster than its ticks
   virtual bool follows_steps() const { return true; }
   virtual void add(LaneInstant const&, LaneDemand&) {}
   virtual void shift_position(LaneInstant const&, double*) {}

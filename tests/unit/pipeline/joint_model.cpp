@@ -137,6 +137,23 @@ TEST(JointModel, TellsEffectsTheGearLoadOfItsRecording) {
   EXPECT_LT((model.columns(motion(), {}).col(4).array() - without).abs().maxCoeff(), 1e-12);
 }
 
+// what is missing in the torque channel is missing of all that the motor gives
+TEST(JointModel, TellsEffectsOfTheTorqueTheLoadOfOtherJoints) {
+  Recording recording = simulated(stribeck_torque, 3);
+  recording.gear_load = 2.0 * recording.position;
+  double const late_s = 4.0 / recording.rate_hz;
+  JointModel model(clean_regressor(), reference(), {{find_effect("delay"), {late_s}}});
+  model.load_as_in(recording);
+  Eigen::VectorXd const motor = clean_regressor().columns(motion()) * baseline() + recording.gear_load;
+  Eigen::VectorXd const column = model.columns(motion(), {}).col(4);
+  for (Eigen::Index k = 10; k < motor.size(); k += 97)
+    EXPECT_NEAR(column[k], (motor[k - 4] - motor[k]) / late_s, 1e-6) << k;
+  // limits of the channel are looked for where the whole torque has its peaks
+  BesideMotion const beside{nullptr, &recording.gear_load};
+  auto const told = fitted_baseline(clean_regressor(), {baseline().data(), 4}, motion(), 30.0, 0.0, beside);
+  EXPECT_NEAR(told.scales.torque_highest, (motion().torque + recording.gear_load).maxCoeff(), 1e-12);
+}
+
 constexpr std::size_t twins = 48;
 constexpr Eigen::Index n_parameters = 5;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/pipeline/held_torque.hpp"
 #include "unit/twin/clean_records.hpp"
 
 namespace torquescope {
@@ -31,6 +32,19 @@ TEST(ChannelTiming, PutsTheTorqueBackInTimeWhicheverWayItWasRead) {
     EXPECT_LE((earlier.torque - true_one.torque).segment(ends, n).cwiseAbs().maxCoeff(), 1.01 * curvature) << late_s;
     EXPECT_EQ(earlier.torque.size(), true_one.torque.size());
   }
+}
+
+// of a joint of an arm the torque is without its gear load, but it was read with it
+TEST(ChannelTiming, MovesWhatWasTakenOutOfTheTorqueWithIt) {
+  Recording read = sine_read_late(0.5e-3);
+  Recording whole = read;
+  read.gear_load = (7.0 * read.time_s.array()).cos();
+  whole.torque = read.torque + torque_to_hold(read.gear_load);
+  Eigen::VectorXd const earlier = with_torque_earlier(read, 0.5e-3).torque;
+  EXPECT_LE(
+      (earlier + torque_to_hold(read.gear_load) - with_torque_earlier(whole, 0.5e-3).torque).cwiseAbs().maxCoeff(),
+      1e-13);
+  EXPECT_GT((earlier - with_torque_earlier(sine_read_late(0.5e-3), 0.5e-3).torque).cwiseAbs().maxCoeff(), 1e-3);
 }
 
 TEST(ChannelTiming, TakesNoNoiseAwayAndNoLevel) {

@@ -139,6 +139,21 @@ TEST(LaneEffect, FollowsTheGearLoadOfItsRecording) {
   EXPECT_NEAR(forward_at(7.0), mu * 5.0, rounding) << "as at the end";
 }
 
+// a fault of the torque channel is one of all that the motor gives: a cubic of it, held as the channel holds it
+TEST(LaneEffect, FollowsTheWholeTorqueOfTheMotor) {
+  LaneInstant at = some_instant();
+  at.time_s = 0.5;
+  at.step_s = 0.5;
+  auto const load = std::make_shared<Eigen::VectorXd const>(Eigen::Vector3d(1.0, 3.0, -5.0));
+  std::vector<double> const limits{1.0, 2.0, 2.0};  // all of what is beyond 2 N m is not shown
+  auto const shown = answer(lane_effect(*find_effect("clipping"), limits, {}, {{}, load, 2.0}), at);
+  // the motor holds its own 0.5 N m and what the load is a quarter of a second later, -1 N m
+  EXPECT_NEAR(shown.torque[0], 0.0, rounding);
+  at.time_s = 0.25;
+  auto const clipped = answer(lane_effect(*find_effect("clipping"), limits, {}, {{}, load, 2.0}), at);
+  EXPECT_NEAR(clipped.torque[0], 2.0 - 3.5, rounding);
+}
+
 TEST(SensorDrift, ShiftsTheLoggedTorqueAndNothingElse) {
   // in a closed loop: a controller that saw it would answer
   TwinGroup const plain = simulated(closed_loop(), track(0.8), {}),
