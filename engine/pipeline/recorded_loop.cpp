@@ -8,6 +8,7 @@
 
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
+#include "engine/pipeline/held_torque.hpp"
 
 namespace torquescope {
 namespace {
@@ -27,6 +28,12 @@ double first_velocity(Recording const& recording) {
   double const slope = numerator / denominator;
   // less than one encoder step in all that time is rest
   return std::abs(slope) * static_cast<double>(n - 1) <= recording.rows.encoder_step ? 0.0 : slope * recording.rate_hz;
+}
+
+// what the drive gave, of which a recording of one joint of an arm has only the joint's own part
+Eigen::VectorXd whole_torque(Recording const& recording) {
+  if (recording.gear_load.size() == 0) return recording.torque;
+  return recording.torque + torque_to_hold(recording.gear_load);
 }
 
 constexpr double runaway = 3.0;  // times the largest torque of the recording, or of the model along its motion
@@ -132,11 +139,16 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
   }
   RecordedLoop result = common_parts(recording);
   result.track.reference = recording.reference;
-  result.controller = fit_controller({recording.time_s, recording.reference, recording.position, recording.torque});
+  if (recording.gear_load.size() > 0) result.track.gear_load = torque_to_hold(recording.gear_load);
+  Eigen::VectorXd const torque = whole_torque(recording);
+  result.track.largest_torque = runaway * torque.cwiseAbs().maxCoeff();
+  Eigen::VectorXd const* const of_others = recording.gear_load.size() > 0 ? &result.track.gear_load : nullptr;
+  result.controller = fit_controller({recording.time_s, recording.reference, recording.position, torque, of_others});
   result.source = result.controller->is_white ? LoopSource::identified : LoopSource::approximated;
   result.loop.law = result.controller->law;
   if (needed_torque && !result.controller->limited.empty()) {
-    Eigen::VectorXd const needed = needed_torque(result.controller->limited);
+    Eigen::VectorXd needed = needed_torque(result.controller->limited);
+    if (of_others != nullptr) needed += *of_others;
     bool const has_most = is_limit_of_channel(*result.controller, 1.0, needed);
     bool const has_least = is_limit_of_channel(*result.controller, -1.0, needed);
     if (has_most) result.loop.law.most = std::numeric_limits<double>::infinity();

@@ -131,7 +131,7 @@ CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double ste
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
   ReferenceSignal const reference(track_.reference);
-  open_ = open_part(loop_.law, track_.reference);
+  open_ = open_part(loop_.law, track_.reference, track_.gear_load);
   wanted_.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) wanted_[k] = reference(k + loop_.law.shift);
 }
@@ -211,6 +211,11 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (auto const& effect : effects) effect->shift_position(instant_of(state, time_s, tick_s, command), measured);
     read_encoder(loop_.encoder_step, encoder_phase, measured);
     controller.command(measured, open_[k], wanted_[k], command);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      // also true for a command that is no number
+      if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;
+    if (track_.gear_load.size() > 0)
+      for (double& own : command) own -= track_.gear_load[k];
 
     // log
     torque_noise.next(logged);
@@ -225,8 +230,6 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       out.position[lane][k] = measured[lane];
       out.torque[lane][k] = logged[lane];
-      // also true for a command that is no number
-      if (!(std::abs(command[lane]) <= track_.largest_torque)) out.ran_away[lane] = true;
     }
 
     // move on to the next tick

@@ -54,6 +54,9 @@ struct TwinTrack {
   double start_position = 0.0, start_velocity = 0.0;
   // a twin that asks for more has run away
   double largest_torque = std::numeric_limits<double>::infinity();
+  // [n] what the law gives beside the joint's own torque, held, to an arm whose other joints move; empty: nothing. The
+  // replicate's torque is without it, as that of a recording is
+  Eigen::VectorXd gear_load{};
 };
 
 struct TwinAddress {

@@ -50,6 +50,11 @@ double white_bound(SampleRows const& rows) { return z_white / std::sqrt(static_c
 
 using Terms = std::vector<ReferenceTerm>;
 
+ControllerColumns columns_of(LoopSignals const& s, int lags, int shift, ReferenceWindow const& window,
+                             Terms const& terms = {}) {
+  return {lags, shift, window, true, terms, s.gear_load != nullptr};
+}
+
 // Both windows, by Schwarz's criterion: a law that looks further back than the narrow one would be taken for a shifted
 // one, and the wide one contains small shifts
 int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) {
@@ -60,7 +65,7 @@ int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) 
   double least = std::numeric_limits<double>::infinity();
   for (int shift : {0, -1, 1, -2, 2})
     for (auto const& window : {narrow_window, wide_window}) {
-      ControllerColumns const columns{most_lags, shift, window, true, terms};
+      ControllerColumns const columns = columns_of(s, most_lags, shift, window, terms);
       double const sse = std::max(regress_controller(s, columns, rows).sse, std::numeric_limits<double>::min());
       // the neighbouring samples of the reference imitate a small shift: none, unless the likelihood says otherwise
       double const criterion = n * std::log(sse) + static_cast<double>(columns.count()) * std::log(n) +
@@ -78,8 +83,8 @@ int best_shift(LoopSignals const& s, Terms const& terms, SampleRows const& all) 
 ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const& terms, SampleRows const& all) {
   constexpr std::size_t enough = 8192;
   SampleRows const rows = thinned(all, enough);
-  ControllerColumns const narrow{most_lags, shift, narrow_window, true, terms};
-  ControllerColumns const wide{most_lags, shift, wide_window, true, terms};
+  ControllerColumns const narrow = columns_of(s, most_lags, shift, narrow_window, terms);
+  ControllerColumns const wide = columns_of(s, most_lags, shift, wide_window, terms);
   double const n = static_cast<double>(rows.size());
   double const gain = n * std::log(regress_controller(s, narrow, rows).sse / regress_controller(s, wide, rows).sse);
   // Schwarz's criterion
@@ -88,7 +93,7 @@ ControllerColumns cautious_columns(LoopSignals const& s, int shift, Terms const&
 
 // none where the linear law leaves nothing but white noise
 Terms feedforward(LoopSignals const& s, int shift, SampleRows const& rows) {
-  ControllerColumns const columns{most_lags, shift, wide_window};
+  ControllerColumns const columns = columns_of(s, most_lags, shift, wide_window);
   auto const linear = regress_controller(s, columns, rows);
   if (white_enough(residual_acf(linear.residual, rows), white_bound(rows))) return {};
   return find_feedforward(s, columns, rows);
@@ -101,7 +106,7 @@ ControllerRegression best_lags(LoopSignals const& s, int shift, Terms const& ter
   double least = std::numeric_limits<double>::infinity();
   for (int lags : lag_ladder)
     for (auto const& window : {narrow_window, wide_window}) {
-      ControllerColumns const columns{lags, shift, window, true, terms};
+      ControllerColumns const columns = columns_of(s, lags, shift, window, terms);
       ControllerRegression tried = regress_controller(s, columns, rows);
       double const criterion = n * std::log(std::max(tried.sse, std::numeric_limits<double>::min())) +
                                2.0 * static_cast<double>(columns.count());
@@ -135,6 +140,7 @@ LoopLaw law_of(ControllerRegression const& fit) {
   law.terms = columns.terms;
   for (std::size_t j = 0; j < law.terms.size(); ++j)
     law.terms[j].gain = c[columns.first_term() + static_cast<Eigen::Index>(j)];
+  if (columns.has_gear_load) law.gear_load = {c[columns.gear_load()], c[columns.gear_load() + 1]};
   law.constant = c[columns.constant()];
   law.integral = columns.has_integral ? c[columns.integral()] : 0.0;
   return law;

@@ -2,8 +2,8 @@
 // The discrete controller of a recording: one linear regression of the torque on what a controller sees.
 //
 // Equation   u_k = kp e_k + ki sum_(i<=k) e_i + sum_i d_i (q_(k-i) - q_(k-i-1)) + sum_j f_j (r_(k+j+1) - r_(k+j)) +
-//            terms of r fed forward + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, j = -5 .. 1, r read at
-//            k + shift. Choice of shift, lags, integral and terms: METHOD.md, The controller
+//            terms of r and of the gear load fed forward + constant + drift t_k + noise;  e = r - q, i = 0 .. lags-1, j
+//            = -5 .. 1, r read at k + shift. Choice of shift, lags, integral and terms: METHOD.md, The controller
 // Limits     rows where the law asks for more than the torque reaches are left out; that level becomes the law's limit
 // White      |autocorrelation| at 1, 2, 5, 20 samples below 3.02 / sqrt(n): 1 % false alarms. Then the remainder is the
 //            torque's noise; else replicates carry the remainder's own spectrum

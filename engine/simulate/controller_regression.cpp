@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/simulate/loop_law.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -35,6 +37,10 @@ Eigen::MatrixXd controller_regressors(LoopSignals const& s, ControllerColumns co
     x(i, columns.drift()) = s.time_s[k] - s.time_s[0];
     for (std::size_t j = 0; j < columns.terms.size(); ++j)
       x(i, columns.first_term() + static_cast<Eigen::Index>(j)) = columns.terms[j](reference, k);
+    if (columns.has_gear_load) {
+      x(i, columns.gear_load()) = (*s.gear_load)[k];
+      x(i, columns.gear_load() + 1) = step_after(*s.gear_load, k);
+    }
     if (columns.has_integral) x(i, columns.integral()) = sum[k];
   }
   return x;

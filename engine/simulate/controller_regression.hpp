@@ -3,8 +3,8 @@
 // shapes).
 //
 // Equation   u_k = sum of columns: e_k = r_(k+shift) - q_k; q_(k-i) - q_(k-i-1), i = 0 .. lags-1; r_(k+shift+j+1) -
-//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; terms of the reference fed forward; sum_(i<=k) e_i
-//            last, if there is an integral
+//            r_(k+shift+j), j = -behind .. ahead-1; 1; t_k - t_0; terms of the reference fed forward; b_k and b_(k+1) -
+//            b_k of a gear load b; sum_(i<=k) e_i last, if there is an integral
 // Rank       columns of no use (a reference that never accelerates) get the coefficient 0 and an infinite error
 // Shapes     signals: n samples; a regression: one number per row of `rows`, which ascend
 // Requires   lags + 1 and behind - shift samples before every row, shift + ahead after it
@@ -34,13 +34,15 @@ struct ControllerColumns {
   ReferenceWindow window = narrow_window;
   bool has_integral = true;
   std::vector<ReferenceTerm> terms{};  // their gains are not read
+  bool has_gear_load = false;
 
   Eigen::Index differences() const { return window.behind + window.ahead; }
   Eigen::Index reference() const { return 1 + lags; }  // r_(i+1) - r_i, i = -behind first
   Eigen::Index constant() const { return reference() + differences(); }
   Eigen::Index drift() const { return constant() + 1; }
   Eigen::Index first_term() const { return drift() + 1; }
-  Eigen::Index integral() const { return first_term() + static_cast<Eigen::Index>(terms.size()); }
+  Eigen::Index gear_load() const { return first_term() + static_cast<Eigen::Index>(terms.size()); }
+  Eigen::Index integral() const { return gear_load() + (has_gear_load ? 2 : 0); }
   Eigen::Index count() const { return integral() + (has_integral ? 1 : 0); }
 };
 

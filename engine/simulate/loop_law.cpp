@@ -15,7 +15,7 @@ double LoopLaw::velocity_gain(double rate_hz) const {
   return sum / rate_hz;
 }
 
-Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference) {
+Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference, Eigen::VectorXd const& gear_load) {
   ReferenceSignal const signal(reference);
   Eigen::VectorXd open(reference.size());
   for (Eigen::Index k = 0; k < open.size(); ++k) {
@@ -23,6 +23,7 @@ Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference) 
     for (std::size_t j = 0; j < law.reference.size(); ++j)
       open[k] += law.reference[j] * signal(k + law.shift - law.behind + static_cast<Eigen::Index>(j));
     for (auto const& term : law.terms) open[k] += term.gain * term(signal, k);
+    if (gear_load.size() > 0) open[k] += law.gear_load[0] * gear_load[k] + law.gear_load[1] * step_after(gear_load, k);
   }
   return open;
 }

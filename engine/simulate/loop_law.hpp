@@ -3,13 +3,15 @@
 // simulated with.
 //
 // Equation   u_k = constant + sum_i position[i] q_(k-i) + sum_j reference[j] r_(k+shift-behind+j) + integral sum_(i<=k)
-//            e_i + sum of the terms of the reference fed forward,  e_i = r_(i+shift) - q_i, then least <= u_k <= most;
-//            u_k is held until tick k+1
+//            e_i + sum of the terms of the reference fed forward + gear_load[0] b_k + gear_load[1] (b_(k+1) - b_k),
+//            e_i = r_(i+shift) - q_i, then least <= u_k <= most; u_k is held until tick k+1. b: what other joints need
 // Shapes     position: lags 0, 1, ...; reference: `behind` samples before k + shift, that one, and those ahead of it
 // Units      q, r rad or m; u N m or N; gains their quotients
 // Threads    plain record
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct LoopLaw {
   std::vector<double> position{};
   std::vector<double> reference{};
   std::vector<ReferenceTerm> terms{};
+  std::array<double, 2> gear_load{};  // of an arm, fed forward; the second for a motion behind its reference
   int behind = 1;
   int shift = 0;
   double integral = 0.0;
@@ -34,7 +37,13 @@ struct LoopLaw {
   double velocity_gain(double rate_hz) const;
 };
 
-// [n] the part of u that the joint does not change: constant, reference and its terms
-Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference);
+// [n] the part of u that the joint does not change: constant, reference and its terms, gear load ([n]; empty: none)
+Eigen::VectorXd open_part(LoopLaw const& law, Eigen::VectorXd const& reference, Eigen::VectorXd const& gear_load = {});
+
+// b_(k+1) - b_k, at the end the one before
+inline double step_after(Eigen::VectorXd const& signal, Eigen::Index k) {
+  Eigen::Index const from = std::min(k, signal.size() - 2);
+  return signal[from + 1] - signal[from];
+}
 
 }  // namespace torquescope

@@ -2,6 +2,7 @@
 // What a recording tells of its loop, as views.
 //
 // Shapes     n samples each, evenly spaced
+// Torque     all that the controller asked for. Gear load: the part of it that other joints need, held as the torque is
 // Units      SI
 
 #include <Eigen/Core>
@@ -13,6 +14,7 @@ struct LoopSignals {
   Eigen::VectorXd const& reference;
   Eigen::VectorXd const& position;
   Eigen::VectorXd const& torque;
+  Eigen::VectorXd const* gear_load = nullptr;  // none: no other joint moves
 };
 
 }  // namespace torquescope

@@ -227,6 +227,31 @@ TEST(CleanTwin, DoesNotDependOnItsStep) {
   EXPECT_LT(rms(coarse.position[0] - fine.position[0]), 0.5 * encoder_step);
 }
 
+// of an arm: what the law gives to the other joints does not move this one, and is not in its torque
+TEST(CleanTwin, GivesOtherJointsTheirLoadBesideItsOwnTorque) {
+  auto const recording = simulate_joint(plan_of("pd"), 3);
+  CleanTwin const alone = twin_of(recording);
+  TwinLoop loop = alone.loop();
+  TwinTrack track = alone.track();
+  track.gear_load = 5.0 * (3.0 * recording.time_s.array()).sin();
+  loop.law.gear_load = {1.0, 0.0};
+  TwinGroup plain, beside, unfed;
+  alone.simulate({1, 0, 0}, 0, plain);
+  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
+  EXPECT_LT((beside.torque[0] - plain.torque[0]).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((beside.position[0] - plain.position[0]).cwiseAbs().maxCoeff(), 1.01 * encoder_step);
+  // a law that does not feed it forward lets the joint give way to it
+  loop.law.gear_load = {0.0, 0.0};
+  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, unfed);
+  EXPECT_GT(rms(unfed.position[0] - plain.position[0]), 100.0 * encoder_step);
+  // what runs away is the torque of the drive
+  track.largest_torque = 6.0;
+  loop.law.gear_load = {1.0, 0.0};
+  track.gear_load.setConstant(100.0);
+  CleanTwin(alone.joint(), loop, track, 1e-4).simulate({1, 0, 0}, 0, beside);
+  EXPECT_TRUE(beside.ran_away[0]);
+}
+
 TEST(CleanTwin, SaysThatItRanAway) {
   auto const recording = simulate_joint(plan_of("pd"), 3);
   TwinJoint const joint = make_twin_joint(Regressor(terms, JointKind::revolute), truth());

@@ -147,6 +147,30 @@ TEST(ControllerFit, FindsFrictionAndGravityFedForward) {
   EXPECT_NEAR(gravity_found, gravity, 0.02);
 }
 
+// a joint of an arm: the controller gives what the other joints need, by their references, behind which they lag
+TEST(ControllerFit, FindsTheLoadOfOtherJointsFedForward) {
+  auto recording = simulate_joint(loop_plan("pd"), 3);
+  Eigen::Index const n = recording.torque.size(), ahead = 3;
+  auto const load_at = [](Eigen::Index k) {
+    double const t = 1e-3 * static_cast<double>(k);
+    return 8.0 * std::sin(2.1 * t) + 3.0 * std::cos(5.3 * t + 1.0);
+  };
+  Eigen::VectorXd load(n), whole(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    load[k] = load_at(k);
+    whole[k] = recording.torque[k] + 0.9 * load_at(k + ahead);
+  }
+  auto const found = fit_controller({recording.time_s, recording.reference, recording.position, whole, &load});
+  EXPECT_TRUE(found.is_white) << found.remark;
+  EXPECT_NEAR(found.noise.std / torque_noise, 1.0, 4.0 / std::sqrt(2.0 * 15000.0));
+  EXPECT_NEAR(found.law.proportional_gain() / stiffness(recording.gains), 1.0, 2e-3);
+  EXPECT_NEAR(found.law.gear_load[0], 0.9, 2e-3);
+  EXPECT_NEAR(found.law.gear_load[1] / (0.9 * static_cast<double>(ahead)), 1.0, 0.05);
+  // not told of the load, it cannot but take it for noise
+  EXPECT_GT(fit_controller({recording.time_s, recording.reference, recording.position, whole}).noise.std,
+            2.0 * torque_noise);
+}
+
 TEST(ControllerFit, FeedsNothingForwardThatIsNotThere) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_TRUE(fit(simulate_joint(loop_plan("pd"), seed)).law.terms.empty());
