@@ -10,10 +10,10 @@
 
 #include "engine/base/quantity_text.hpp"
 #include "engine/diagnose/first_look.hpp"
+#include "engine/diagnose/joint_search.hpp"
 #include "engine/diagnose/model_account.hpp"
 #include "engine/diagnose/named_effects.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
-#include "engine/diagnose/search_in_time.hpp"
 #include "engine/inference/kept_model.hpp"
 #include "engine/inference/verdict_table.hpp"
 #include "engine/locate/largest_parts.hpp"
@@ -102,124 +102,32 @@ class JointWork {
     if (input_.further_training > 0) joint_.remarks.push_back(several_recordings_sentence(input_));
     if (!why && input_.validate.empty()) why = first_look_.place_is_time();
     if (why) return hopeless(*why);
-    StageSetting setting{recording,   first_look_.regressor(), input_.filter, input_.filter_section, input_.twins,
-                         input_.seed, input_.threads};
-    setting.ablation = input_.ablation;
-    if (input_.reversals == ReversalRows::weigh) setting.reversals = ReversalRows::weigh;
-    setting.exchange = input_.exchange;
-    SelectionOptions selection = input_.selection;
-    std::erase_if(selection.candidates, [&](Effect const* law) {
-      bool const is_unknown = law->is_given() && !(recording.given && recording.given->of(law->name()));
-      return is_unknown || closes(first_look_.limits(), *law);
-    });
-    others_.training = input_.further_training;
+    OwnedRecordings others{{}, input_.further_training};
     for (auto const& given : input_.validate)
-      others_.all.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
+      others.all.push_back(from_zero(first_look_.less_simulator(without_echoed_reference(given))));
     // an arm's fit has seen the rows of training: what is not known of it shows in none of them
-    for (std::size_t i = 0; i < others_.training; ++i) others_.all[i].load_errors = {};
-    setting.trained = std::make_shared<TrainedMotion const>(trained_motion_of(setting, others_.others().training));
-    why = search(setting, recording, selection);
-    if (why) return hopeless(*why);
-    kept_ = keep_what_predicts(*search_, others_.others());
-    look_at_reversals(setting, recording, selection);
-    selection_ = kept_.state.selection;
+    for (std::size_t i = 0; i < others.training; ++i) others.all[i].load_errors = {};
+    JointSearchAnswer answer =
+        search_joint({input_, first_look_, has_reference_, levels(), progress_}, recording, others);
+    if (!answer.found.too_short.empty()) joint_.remarks.push_back(too_few_rows_sentence(answer.found.too_short));
+    if (answer.why) return hopeless(*answer.why);
+    found_ = std::move(answer.found);
+    selection_ = found_.kept.state.selection;
     tell("verify", 0, selection_.accepted.size());  // which may have made twins
-    account_for_models(selection_, timing_remark(torque_late_s_, input_.train.rate_hz), joint_);
-    joint_.timing_sentence = timing_sentence(torque_late_s_, input_.train.rate_hz);
+    account_for_models(selection_, timing_remark(found_.torque_late_s, input_.train.rate_hz), joint_);
+    joint_.timing_sentence = timing_sentence(found_.torque_late_s, input_.train.rate_hz);
     joint_.candidates = candidate_table(selection_, input_.selection.q, blocked_mismatch(baseline()).excess);
     joint_.map = mismatch_map(baseline().comparison.rows, baseline().reference().scales, input_.threads);
     if (!selection_.accepted.empty()) add_after(joint_.map, final_stage().comparison.rows, input_.threads);
     if (!selection_.accepted.empty()) account_for_effects();
     account_for_unseen();
-    if (!search_->states.front().adequacy.holds())
-      neighbours_ = neighbour_load(setting.recording, *baseline().pipeline, baseline().comparison.recording);
+    if (!found_.search->states.front().adequacy.holds())
+      neighbours_ = neighbour_load(*found_.recording, *baseline().pipeline, baseline().comparison.recording);
     budget();
     decide();
     if (!selection_.accepted.empty()) tried_ = law_torques();
     if (!joint_.effects.empty()) laws_ = tried_;
     tell("verify", selection_.accepted.size(), selection_.accepted.size());
-  }
-
-  // Its faults are known by now: what stops the search is a motion that cannot carry it. One that reverses all the time
-  // leaves too few rows between reversals: then these are weighed from the beginning
-  std::optional<Hopeless> search(StageSetting& setting, Recording& recording, SelectionOptions const& selection) {
-    Recording const recording_before = recording;
-    OwnedRecordings const others_before = others_;
-    auto const remarks_before = joint_.remarks;
-    auto const attempt = [&] {
-      leave_out_unjudged(setting);
-      return verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-        search_ = search_in_time(setting, recording, others_, {selection, levels()}, torque_late_s_, progress_);
-        return std::nullopt;
-      });
-    };
-    auto const why = attempt();
-    if (!why || input_.reversals != ReversalRows::both || !has_reference_) return why;
-    recording = recording_before;
-    others_ = others_before;
-    joint_.remarks = remarks_before;
-    torque_late_s_ = 0.0;
-    setting.reversals = ReversalRows::weigh;
-    return attempt() ? why : std::nullopt;
-  }
-
-  // recordings to predict of which hardly a row can be judged
-  void leave_out_unjudged(StageSetting const& setting) {
-    std::vector<std::string> names;
-    auto const first = others_.all.begin() + static_cast<std::ptrdiff_t>(others_.training);
-    others_.all.erase(std::remove_if(first, others_.all.end(),
-                                     [&](Recording const& one) {
-                                       if (judged_rows(setting, one) >= fewest_rows) return false;
-                                       names.push_back(one.name);
-                                       return true;
-                                     }),
-                      others_.all.end());
-    if (!names.empty()) joint_.remarks.push_back(too_few_rows_sentence(names));
-  }
-
-  static bool is_named(KeptModel const& kept) {
-    return !kept.state.selection.accepted.empty() && kept.is_held_out_lower && kept.state.adequacy.holds();
-  }
-
-  // Where the mask left nothing to explain, the rows that it hides are looked at by their weight: for a name; where the
-  // rows between reversals could not have shown much, also for what nothing explains
-  void look_at_reversals(StageSetting setting, Recording& recording, SelectionOptions selection) {
-    auto const& first = search_->states.front();
-    bool const is_led = first.selection.baseline->twin->loop.source != LoopSource::tracking;
-    bool const is_weighed = setting.reversals == ReversalRows::weigh;
-    if (input_.reversals != ReversalRows::both || is_weighed || !first.adequacy.holds() || is_named(kept_) || !is_led)
-      return;
-    setting.reversals = ReversalRows::weigh;
-    selection.only_a_mismatch = true;
-    // the search moves torque in time, and what it moved has to be put back when nothing comes of it
-    Recording const recording_before = recording;
-    OwnedRecordings const others_before = others_;
-    double late_s = torque_late_s_;
-    std::unique_ptr<StepwiseSearch const> again;
-    auto const failed = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
-      again = search_in_time(setting, recording, others_, {selection, levels()}, late_s, progress_);
-      return std::nullopt;
-    });
-    KeptModel kept;
-    if (!failed) kept = keep_what_predicts(*again, others_.others());
-    bool const shows_more =
-        !failed && (is_named(kept) || (hides_much(kept_) && !again->states.front().adequacy.holds()));
-    if (!shows_more) {
-      recording = recording_before;
-      others_ = others_before;
-      return;
-    }
-    search_ = std::move(again);
-    kept_ = std::move(kept);
-    torque_late_s_ = late_s;
-  }
-
-  // the smallest share of the torque that could have been seen to be missing; of unseen rows the replicates' error
-  static double visible_share(ModelStage const& baseline, double unseen_floor) {
-    return std::max(smallest_visible_share(baseline), std::isfinite(unseen_floor) ? unseen_floor : 0.0);
-  }
-  bool hides_much(KeptModel const& kept) const {
-    return visible_share(*kept.state.selection.baseline, floor_of(kept.held_out)) >= levels().tolerance;
   }
 
   DecisionLevels levels() const {
@@ -232,7 +140,7 @@ class JointWork {
   ModelStage const& baseline() const { return *selection_.baseline; }
 
   void account_for_effects() {
-    NamedEffects named = name_effects(selection_, *kept_.state.evidence, input_.selection.candidates, levels(),
+    NamedEffects named = name_effects(selection_, *found_.kept.state.evidence, input_.selection.candidates, levels(),
                                       {input_.selection.shape_optimiser, input_.seed, input_.threads, false});
     joint_.effects = std::move(named.effects);
     joint_.augmented = std::move(named.parameters);
@@ -243,13 +151,13 @@ class JointWork {
   }
 
   void account_for_unseen() {
-    StageSetting const& setting = search_->setting;
-    HeldOut& held_out = kept_.held_out;
+    StageSetting const& setting = found_.search->setting;
+    HeldOut& held_out = found_.kept.held_out;
     joint_.forward.push_back(simulate_forward(setting.recording, final_stage().twin->loop, baseline(), final_stage()));
     joint_.train_left_out = told(left_out_in_training(setting, baseline(), final_stage()));
-    joint_.held_out = {held_out.gain.blocks == 0         ? ""
-                       : others_.others().unseen.empty() ? "cross-validated"
-                                                         : "unseen",
+    joint_.held_out = {held_out.gain.blocks == 0               ? ""
+                       : found_.others.others().unseen.empty() ? "cross-validated"
+                                                               : "unseen",
                        held_out.gain.blocks == 0 ? "" : word(held_out.gain.change), held_out.gain.t,
                        held_out.gain.asked_for, held_out.gain.blocks};
     std::vector<double> without(final_stage().model().effects().size(), 0.0);
@@ -263,8 +171,8 @@ class JointWork {
       joint_.nuisances.insert(joint_.nuisances.end(), result.nuisances.begin(), result.nuisances.end());
       unseen_twins_ran_away_ = unseen_twins_ran_away_ || result.twins_ran_away;
     }
-    if (others_.training > 0) account_for_further_training();
-    if (others_.others().unseen.empty()) {
+    if (found_.others.training > 0) account_for_further_training();
+    if (found_.others.others().unseen.empty()) {
       auto const& record = baseline().comparison.recording;
       joint_.traces.push_back(
           torque_trace(setting.recording, *baseline().pipeline, record, record.residual_itself(), residual_after()));
@@ -283,8 +191,8 @@ class JointWork {
 
   // one fit to all training recordings, and each of them by the fit to the others
   void account_for_further_training() {
-    StageSetting const& setting = search_->setting;
-    RecordingsInTurn const in_turn = recordings_in_turn(setting, others_.others().training, selection_);
+    StageSetting const& setting = found_.search->setting;
+    RecordingsInTurn const in_turn = recordings_in_turn(setting, found_.others.others().training, selection_);
     auto const error = [&](double energy) { return std::sqrt(energy / in_turn.torque); };
     double before = 0.0, after = 0.0;
     for (auto const& one : in_turn.recordings) {
@@ -295,12 +203,12 @@ class JointWork {
     joint_.augmented_train_relerr = error(in_turn.fitted_after);
     joint_.cv_relerr = error(before);
     joint_.augmented_cv_relerr = error(after);
-    for (auto const& recording : others_.others().training) joint_.traces.push_back(trace_in_training(recording));
+    for (auto const& recording : found_.others.others().training) joint_.traces.push_back(trace_in_training(recording));
   }
 
   TorqueTrace trace_in_training(Recording const& recording) const {
-    RecordPipeline const plain = pipeline_for(search_->setting, recording, baseline());
-    RecordPipeline full = pipeline_for(search_->setting, recording, final_stage());
+    RecordPipeline const plain = pipeline_for(found_.search->setting, recording, baseline());
+    RecordPipeline full = pipeline_for(found_.search->setting, recording, final_stage());
     ProcessedRecord const before = plain.prepare(recording);
     full.restrict_to(before.kept_rows);
     ProcessedRecord const after = full.prepare(recording);
@@ -310,7 +218,7 @@ class JointWork {
   }
 
   std::vector<Eigen::VectorXd> law_torques() const {
-    StageSetting const& setting = search_->setting;
+    StageSetting const& setting = found_.search->setting;
     auto const torque_in = [&](Recording const& recording, Eigen::VectorXd const& parameters) -> Eigen::VectorXd {
       RecordPipeline const pipeline = pipeline_for(setting, recording, final_stage());
       ProcessedRecord const record = pipeline.prepare(recording);
@@ -320,7 +228,7 @@ class JointWork {
     std::vector<std::string> unsaid;
     Eigen::VectorXd const elsewhere = transferable(final_stage(), unsaid);
     std::vector<Eigen::VectorXd> torques{torque_in(setting.recording, final_stage().estimate())};
-    for (auto const& recording : others_.all) torques.push_back(torque_in(recording, elsewhere));
+    for (auto const& recording : found_.others.all) torques.push_back(torque_in(recording, elsewhere));
     return torques;
   }
 
@@ -356,12 +264,12 @@ class JointWork {
 
   VerdictFacts facts() const {
     VerdictFacts facts;
-    facts.is_baseline_adequate = search_->states.front().adequacy.holds();
+    facts.is_baseline_adequate = found_.search->states.front().adequacy.holds();
     facts.laws = selection_.accepted.size();
-    facts.is_adequate = kept_.state.adequacy.holds();
-    facts.is_held_out_lower = kept_.is_held_out_lower;
-    facts.is_worth_naming = kept_.fall >= levels().least_fall;
-    facts.explains_most = kept_.explains_most;
+    facts.is_adequate = found_.kept.state.adequacy.holds();
+    facts.is_held_out_lower = found_.kept.is_held_out_lower;
+    facts.is_worth_naming = found_.kept.fall >= levels().least_fall;
+    facts.explains_most = found_.kept.explains_most;
     facts.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
                                   [](NamedEffect const& one) { return !one.equivalent.empty(); });
     facts.all_on_channel =
@@ -404,14 +312,14 @@ class JointWork {
     }
     if (decided.reason == VerdictReason::other_joints)
       joint_.other_joints = other_joints_sentence(joint_, neighbours_->columns, neighbours_->relerr);
-    if (!kept_.state.adequacy.holds()) {
+    if (!found_.kept.state.adequacy.holds()) {
       auto const& final = final_stage();
       joint_.unexplained = largest_parts(mismatch_map(final.comparison.rows, final.reference().scales, input_.threads));
     } else if (!decided.keeps_names) {
       joint_.unexplained = largest_parts(joint_.map);
     }
     if (!decided.keeps_names) return withdraw(decided.reason);
-    ExplainedShare const& explained = kept_.held_out.explained;
+    ExplainedShare const& explained = found_.kept.held_out.explained;
     joint_.explained_share = explained.share;
     joint_.explained_low = explained.low;
     joint_.explained_high = explained.high;
@@ -432,7 +340,8 @@ class JointWork {
                         percent_text(levels().least_fall));
     }
     if (reason == VerdictReason::most_is_left) {
-      joint_.refutation = too_little_clause(joint_, 1.0 - kept_.held_out.gain.after / kept_.held_out.gain.before);
+      joint_.refutation =
+          too_little_clause(joint_, 1.0 - found_.kept.held_out.gain.after / found_.kept.held_out.gain.before);
       why = "it explains less than half";
     }
     if (reason == VerdictReason::other_joints) why = "the motion of other joints predicts better";
@@ -454,16 +363,13 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  OwnedRecordings others_;  // torque in time with that of the first
   std::vector<Eigen::VectorXd> laws_, tried_;
   std::vector<LevelChange> level_changes_{};
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop
-  double torque_late_s_ = 0.0;      // taken out of all recordings (channel_timing.hpp)
   bool unseen_twins_ran_away_ = false;
   std::optional<NeighbourLoad> neighbours_{};
-  std::unique_ptr<StepwiseSearch const> search_{};
-  KeptModel kept_{};
+  SearchedJoint found_{};
 };
 
 }  // namespace
