@@ -74,9 +74,11 @@ class WholeArmWork {
       if (scanned.empty()) break;
       std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
       Eigen::VectorXd const left = left_out_of_stretches(rows_, basis_, residual_);
-      if (step == 0)
-        for (ScannedLaw const& one : scanned) answer.tried.push_back(judged(one, left).found);
       Judged best = judged(scanned.front(), left);
+      if (step == 0) {
+        answer.tried.push_back(best.found);
+        for (std::size_t i = 1; i < scanned.size(); ++i) answer.tried.push_back(judged(scanned[i], left).found);
+      }
       if (best.found.reason != WholeArmReason::accepted) break;
       best.found.alike = alike_to(best, scanned, left);
       basis_ = beside(basis_, best.fit.directions);

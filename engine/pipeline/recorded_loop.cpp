@@ -36,6 +36,12 @@ Eigen::VectorXd whole_torque(Recording const& recording) {
   return recording.torque + torque_to_hold(recording.gear_load);
 }
 
+// Whether a loop of our own is the last resort: the law is that of a reference, and a joint that runs away even so is
+// what the torque cannot be right for. Of an arm's joint the law is known less well: what the others need is fitted
+bool is_last_resort(Recording const& recording) {
+  return recording.reference.size() == recording.position.size() && recording.gear_load.size() == 0;
+}
+
 constexpr double runaway = 3.0;  // times the largest torque of the recording, or of the model along its motion
 
 RecordedLoop common_parts(Recording const& recording) {
@@ -47,7 +53,7 @@ RecordedLoop common_parts(Recording const& recording) {
   result.track.rate_hz = recording.rate_hz;
   result.track.start_position = recording.position[0];
   result.track.start_velocity = first_velocity(recording);
-  result.track.largest_torque = runaway * recording.torque.cwiseAbs().maxCoeff();
+  result.track.largest_torque = runaway * whole_torque(recording).cwiseAbs().maxCoeff();
   return result;
 }
 
@@ -55,8 +61,7 @@ RecordedLoop common_parts(Recording const& recording) {
 // the joint by rounding alone. Its answer is 2 inertia omega per difference of one sample
 double widest_of_encoder(Recording const& recording, double inertia) {
   double const step = recording.rows.encoder_step;
-  if (step <= 0.0 || recording.reference.size() == recording.position.size())
-    return std::numeric_limits<double>::infinity();
+  if (step <= 0.0 || is_last_resort(recording)) return std::numeric_limits<double>::infinity();
   double const torque_rms = std::sqrt(recording.torque.squaredNorm() / static_cast<double>(recording.torque.size()));
   return torque_rms / (4.0 * std::numbers::pi * inertia * recording.rate_hz * step);
 }
@@ -65,9 +70,7 @@ double widest_of_encoder(Recording const& recording, double inertia) {
 // the filter remembers: what a filter makes of an end is an acceleration that no joint had, and twins that follow it
 // run away
 Eigen::VectorXd smoothed_motion(Recording const& recording, FilterOptions const& filter) {
-  // beside a reference this is the last resort, and a joint that runs away even so is what the torque cannot be right
-  // for
-  if (recording.reference.size() == recording.position.size()) return differentiate(recording, filter, {}).q;
+  if (is_last_resort(recording)) return differentiate(recording, filter, {}).q;
   if (filter.cutoff_hz == 0.0) return recording.position;
   constexpr double periods = 3.0;
   Eigen::VectorXd const& q = recording.position;
@@ -141,7 +144,6 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
   result.track.reference = recording.reference;
   if (recording.gear_load.size() > 0) result.track.gear_load = torque_to_hold(recording.gear_load);
   Eigen::VectorXd const torque = whole_torque(recording);
-  result.track.largest_torque = runaway * torque.cwiseAbs().maxCoeff();
   Eigen::VectorXd const* const of_others = recording.gear_load.size() > 0 ? &result.track.gear_load : nullptr;
   result.controller = fit_controller({recording.time_s, recording.reference, recording.position, torque, of_others});
   result.source = result.controller->is_white ? LoopSource::identified : LoopSource::approximated;
@@ -165,7 +167,7 @@ RecordedLoop tracking_loop(Recording const& recording, TrackedJoint const& joint
   RecordedLoop result = common_parts(recording);
   result.source = LoopSource::tracking;
   result.track.reference = smoothed_motion(recording, filter);
-  if (recording.reference.size() != recording.position.size())
+  if (!is_last_resort(recording))
     result.track.largest_torque =
         std::max(result.track.largest_torque, runaway * most_needed(joint, result.track.reference, recording.rate_hz,
                                                                     edge_samples(filter, recording.rate_hz)));

@@ -98,6 +98,21 @@ TEST(RecordedLoop, LetsALedJointHaveTheTorqueThatItsOwnModelNeeds) {
   EXPECT_GT(tracking_loop(recording, joint, test::clean_filter()).track.largest_torque, least_allowed);
 }
 
+// at an arm's joint the law is known less well, and the drive gives more than the joint's own torque
+TEST(RecordedLoop, LetsAJointOfAnArmHaveTheTorqueOfItsDrive) {
+  auto recording = test::recorded(simulate_joint(limited_joint().plan, 5));
+  TrackedJoint const joint{0.08, 0.3, 0.3, -0.3};
+  double const own = tracking_loop(recording, joint, test::clean_filter()).track.largest_torque;
+  recording.gear_load = Eigen::VectorXd::Constant(recording.torque.size(), 40.0);
+  RecordedLoop const led = tracking_loop(recording, joint, test::clean_filter());
+  EXPECT_NEAR(led.track.largest_torque, 3.0 * (recording.torque.array() + 40.0).abs().maxCoeff(), 1e-9);
+  EXPECT_GT(led.track.largest_torque, own + 100.0);
+  EXPECT_EQ(led.track.gear_load.size(), 0) << "a loop of our own gives the joint's own torque alone";
+  // its law is one of the whole torque
+  RecordedLoop const found = recorded_loop(recording, joint, test::clean_filter());
+  EXPECT_EQ(found.track.gear_load.size(), recording.torque.size());
+}
+
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {
   auto const path = emps("emps_train.csv.gz");
   SKIP_WITHOUT(path);
