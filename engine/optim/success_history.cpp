@@ -1,19 +1,10 @@
 #include "engine/optim/success_history.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace torquescope {
 
 namespace {
-
-constexpr double spread = 0.1;
-
-double cauchy(RandomStream& random, double centre) {
-  double const u = RandomStream::probability(random.bits());
-  return centre + spread * std::tan(std::numbers::pi * (u - 0.5));
-}
 
 // weighted Lehmer mean of one control
 double lehmer_mean(std::span<Success const> successes, double TrialControls::*control) {
@@ -34,11 +25,8 @@ double lehmer_mean(std::span<Success const> successes, double TrialControls::*co
 
 TrialControls SuccessHistory::draw(RandomStream& random) const {
   std::size_t const r = random.below(static_cast<std::uint32_t>(F_.size()));
-  double const deviate = random.normal();
-  TrialControls controls;
-  controls.CR = CR_[r] == terminal ? 0.0 : std::clamp(CR_[r] + spread * deviate, 0.0, 1.0);
-  do controls.F = std::min(cauchy(random, F_[r]), 1.0);
-  while (!(controls.F > 0.0));
+  auto controls = draw_round({F_[r], CR_[r]}, random);
+  if (CR_[r] == terminal) controls.CR = 0.0;
   return controls;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // What F and CR succeeded with: the memory from which L-SHADE draws each trial's controls.
 //
-// Equation   F ~ Cauchy(M_F,r, 0.1), again while F <= 0, at most 1;  CR ~ Normal(M_CR,r, 0.1), clipped to 0 .. 1; r
-//            uniform. After a generation with successes the next entry, in turn, becomes their weighted Lehmer means
+// Equation   F, CR round M_F,r, M_CR,r (trial_controls.hpp), r uniform. After a generation with successes the next
+//            entry, in turn, becomes their weighted Lehmer means
 //              mean(S) = sum w s^2 / sum w s,  w = f(x) - f(u) of the success, over its sum
 //            An entry whose successes all had CR = 0 is terminal: CR = 0 from then on, and it stays terminal
 // Random     one draw for r, one for CR, one or more for F
@@ -13,14 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/random_stream.hpp"
+#include "engine/optim/trial_controls.hpp"
 
 namespace torquescope {
-
-struct TrialControls {
-  double F = 0.0;
-  double CR = 0.0;
-};
 
 struct Success {
   TrialControls controls;

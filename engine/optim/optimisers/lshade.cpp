@@ -1,15 +1,13 @@
 // L-SHADE: DE/current-to-pbest/1/bin with an archive, F and CR from a history of successes, and a population that
 // shrinks linearly to four members while the budget is spent.
 //
-// Equation   v = x + F (x_pbest - x) + F (x_r1 - x_r2); pbest among the best 11 %, at least two; r1 of the population,
-//            r2 of population and archive; the target, r1 and r2 all different
+// Equation   current_to_pbest.hpp, success_history.hpp
 //            NP = NP_0 + (4 - NP_0) share spent, rounded; the archive shrinks with it
 // Budget     the job's: `evaluations` as in the paper, or `generations`, whichever is nearer its end. reduction =
 //            "none": SHADE with these settings
 // Fitness    nothing is learned from a member without finite fitness, and it does not go into the archive
-// Progress   F, CR: mean of the generation's trials. PC, FC: as DE's
-// Random     a trial: controls (success_history.hpp), pbest, r1, r2, j_rand, parameters, repairs; the archive: own
-//            stream
+// Progress   F, CR: means of the generation's trials
+// Random     trials as in current_to_pbest.hpp; the archive: own stream
 // Source     Tanabe, Fukunaga 2014, CEC, doi:10.1109/CEC.2014.6900380; settings as there (NP_0 = 18 R, H = 6, archive
 //            2.6 NP, p = 0.11)
 
@@ -18,12 +16,9 @@
 #include <limits>
 #include <memory>
 
-#include "engine/optim/crossover.hpp"
+#include "engine/optim/current_to_pbest.hpp"
 #include "engine/optim/generational_search.hpp"
 #include "engine/optim/make_choice.hpp"
-#include "engine/optim/member_archive.hpp"
-#include "engine/optim/movement.hpp"
-#include "engine/optim/mutation.hpp"
 #include "engine/optim/named_choice.hpp"
 #include "engine/optim/optimiser_state.hpp"
 #include "engine/optim/stop_rules.hpp"
@@ -75,8 +70,6 @@ struct LshadeSettings {
   StopRules budget;
 };
 
-std::size_t rounded(double number) { return static_cast<std::size_t>(std::lround(number)); }
-
 class Lshade final : public GenerationalSearch {
  public:
   Lshade(Bounds const& bounds, RandomKey key, std::size_t n_members, LshadeSettings const& settings)
@@ -88,43 +81,25 @@ class Lshade final : public GenerationalSearch {
         to_keep_(n_members) {}
 
  private:
+  DrawControls draw() const {
+    return [this](std::size_t, RandomStream& random) { return history_.draw(random); };
+  }
+
   void make_trials(TrialStreams const& streams, MatrixView<double> const& trials) const override {
-    auto const members = population();
-    auto const order = ranking(fitness());
-    auto const n_best = static_cast<std::uint32_t>(std::clamp(
-        rounded(settings_.best_share * static_cast<double>(members.rows())), std::size_t{2}, members.rows()));
-    for (std::size_t i = 0; i < members.rows(); ++i) {
-      RandomStream random(streams.key, streams.generation, static_cast<std::uint32_t>(i));
-      auto const [F, CR] = history_.draw(random);
-      auto const best = members.row(order[random.below(n_best)]);
-      std::size_t const r1 = pick_another<1>(random, members.rows(), {i});
-      std::size_t const r2 = pick_another<2>(random, members.rows() + archive_.size(), {smaller(i, r1), larger(i, r1)});
-      auto const minus = r2 < members.rows() ? members.row(r2) : archive_.row(r2 - members.rows());
-      auto const trial = trials.row(i);
-      mutate_current_to_best_1(members.row(i), best, members.row(r1), minus, F, trial);
-      cross_binomial(random, CR, members.row(i), trial);
-      repair_bounds(settings_.repair, bounds(), members.row(i), random, trial);
-    }
+    make_current_to_pbest_trials({population(), fitness(), archive_, bounds(), settings_.best_share, settings_.repair},
+                                 draw(), streams, trials);
   }
 
   void learn(Selected const& step, Progress& progress) override {
-    auto const movement = movement_between(step.before, step.after, step.winners, bounds(), MovementNorm::raw);
-    progress.PC = movement.PC;
-    progress.FC = movement.FC;
     auto const generation = static_cast<std::uint32_t>(progress.generation);
-    auto const controls = controls_of(generation, step.after.size());
-    progress.F = progress.CR = 0.0;
-    for (auto const& [F, CR] : controls) {
-      progress.F += F / static_cast<double>(controls.size());
-      progress.CR += CR / static_cast<double>(controls.size());
-    }
+    auto const controls = controls_of_trials({key_, generation}, step.after.size(), draw());
+    record_step(step, controls, bounds(), progress);
 
     std::vector<Success> successes;
     RandomStream random(key_, generation, std::numeric_limits<std::uint32_t>::max());
     for (std::size_t const i : step.winners) {
-      // halved, so that the difference cannot overflow
-      double const improvement = 0.5 * step.before.fitness[i] - 0.5 * step.after.fitness[i];
-      if (!std::isfinite(improvement) || improvement <= 0.0) continue;
+      double const improvement = improvement_of(step, i);
+      if (!(improvement > 0.0)) continue;
       successes.push_back({controls[i], improvement});
       archive_.add(step.before.members().row(i), room_for(step.after.size()), random);
     }
@@ -151,25 +126,13 @@ class Lshade final : public GenerationalSearch {
     archive_.restore(archive);
   }
 
-  // drawn anew from the same streams: they are not part of the state
-  std::vector<TrialControls> controls_of(std::uint32_t generation, std::size_t n_members) const {
-    std::vector<TrialControls> controls(n_members);
-    for (std::size_t i = 0; i < n_members; ++i) {
-      RandomStream random(key_, generation, static_cast<std::uint32_t>(i));
-      controls[i] = history_.draw(random);
-    }
-    return controls;
-  }
-
-  std::size_t room_for(std::size_t n_members) const {
-    return rounded(settings_.archive_share * static_cast<double>(n_members));
-  }
+  std::size_t room_for(std::size_t n_members) const { return share_of_members(settings_.archive_share, n_members); }
 
   std::size_t members_after(Progress const& progress) const {
     if (settings_.reduction == Reduction::none) return largest_batch();
     double const spent = std::min(1.0, share_spent(settings_.budget, progress));
     auto const most = static_cast<double>(largest_batch());
-    return rounded(most + (static_cast<double>(fewest_members) - most) * spent);
+    return static_cast<std::size_t>(std::lround(most + (static_cast<double>(fewest_members) - most) * spent));
   }
 
   LshadeSettings settings_;

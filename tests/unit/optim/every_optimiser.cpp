@@ -132,9 +132,11 @@ TEST_P(EveryOptimiser, CountsAndNeverSelectsNonfiniteFitness) {
   EXPECT_GT(nonfinite, 0);
   for (std::size_t i = 0; i < search->population().rows(); ++i) {
     EXPECT_EQ(search->fitness()[i], ranked_fitness(half_undefined(search->population().row(i))));
-    // after forty generations every slot has met a finite trial
-    EXPECT_TRUE(std::isfinite(search->fitness()[i]) || !keeps_members(*search));
   }
+  // in the end every slot has met a finite trial. JADE takes longest, up to 223 generations in forty runs: near the
+  // edge of what is defined only small F succeed, and members far from it would need a large one
+  run_to_generation(*search, half_undefined, 400);
+  for (double const f : search->fitness()) EXPECT_TRUE(std::isfinite(f) || !keeps_members(*search));
 }
 
 TEST_P(EveryOptimiser, LivesThroughAnObjectiveThatIsNeverFinite) {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "engine/optim/success_history.hpp"
-#include "support/optimise.hpp"
+#include "support/current_to_pbest.hpp"
 
 namespace torquescope {
 namespace lshade_test {
@@ -30,15 +29,9 @@ TEST(Lshade, TakesTheStepsOfThePaper) {
   std::vector<std::vector<double>> archive;
   std::size_t k = 0, n_successes = 0;
   for (std::uint32_t generation = 1; generation <= 3; ++generation) {
-    std::vector<std::vector<double>> x(N);
-    std::vector<double> f(search->fitness().begin(), search->fitness().end());
-    for (std::size_t i = 0; i < N; ++i) {
-      auto const row = search->population().row(i);
-      x[i].assign(row.begin(), row.end());
-    }
-    std::vector<std::size_t> order(N);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return f[a] < f[b]; });
+    auto const before = testing::plain_population(*search);
+    auto const& x = before.x;
+    auto const& f = before.f;
 
     auto batch = ask(*search);
     std::vector<double> S_F, S_CR, gain;
@@ -46,26 +39,7 @@ TEST(Lshade, TakesTheStepsOfThePaper) {
     for (std::size_t i = 0; i < N; ++i) {
       RandomStream random(key, generation, static_cast<std::uint32_t>(i));
       std::size_t const r = random.below(H);
-      double const CR = std::clamp(M_CR[r] + 0.1 * random.normal(), 0.0, 1.0);
-      double F = 0.0;
-      while (F <= 0.0)
-        F = std::min(1.0, M_F[r] + 0.1 * std::tan(std::acos(-1.0) * (RandomStream::probability(random.bits()) - 0.5)));
-      // round(0.11 x 8) is one, the least is two
-      auto const& best = x[order[random.below(2)]];
-      std::size_t r1 = random.below(N - 1);
-      if (r1 >= i) ++r1;
-      std::size_t r2 = random.below(static_cast<std::uint32_t>(N + archive.size() - 2));
-      if (r2 >= std::min(i, r1)) ++r2;
-      if (r2 >= std::max(i, r1)) ++r2;
-      auto const& other = r2 < N ? x[r2] : archive[r2 - N];
-      std::size_t const j_rand = random.below(D);
-      std::vector<double> u = x[i];
-      for (std::size_t j = 0; j < D; ++j) {
-        if (random.uniform() >= CR && j != j_rand) continue;
-        u[j] = x[i][j] + F * (best[j] - x[i][j]) + F * (x[r1][j] - other[j]);
-        if (u[j] > 2.0) u[j] = 0.5 * (x[i][j] + 2.0);
-        if (u[j] < -2.0) u[j] = 0.5 * (x[i][j] - 2.0);
-      }
+      auto const [F, CR, u] = testing::plain_trial(before, archive, M_F[r], M_CR[r], i, random);
       for (std::size_t j = 0; j < D; ++j) EXPECT_NEAR(batch.rows()(i, j), u[j], 1e-15) << generation << ", " << i;
       batch.fitness[i] = bumpy(batch.rows().row(i));
       if (batch.fitness[i] >= f[i]) continue;

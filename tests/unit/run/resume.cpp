@@ -21,6 +21,8 @@ std::string const job = test::joint_model + "[filter]\nedge_s = 0\n[model.bounds
                         "[[estimator]]\nname = \"ols\"\n"
                         "[[estimator]]\nname = \"de\"\npopulation = 8\ngenerations = 30\n"
                         "[[estimator]]\nname = \"fade\"\npopulation = 8\ngenerations = 40\nstagnation = 6\n"
+                        "[[estimator]]\nname = \"jde\"\npopulation = 8\ngenerations = 30\n"
+                        "[[estimator]]\nname = \"jade\"\npopulation = 8\ngenerations = 30\n"
                         "[[estimator]]\nname = \"lshade\"\npopulation = 9\ngenerations = 30\n"
                         "[[estimator]]\nname = \"cmaes\"\ngenerations = 30\n";
 
@@ -80,7 +82,7 @@ TEST(Merge, OfAnyShardsWritesTheSameFile) {
       EXPECT_EQ(report.runs_before, 0u);
     }
     JobStatus const status = read_status(segment_folder_of(output));
-    ASSERT_EQ(status.estimators.size(), 4u);
+    ASSERT_EQ(status.estimators.size(), 6u);
     for (auto const& estimator : status.estimators) EXPECT_EQ(estimator.ended, 5);
     merge(test::load_job(job), options_for(output, 2), Completeness::whole, {});
     EXPECT_TRUE(test::bytes_of(output) == whole) << count << " shards";
@@ -101,7 +103,7 @@ TEST(Merge, WithoutAllRunsSaysWhichAndWritesNothing) {
   } catch (Error const& error) {
     EXPECT_EQ(error.code(), ExitCode::stopped);
     EXPECT_EQ(error.problems().front().notes.front(),
-              "de 0, 2 to 3; fade 0, 2 to 3; lshade 0, 2 to 3; cmaes 0, 2 to 3");
+              "de 0, 2 to 3; fade 0, 2 to 3; jde 0, 2 to 3; jade 0, 2 to 3; lshade 0, 2 to 3; cmaes 0, 2 to 3");
   }
   EXPECT_FALSE(fs::exists(options.output));
   merge(test::load_job(job), options, Completeness::partial, {});
