@@ -31,13 +31,14 @@ PALETTE = {
     "irls": ("#662211", "#dd6655"),
     "de": ("#8a6a00", "#d8b23f"),
     "fade": ("#5a48b8", "#a99cf7"),
+    "cmaes": ("#9c00fc", "#b448fc"),
     # of a diagnosis: before is always orange, after always blue, and nothing else is
     "baseline": ("#c2500a", "#ff9b57"),
     "augmented": ("#0067a8", "#63b8f5"),
     "region": ("#fdf0dc", "#33291a"),
     "quiet": ("#f2f3f5", "#1d2125"),
 }
-KIND_COLOUR = {"ols": "ink", "wls": "wls", "irls": "irls", "de": "de", "fade": "fade"}
+KIND_COLOUR = {"ols": "ink", "wls": "wls", "irls": "irls", "de": "de", "fade": "fade", "cmaes": "cmaes"}
 COMPARED = ("measured", *KIND_COLOUR.values())
 
 # nine steps from nothing to much; in the dark the page's background is nothing, so the ramp turns round
@@ -74,7 +75,8 @@ def name_of(colour):
 
 # the estimators beyond the first of a colour are told apart by their dashes (and always by their labels)
 DASHES = {"de": (0, (5, 2))}
-MORE_DASHES = ((0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (1.5, 1.5)))
+MORE_DASHES = ((0, (7, 2, 1.5, 2)), (0, (3, 1.5)), (0, (1.5, 1.5)), (0, (10, 3)), (0, (7, 2, 1.5, 2, 1.5, 2)),
+               (0, (3, 1.5, 1, 1.5)))
 
 LOOK = {
     "figure.dpi": 72,

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field
 from .. import style
 
 STUDY_MODULES = ("parameters", "relative_error", "torque_trace", "residual_autocorrelation", "residual_by_speed",
-           "residual_distribution", "convergence", "control_parameters", "population_changes", "membership_functions",
-           "decision_surface")
+           "residual_distribution", "convergence", "targets_reached", "control_parameters", "population_changes",
+           "membership_functions", "decision_surface")
 ARM_MODULES = ("arm_parameters", "joint_errors", "joint_torque", "joint_residual_by_speed", "convergence",
-               "control_parameters", "population_changes", "membership_functions", "decision_surface")
+               "targets_reached", "control_parameters", "population_changes", "membership_functions",
+               "decision_surface")
 DIAGNOSIS_MODULES = ("mismatch_map", "residual_before_after", "missing_torque", "twin_energy", "error_before_after",
                      "diagnosed_trace", "residual_budget", "parameters_before_after")
 BOARD_MODULES = ("power_curve", "family_confusion", "share_histogram", "stated_confidence", "diagnosis_seconds")
