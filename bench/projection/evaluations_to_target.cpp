@@ -73,8 +73,12 @@ std::vector<Method> methods() {
           as_diagnosed("grid, polish", "de", -1),
           projected("de"),
           projected("fade"),
+          projected("jde"),
+          projected("jade"),
           full("de", 30),
-          full("fade", 30)};
+          full("fade", 30),
+          full("jde", 30),
+          full("jade", 30)};
 }
 
 struct Median {
