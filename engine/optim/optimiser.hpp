@@ -59,6 +59,9 @@ class Optimiser {
   // `asked` may hold fewer rows than batch_size() when an evaluation budget cut the batch: the first rows count
   virtual void tell(MatrixView<double const> asked, std::span<double const> fitness) = 0;
 
+  // what it does follows from the limits on generations and evaluations: with others it would have gone another way
+  virtual bool plans_by_budget() const { return false; }
+
   virtual Progress const& progress() const = 0;
   // current population after selection: members x dimension, and its fitness (+inf where there was no finite one).
   // Methods that keep a distribution rather than members: the candidates told last

@@ -75,6 +75,27 @@ OptimiserState saved_state(std::string const& kind, RandomKey key, Progress cons
           {"best", progress.best},           {"population", population.numbers}, {"fitness", population.fitness}};
 }
 
+OptimiserState without_population(OptimiserState state) {
+  state.erase("population");
+  state.erase("fitness");
+  return state;
+}
+
+OptimiserState with_population(OptimiserState state, std::span<double const> numbers, std::span<double const> fitness) {
+  state["population"].assign(numbers.begin(), numbers.end());
+  state["fitness"].assign(fitness.begin(), fitness.end());
+  return state;
+}
+
+std::int64_t generation_of(OptimiserState const& state) {
+  double const generation = state_entry(state, "progress", numbers_of_progress).front();
+  constexpr double uncountable = 0x1p53;
+  if (!(generation >= 0.0 && generation < uncountable)) {
+    throw std::invalid_argument("the saved state has no generation");
+  }
+  return static_cast<std::int64_t>(generation);
+}
+
 SavedSearch saved_search(OptimiserState const& state, std::string const& kind, RandomKey key, std::size_t dimension,
                          std::size_t least, std::size_t most) {
   if (state_entry(state, "kind " + kind, 1).front() != state_version) {

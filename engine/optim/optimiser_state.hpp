@@ -5,6 +5,8 @@
 // Errors     std::invalid_argument: an entry is missing or has another number of values; another kind or key
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,11 @@ struct SavedSearch {
 
 OptimiserState saved_state(std::string const& kind, RandomKey key, Progress const& progress,
                            Population const& population);
+// for who keeps populations elsewhere: the same without it, and with it again (numbers: member by member)
+OptimiserState without_population(OptimiserState state);
+OptimiserState with_population(OptimiserState state, std::span<double const> numbers, std::span<double const> fitness);
+// that was told last
+std::int64_t generation_of(OptimiserState const& state);
 // the population has between least and most members
 SavedSearch saved_search(OptimiserState const& state, std::string const& kind, RandomKey key, std::size_t dimension,
                          std::size_t least, std::size_t most);

@@ -85,6 +85,21 @@ double share_spent(StopRules const& rules, Progress const& progress) {
   return std::max(share(progress.evaluations, rules.evaluations), share(progress.generation, rules.generations));
 }
 
+std::vector<std::string> stricter_rules(StopRules const& now, StopRules const& before) {
+  // 0: no limit
+  auto const limits_more = [](std::int64_t limit, std::int64_t limit_before) {
+    return limit > 0 && (limit_before == 0 || limit < limit_before);
+  };
+  std::vector<std::string> keys;
+  if (now.target > before.target) keys.emplace_back("target");
+  if (now.fitness_range > before.fitness_range) keys.emplace_back("fitness_range");
+  if (now.width > before.width) keys.emplace_back("width");
+  if (limits_more(now.stagnation, before.stagnation)) keys.emplace_back("stagnation");
+  if (limits_more(now.generations, before.generations)) keys.emplace_back("generations");
+  if (limits_more(now.evaluations, before.evaluations)) keys.emplace_back("evaluations");
+  return keys;
+}
+
 std::size_t allowed_rows(StopRules const& rules, Progress const& progress, std::size_t batch_size) {
   if (rules.evaluations <= 0) return batch_size;
   auto const left = std::max<std::int64_t>(0, rules.evaluations - progress.evaluations);

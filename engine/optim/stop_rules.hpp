@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/base/matrix_view.hpp"
 #include "engine/base/options.hpp"
@@ -50,6 +51,9 @@ std::optional<StopReason> reason_to_stop(StopRules const& rules, Optimiser const
 
 // of evaluations or generations, whichever is nearer its end; 0 where neither is limited, above 1 behind the end
 double share_spent(StopRules const& rules, Progress const& progress);
+
+// keys of the rules that might end a search earlier than those of `before` did; wall_clock_s is none of them
+std::vector<std::string> stricter_rules(StopRules const& now, StopRules const& before);
 
 // rows of the next batch that may still be evaluated
 std::size_t allowed_rows(StopRules const& rules, Progress const& progress, std::size_t batch_size);

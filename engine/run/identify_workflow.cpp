@@ -11,6 +11,7 @@
 #include "engine/run/arm_writer.hpp"
 #include "engine/run/disk_room.hpp"
 #include "engine/run/estimator_writer.hpp"
+#include "engine/run/last_states.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/search_box.hpp"
@@ -91,12 +92,14 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
   HistoryShape const shape = history_shape(parts, plan);
   declare_histories(study.writer, plan.label, shape, study.torque_unit);
   RunResults results;
+  std::vector<OptimiserState> last_states;
   std::vector<double> PC, FC;
   auto const commit = [&](std::size_t run, std::shared_ptr<RunHistory const> const& history) {
     write_history(study.writer, plan.label, run, history);
     Eigen::VectorXd const parameters =
         Eigen::Map<Eigen::VectorXd const>(history->parameters.data(), static_cast<Eigen::Index>(shape.parameters));
     keep_run(study, parameters, history->stop_reason, history->evaluations.back(), history->nonfinite, results);
+    last_states.push_back(history->last_state);
     PC.insert(PC.end(), history->PC.begin(), history->PC.end());
     FC.insert(FC.end(), history->FC.begin(), history->FC.end());
   };
@@ -112,6 +115,7 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     }
   }
   measure_runs(study, results);
+  if (shape.members > 0) write_last_states(study.writer, plan.label, last_states);
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
   return results;
@@ -147,6 +151,7 @@ void tell_what_was_done(Attempt const& attempt) {
     tell(attempt.options, "resume",
          fmt::format("{}: {} of {} runs were done", attempt.options.output.filename().string(), attempt.runs_before,
                      attempt.runs_total));
+  for (auto const& line : attempt.earlier.lines()) tell(attempt.options, "continue", line);
 }
 
 // from an attempt that has, or makes, every run
@@ -179,7 +184,8 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   writer.attribute("/runs", "order", order);
   // whoever asks to stop now is served best by the result
   if (options.saving) options.saving();
-  report.content_sha256 = finish_result(writer, options.output, options.threads, beginning, attempt.saved.origins());
+  report.content_sha256 = finish_result(writer, options.output, options.threads, beginning,
+                                        {attempt.saved.origins(), attempt.earlier.content_sha256()});
   report.seconds = beginning.seconds();
   report.bytes = std::filesystem::file_size(options.output);
   report.result = writer.take_written();

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/parallel.hpp"
+#include "engine/optim/optimiser_state.hpp"
 
 namespace torquescope {
 
@@ -74,10 +75,24 @@ struct Run {
   RunHistory history{};
   double spent_before_s = 0.0;
   std::size_t first = 0, rows = 0;  // its part of the present sweep
+  // of its last batch only the first rows were told; with a larger budget it would have been whole, so nothing goes on
+  // behind it, but from the state before it (none of the first batch)
+  bool is_cut = false;
+  OptimiserState before_cut{};
   std::optional<StopReason> reason{};
+
+  RunSoFar so_far() const {
+    return {history, history.best.size() - (is_cut ? 1 : 0), [this] { return is_cut ? before_cut : search.save(); }};
+  }
 };
 
+void remember_state_before_cut(Run& run) {
+  run.is_cut = run.rows < run.search.batch_size();
+  if (run.is_cut && !run.history.best.empty()) run.before_cut = run.search.save();
+}
+
 RunHistory finished(Run& run, SearchSetting const& setting) {
+  if (setting.keeps_populations) run.history.last_state = without_population(run.so_far().state());
   run.history.told = run.history.best.size();
   run.history.pad(stored_generations(setting.rules), stored_members(run.search, setting), run.search.dimension());
   run.history.parameters = run.search.progress().best;
@@ -88,8 +103,7 @@ RunHistory finished(Run& run, SearchSetting const& setting) {
 
 // runs that ended stay in their group until all of it has: kept here, they are not searched again
 void keep(std::vector<Run>& runs, SearchSetting const& setting) {
-  for (std::size_t index = 0; index < runs.size(); ++index)
-    setting.keep(index, runs[index].history, runs[index].search);
+  for (std::size_t index = 0; index < runs.size(); ++index) setting.keep(index, runs[index].so_far());
 }
 
 void stop_if_requested(std::vector<Run>& runs, SearchSetting const& setting) {
@@ -141,6 +155,7 @@ std::vector<RunHistory> optimise(std::vector<RunStart> starts, SearchSetting con
     double const elapsed_s = timed ? std::chrono::duration<double>(Clock::now() - start).count() : 0.0;
     for (Run& run : runs) {
       if (run.reason) continue;
+      remember_state_before_cut(run);
       run.search.tell(places.rows(run.first, run.rows), std::span(fitness).subspan(run.first, run.rows));
       record(run.search, setting, run.history);
       run.history.elapsed_s = run.spent_before_s + elapsed_s;

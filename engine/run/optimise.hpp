@@ -38,10 +38,9 @@ struct SearchSetting {
   std::function<void(std::int64_t evaluations)> count_evaluations{};  // called once a sweep, any thread
   std::function<bool()> stop_requested{};
   bool keeps_populations = true;  // false: population and fitness of a history stay empty
-  // asked after every generation; when true, and before a stop, keep() gets each run that has not ended (index: its
-  // place among the starts)
+  // asked after every generation; when true, and before a stop, keep() gets each run (index: place among the starts)
   std::function<bool()> keep_now{};
-  std::function<void(std::size_t index, RunHistory const& so_far, Optimiser const& search)> keep{};
+  std::function<void(std::size_t index, RunSoFar const& so_far)> keep{};
 };
 
 // one history per start, in their order

@@ -89,10 +89,11 @@ RunStart make_start(PopulationStage const& stage, std::size_t run, std::optional
   try {
     start.search->restore(part->state);
   } catch (std::invalid_argument const& refusal) {
-    throw Error(
-        Problem{.code = ExitCode::bad_job,
-                .what = fmt::format("run {} of {} cannot go on: {}", run, stage.plan.label, refusal.what()),
-                .help = "delete " + segment_folder_of(stage.attempt.options.output).string() + " to begin again"});
+    auto const& options = stage.attempt.options;
+    throw Error(Problem{.code = ExitCode::bad_job,
+                        .what = fmt::format("run {} of {} cannot go on: {}", run, stage.plan.label, refusal.what()),
+                        .help = fmt::format("delete {}{} to begin again", segment_folder_of(options.output).string(),
+                                            options.continued.empty() ? "" : " and leave out --continue")});
   }
   start.history = std::move(part->history);
   return start;
@@ -108,8 +109,8 @@ class Group {
       auto const due = keeper.due();
       return due != std::exchange(seen, due);
     };
-    setting_.keep = [this](std::size_t index, RunHistory const& so_far, Optimiser const& search) {
-      stage_.attempt.keeper.keep(begun_[index], so_far, search);
+    setting_.keep = [this](std::size_t index, RunSoFar const& so_far) {
+      stage_.attempt.keeper.keep(begun_[index], so_far);
     };
   }
 
@@ -140,11 +141,16 @@ class Group {
   }
 
  private:
+  // of segments and the earlier result, whichever has more
   std::optional<RunPart> load(std::size_t run) {
     auto& saved = stage_.attempt.saved;
-    if (saved.empty()) return std::nullopt;
+    auto const& earlier = stage_.attempt.earlier;
+    if (saved.empty() && earlier.empty()) return std::nullopt;
     std::lock_guard const alone(stage_.attempt.hdf5);
-    return saved.load(stage_.plan.label, shape_, run);
+    auto part = saved.empty() ? std::nullopt : saved.load(stage_.plan.label, shape_, run);
+    if (part && part->ended) return part;
+    auto before = earlier.load(stage_.plan.label, shape_, run);
+    return before && (!part || before->count > part->count) ? std::move(before) : std::move(part);
   }
 
   PopulationStage const& stage_;
@@ -158,6 +164,8 @@ class Group {
 Attempt::Attempt(Experiment const& experiment, IdentifyOptions const& given, LeftSegments left)
     : options(given),
       saved(saved_runs_of(experiment, given, left)),
+      earlier(given.continued.empty() ? EarlierResult()
+                                      : EarlierResult(given.continued, experiment.parts(), given.allow_mixed)),
       keeper({.folder = segment_folder_of(given.output),
               .origin = origin_of(experiment, given),
               .shard = given.shard,

@@ -1,6 +1,6 @@
 #pragma once
-// All runs of one population method, or a shard's share of them: each from its beginning, or from where segments have
-// it.
+// All runs of one population method, or a shard's share of them: each from its beginning, or from where segments or an
+// earlier result have it.
 //
 // Bits       a run's history is the same however often it was interrupted
 // Threads    commit() by one thread at a time, in the order of the runs, with `hdf5` held
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/problem/squared_error_floor.hpp"
+#include "engine/run/earlier_result.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/run_keeper.hpp"
 #include "engine/run/saved_runs.hpp"
@@ -31,6 +32,7 @@ struct Attempt {
   IdentifyOptions const& options;
   std::mutex hdf5;  // one thread of the process at a time
   SavedRuns saved;
+  EarlierResult earlier;
   RunKeeper keeper;
   std::size_t runs_total = 0, runs_before = 0;  // of population methods, of this shard: all, and those segments have
   std::size_t methods = 0;                      // population methods

@@ -61,7 +61,7 @@ double Beginning::seconds() const {
 }
 
 std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
-                          Beginning const& beginning, std::vector<SegmentOrigin> const& segments) {
+                          Beginning const& beginning, MadeOf const& made_of) {
   std::string const group = "/provenance";
   writer.attribute(group, "version", std::string(version));
   writer.attribute(group, "compiler", std::string(compiler));
@@ -69,18 +69,19 @@ std::string finish_result(ResultWriter& writer, std::filesystem::path const& res
   writer.attribute(group, "numerics_sha256", numerics_sha256());
   std::string content_sha256 = writer.finish();
 
-  Json const document = {{"schema", 1},
-                         {"content_sha256", content_sha256},
-                         {"started", beginning.started},
-                         {"finished", utc_now()},
-                         {"seconds", beginning.seconds()},
-                         {"host", host_name()},
-                         {"threads", threads.count},
-                         {"threads_reason", threads.reason},
-                         {"vector_target", vector_target()},
-                         {"commit", source_commit()},
-                         {"scheduler", scheduler()},
-                         {"attempts_before", attempts(segments)}};
+  Json document = {{"schema", 1},
+                   {"content_sha256", content_sha256},
+                   {"started", beginning.started},
+                   {"finished", utc_now()},
+                   {"seconds", beginning.seconds()},
+                   {"host", host_name()},
+                   {"threads", threads.count},
+                   {"threads_reason", threads.reason},
+                   {"vector_target", vector_target()},
+                   {"commit", source_commit()},
+                   {"scheduler", scheduler()},
+                   {"attempts_before", attempts(made_of.segments)}};
+  if (!made_of.continued_sha256.empty()) document["continued"] = made_of.continued_sha256;
   std::string const text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   TempFile file(circumstances_file_of(result), text.size());
   file.write_at(0, text.data(), text.size());

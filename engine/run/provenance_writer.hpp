@@ -26,9 +26,15 @@ struct Beginning {
   double seconds() const;  // since then
 };
 
+// what a result was made of, beside its job
+struct MadeOf {
+  std::vector<SegmentOrigin> segments{};
+  std::string continued_sha256{};  // content of an earlier result whose searches went on; "" for none
+};
+
 // the last that is written: /provenance, then the result is published, then what stands beside it. Returns
 // content_sha256
 std::string finish_result(ResultWriter& writer, std::filesystem::path const& result, ThreadChoice const& threads,
-                          Beginning const& beginning, std::vector<SegmentOrigin> const& segments = {});
+                          Beginning const& beginning, MadeOf const& made_of = {});
 
 }  // namespace torquescope

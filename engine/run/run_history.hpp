@@ -8,9 +8,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "engine/optim/optimiser.hpp"
 
 namespace torquescope {
 
@@ -27,7 +30,10 @@ struct RunHistory {
   std::string stop_reason;
   std::int64_t nonfinite = 0;  // candidates without finite fitness
   double elapsed_s = 0.0;      // spent on it, by the clock that the rule wall_clock_s reads
-  std::size_t told = 0;        // generations that really were, once it has ended; behind them is padding
+  // of the last whole batch, without its population, which stands above: what a longer search goes on from. Empty where
+  // populations are not kept, or where a budget ended the run within its first batch
+  OptimiserState last_state{};
+  std::size_t told = 0;  // generations that really were, once it has ended; behind them is padding
 
   // room for what pad() will fill: a run touches the part that its generations really need
   void reserve(std::size_t entries, std::size_t members, std::size_t dimension) {
@@ -52,6 +58,13 @@ struct RunHistory {
     for (auto* list : {&F, &CR, &PC, &FC, &best, &gap}) list->resize(entries, not_a_number);
     evaluations.resize(entries, evaluations.empty() ? 0 : evaluations.back());
   }
+};
+
+// of a run under way, what it can go on from
+struct RunSoFar {
+  RunHistory const& history;
+  std::size_t generations;                // of it, from the first on
+  std::function<OptimiserState()> state;  // behind these; made when it is wanted
 };
 
 }  // namespace torquescope

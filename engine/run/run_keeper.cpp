@@ -102,17 +102,16 @@ void RunKeeper::let_go_of_some(std::size_t most_bytes) {
   }
 }
 
-void RunKeeper::keep(std::size_t run, RunHistory const& so_far, Optimiser const& search) {
-  std::size_t const generations = so_far.best.size();
+void RunKeeper::keep(std::size_t run, RunSoFar const& so_far) {
   std::unique_lock lock(guard_);
   RunId const id{estimators_.size() - 1, run};
   under_way_[id] = interval_.load();
   std::size_t const safe = safe_[id];
-  if (generations <= safe) return;
+  if (so_far.generations <= safe) return;
   HistoryShape const shape = estimators_[id.first].shape;
   lock.unlock();
-  RunPart part = part_of(so_far, shape, run, safe, generations);
-  part.state = search.save();
+  RunPart part = part_of(so_far.history, shape, run, safe, so_far.generations);
+  part.state = so_far.state();
   lock.lock();
   put(id, {std::move(part), nullptr}, lock);
 }
@@ -155,6 +154,7 @@ void RunKeeper::write(std::unique_lock<std::mutex>& lock) {
       part.ended = true;
       part.history.stop_reason = run.whole->stop_reason;
       part.history.parameters = run.whole->parameters;
+      part.state = run.whole->last_state;
       estimator.parts.push_back(std::move(part));
       ++ended;
     } else {

@@ -49,7 +49,7 @@ class RunKeeper {
   void begin(std::size_t run);
   // a number that grows when it is time to hand over; cheap enough to be asked after every generation
   std::uint64_t due();
-  void keep(std::size_t run, RunHistory const& so_far, Optimiser const& search);
+  void keep(std::size_t run, RunSoFar const& so_far);
   void ended(std::size_t run, std::shared_ptr<RunHistory const> history);
 
   // everything handed over and not yet written; runs under way must have handed over

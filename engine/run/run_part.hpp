@@ -48,9 +48,9 @@ inline constexpr std::array<HistoryList, 8> history_lists{{
 struct RunPart {
   std::size_t run = 0;
   std::size_t first = 0, count = 0;  // generations; the initial population is 0
-  bool ended = false;                // then the whole history's end is in the part; else its optimiser's state is
+  bool ended = false;                // then the whole history's end is in the part
   RunHistory history{};              // of these generations; nonfinite and elapsed_s count from the run's beginning
-  OptimiserState state{};
+  OptimiserState state{};            // of its optimiser at the end; of a run that has ended, the history's last state
 
   std::size_t end() const { return first + count; }
 };

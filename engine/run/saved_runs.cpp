@@ -209,13 +209,14 @@ std::optional<RunPart> SavedRuns::load_now(std::string const& label, HistoryShap
       std::size_t const from = whole.count;
       append(whole.history, part, shape, from);
       whole.count = part.end();
-      whole.state = std::move(part.state);
+      whole.state = part.state;
       sources.emplace_back(whole.count, piece.file);
     }
     if (part.ended) {
       whole.ended = true;
       whole.history.stop_reason = part.history.stop_reason;
       whole.history.parameters = part.history.parameters;
+      whole.history.last_state = std::move(part.state);
     }
   }
   if (whole.count == 0) return std::nullopt;

@@ -3,13 +3,17 @@
 // section that makes the data and the model, the seed, the training recordings. Not: names, the number of runs,
 // [output], [diagnose], other estimators, unseen recordings.
 //
-// Threads    free function
+// Threads    free functions
 
 #include <string>
+#include <vector>
 
 #include "engine/run/experiment_parts.hpp"
 
 namespace torquescope {
+
+// those sections but the estimator's own, with the settings that count, in the order of the job
+std::vector<Section> search_sections(Job const& job);
 
 std::string search_sha256(Experiment::Parts const& parts, EstimatorPlan const& plan);
 

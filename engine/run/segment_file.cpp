@@ -236,7 +236,6 @@ RunPart SegmentFile::read(std::string const& label, std::size_t entry) const {
   if (wanted.ended) {
     part.history.stop_reason = wanted.stop_reason;
     part.history.parameters = number_rows("parameters", entry, 1, index.shape.parameters);
-    return part;
   }
   if (wanted.state_first == wanted.state_end) return part;
   auto const names = reader_.texts(group + "state_names");

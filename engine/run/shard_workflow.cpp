@@ -24,6 +24,8 @@ ShardReport run_shard(Experiment experiment, IdentifyOptions const& options, Pro
   Attempt attempt(experiment, options, LeftSegments::are_gathered);
   for (auto const& warning : attempt.saved.warnings())
     if (options.tell) options.tell("warning", warning);
+  for (auto const& line : attempt.earlier.lines())
+    if (options.tell) options.tell("continue", line);
   experiment.forget_motion();
   auto const& parts = experiment.parts();
   check_room(options, segment_bytes(parts, attempt.runs_left()), segment_folder_of(options.output));

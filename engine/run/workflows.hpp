@@ -84,8 +84,9 @@ struct IdentifyOptions {
   std::function<void(std::string const& topic, std::string const& text)> tell{};  // "resume", "warning"
   ShardChoice shard{};                                                            // of run_shard()
   double segment_seconds = 20.0;                                                  // between two segments, at least
-  bool allow_mixed = false;      // go on from segments of another program, or another text of the job
-  bool allow_full_disk = false;  // begin although the result does not seem to fit
+  bool allow_mixed = false;           // go on from segments of another program, or another text of the job
+  bool allow_full_disk = false;       // begin although the result does not seem to fit
+  std::filesystem::path continued{};  // a result whose searches go on (earlier_result.hpp); empty: none
   std::function<void(std::size_t, std::size_t)>
       safe{};  // runs that a power cut cannot take any more, of all: after a segment
   std::vector<std::filesystem::path> more_segments{};  // folders beside OUTPUT.parts: of merge

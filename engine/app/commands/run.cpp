@@ -24,6 +24,7 @@ namespace {
 struct RunArguments {
   std::string job;
   std::string out{};
+  std::string continued{};
   int threads = 0;  // 0: not given
   std::string shard{};
   double time_budget_s = 0.0;  // 0: none
@@ -59,7 +60,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   std::filesystem::path const output =
       arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
 
-  if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs)) {
+  if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs, arguments.continued)) {
     session.note(session.topic_line("job", experiment.job_line()));
     session.note(session.topic_line("done", "already complete: nothing runs again"));
     ResultSummary const summary = read_summary(output);
@@ -82,6 +83,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   options.segment_seconds = arguments.segment_seconds;
   options.allow_mixed = arguments.allow_mixed;
   options.allow_full_disk = arguments.allow_full_disk;
+  options.continued = arguments.continued;
   if (progress_settings(session).style == ProgressStyle::lines)
     options.safe = [&session](std::size_t runs, std::size_t all) {
       session.note(session.topic_line("safe", fmt::format("{} of {} runs", runs, all)));
@@ -115,9 +117,15 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope run jobs/crs_a465_joint.toml\n"
       "  torquescope run lab.toml --threads 4 --out lab_4.h5 --time-budget 3600\n"
+      "  torquescope run lab.toml --continue lab.h5        more generations than before\n"
       "  torquescope run lab.toml --shard 0/2; torquescope run lab.toml --shard 1/2\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
   add_result_option(*command, arguments->out);
+  command
+      ->add_option("--continue", arguments->continued,
+                   "a result of the same job with a smaller budget: its searches go on where they ended")
+      ->type_name("OLD.h5")
+      ->group("results");
   add_json_option(*command, chosen);
   add_threads_option(*command, arguments->threads);
   add_seconds_option(*command, "--time-budget", arguments->time_budget_s,

@@ -106,7 +106,9 @@ void add_full_disk_option(CLI::App& command, bool& allow_full_disk) {
 }
 
 void add_mixed_option(CLI::App& command, bool& allow_mixed) {
-  command.add_flag("--allow-mixed", allow_mixed, "go on from segments of another program or job text, bits may differ")
+  command
+      .add_flag("--allow-mixed", allow_mixed,
+                "go on from segments or a result of another program, or segments of another job text; bits may differ")
       ->group("machine");
 }
 

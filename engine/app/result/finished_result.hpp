@@ -10,7 +10,9 @@ namespace torquescope {
 
 enum class ResultKind { runs, diagnosis };
 
-// whether this very job, on these very recordings, has already made the output, and of this kind
-bool already_complete(std::filesystem::path const& output, std::string const& inputs_sha256, ResultKind kind);
+// whether this very job, on these very recordings, has already made the output, and of this kind. continued: a result
+// that may stand there although another job made it: the new one goes on from it, and replaces it once whole
+bool already_complete(std::filesystem::path const& output, std::string const& inputs_sha256, ResultKind kind,
+                      std::filesystem::path const& continued = {});
 
 }  // namespace torquescope

@@ -57,7 +57,7 @@ OptionTable<LshadeOptions> const& lshade_options() {
        {"archive_share", &O::archive_share, "population", 0.0, 100.0, "members that were replaced and are kept"},
        {"reduction", &O::reduction, reduction_words(),
         "linear: to four members at the end of the budget (evaluations or generations); none: constant, which is "
-        "SHADE"},
+        "SHADE and can go on with a larger one (run --continue)"},
        {"repair", &O::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});
   return table;
 }
@@ -79,6 +79,8 @@ class Lshade final : public GenerationalSearch {
         history_(settings.memory),
         archive_(bounds.dimension()),
         to_keep_(n_members) {}
+
+  bool plans_by_budget() const override { return settings_.reduction != Reduction::none; }
 
  private:
   DrawControls draw() const {

@@ -152,6 +152,20 @@ TEST(StopRules, AreReadFromTheJob) {
   EXPECT_EQ(problems[0].key, "stop.width");
 }
 
+TEST(StopRules, AreStricterWhereTheyMightEndASearchEarlier) {
+  StopRules const before{.target = 1e-3, .fitness_range = 1e-2, .width = 0.1, .stagnation = 9, .generations = 50};
+  EXPECT_TRUE(stricter_rules(before, before).empty());
+  StopRules now{.target = 1e-4, .fitness_range = 0.0, .width = 0.05, .stagnation = 0, .generations = 51};
+  now.wall_clock_s = 1.0;
+  EXPECT_TRUE(stricter_rules(now, before).empty());
+  EXPECT_EQ(stricter_rules(before, now),
+            (std::vector<std::string>{"target", "fitness_range", "width", "stagnation", "generations"}));
+  StopRules limited = before;
+  limited.evaluations = 1'000'000;
+  EXPECT_EQ(stricter_rules(limited, before), (std::vector<std::string>{"evaluations"}));
+  EXPECT_TRUE(stricter_rules(before, limited).empty());
+}
+
 TEST(StopReason, HasTheNameOfItsOption) {
   std::vector<std::string> keys;
   for (auto const& option : StopRules::table().describe()) keys.push_back(option.key);

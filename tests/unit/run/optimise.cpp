@@ -11,6 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/optim/generational_search.hpp"
+#include "engine/optim/optimiser_state.hpp"
 
 namespace torquescope {
 namespace optimise_test {
@@ -171,6 +172,37 @@ TEST(Optimise, SpendsAnEvaluationBudgetExactly) {
   EXPECT_TRUE(std::isnan(history.best.back()));  // generations that never were
 }
 
+// asked after the last generation too: with 137 evaluations the fifth of thirty candidates is cut
+TEST(Optimise, KeepsNothingOfABatchThatABudgetCut) {
+  Bowl const bowl;
+  for (std::int64_t const evaluations : {137, 120, 20}) {
+    StopRules rules;
+    rules.generations = 100;
+    rules.evaluations = evaluations;
+    SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
+    setting.keep_now = [] { return true; };
+    std::size_t generations = 99;
+    OptimiserState last;
+    setting.keep = [&](std::size_t, RunSoFar const& so_far) {
+      generations = so_far.generations;
+      last = so_far.state();
+    };
+    std::vector<RunStart> starts;
+    starts.push_back({make_fade(0)});
+    std::vector<Workspace> workspaces;
+    RunHistory const history = optimise(std::move(starts), setting, 1, workspaces).front();
+    EXPECT_EQ(generations, static_cast<std::size_t>(evaluations) / 30);
+    EXPECT_EQ(history.told, (static_cast<std::size_t>(evaluations) + 29) / 30);
+    EXPECT_EQ(history.last_state, without_population(last));
+    ASSERT_EQ(last.empty(), evaluations < 30);
+    if (last.empty()) continue;
+    EXPECT_EQ(generation_of(last) + 1, static_cast<std::int64_t>(generations));
+    auto const members = std::span<double const>(history.population).subspan((generations - 1) * 90, 90);
+    auto const fitness = std::span<double const>(history.fitness).subspan((generations - 1) * 30, 30);
+    EXPECT_EQ(with_population(history.last_state, members, fitness), last);
+  }
+}
+
 // of one kind of optimiser
 void expect_same_bits_when_interrupted(std::string const& name) {
   Bowl const bowl;
@@ -189,9 +221,9 @@ void expect_same_bits_when_interrupted(std::string const& name) {
       int polls = 0;
       SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
       setting.stop_requested = [&] { return polls++ == interval; };
-      setting.keep = [&](std::size_t index, RunHistory const& so_far, Optimiser const& search) {
-        kept[index] = {make_search(name, static_cast<std::uint32_t>(index)), so_far};
-        kept[index].search->restore(search.save());
+      setting.keep = [&](std::size_t index, RunSoFar const& so_far) {
+        kept[index] = {make_search(name, static_cast<std::uint32_t>(index)), so_far.history};
+        kept[index].search->restore(so_far.state());
       };
       std::vector<Workspace> workspaces;
       try {
@@ -243,9 +275,7 @@ TEST(Optimise, KeepsEveryRunWhenAsked) {
   std::vector<std::size_t> generations;
   SearchSetting setting{bowl, rules, 1.0, [](std::span<double const> x) { return x[0]; }, {}};
   setting.keep_now = [asked = 0]() mutable { return ++asked == 4; };
-  setting.keep = [&](std::size_t, RunHistory const& so_far, Optimiser const&) {
-    generations.push_back(so_far.best.size());
-  };
+  setting.keep = [&](std::size_t, RunSoFar const& so_far) { generations.push_back(so_far.generations); };
   std::vector<RunStart> starts;
   starts.push_back({make_fade(0)});
   starts.push_back({make_fade(1)});

@@ -57,6 +57,11 @@ std::unique_ptr<Optimiser> a_search() {
   return search;
 }
 
+void keep(RunKeeper& keeper, std::size_t run, std::size_t generations, Optimiser const& search) {
+  RunHistory const history = history_of(run, generations);
+  keeper.keep(run, {history, generations, [&] { return search.save(); }});
+}
+
 SegmentOrigin const origin{"job", "inputs", "program", "name", 0, 1, "", 1, 1, "now", ""};
 
 class Keeping : public ::testing::Test {
@@ -139,7 +144,7 @@ TEST_F(Keeping, ARunUnderWayIsWrittenPieceByPieceAndGoesOnFromItsLastState) {
   for (std::size_t generations : {2u, 5u, 6u}) {
     auto const before = keeper.due();
     while (keeper.due() == before) wait(2);
-    keeper.keep(3, history_of(3, generations), *search);
+    keep(keeper, 3, generations, *search);
   }
   EXPECT_EQ(segments(), 3u);
   auto runs = saved();
@@ -167,8 +172,8 @@ TEST_F(Keeping, ManySegmentsAreGatheredIntoFewWithoutLosingABit) {
   for (std::size_t generations = 1; generations <= 300; ++generations) {
     auto const before = keeper.due();
     while (keeper.due() == before) std::this_thread::sleep_for(std::chrono::microseconds(200));
-    keeper.keep(0, history_of(0, generations), *search);
-    keeper.keep(3, history_of(3, generations), *search);
+    keep(keeper, 0, generations, *search);
+    keep(keeper, 3, generations, *search);
   }
   EXPECT_EQ(keeper.segments_written(), 300u);
   EXPECT_LE(segments(), 1u + 2u + 15u) << "256 + 2 x 16 + 12";
@@ -242,9 +247,9 @@ TEST_F(Keeping, WaitsForEveryRunUnderWayBeforeItWrites) {
   keeper.begin(0);
   keeper.begin(1);
   while (keeper.due() == 0) wait(2);
-  keeper.keep(0, history_of(0, 3), *search);
+  keep(keeper, 0, 3, *search);
   EXPECT_EQ(segments(), 0u);
-  keeper.keep(1, history_of(1, 2), *search);
+  keep(keeper, 1, 2, *search);
   EXPECT_EQ(segments(), 1u);
 }
 

@@ -1,0 +1,63 @@
+#include "engine/run/last_states.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/base/contract.hpp"
+#include "engine/run/stored_objects.hpp"
+
+namespace torquescope {
+namespace {
+
+std::string group_of(std::string const& label) { return "/runs/" + label + "/last_state"; }
+
+}  // namespace
+
+void write_last_states(ResultWriter& writer, std::string const& label, std::vector<OptimiserState> const& states) {
+  std::string const group = group_of(label);
+  auto const has_one = [](auto const& state) { return !state.empty(); };
+  auto const known = std::find_if(states.begin(), states.end(), has_one);
+  writer.attribute(group, "runs", static_cast<std::int64_t>(std::count_if(states.begin(), states.end(), has_one)));
+  if (known == states.end()) return;
+  std::vector<std::string> names;
+  for (auto const& [name, values] : *known) names.push_back(name);
+  std::vector<std::int64_t> sizes;
+  std::vector<double> numbers;
+  for (auto const& state : states) {
+    TORQUESCOPE_EXPECT(state.empty() || state.size() == names.size());
+    if (state.empty()) sizes.insert(sizes.end(), names.size(), 0);
+    for (auto const& [name, values] : state) {
+      sizes.push_back(static_cast<std::int64_t>(values.size()));
+      numbers.insert(numbers.end(), values.begin(), values.end());
+    }
+  }
+  writer.texts(group + "/names", names, {"1", "entries of the state that a longer search goes on from"});
+  writer.whole_numbers(group + "/sizes", {states.size(), names.size()}, sizes, {"1", "numbers of each entry"});
+  writer.numbers(group + "/numbers", {numbers.size()}, numbers, {"1", "run after run, entry after entry"});
+}
+
+std::vector<OptimiserState> read_last_states(ResultReader const& reader, std::string const& label) {
+  std::string const group = group_of(label);
+  if (!reader.exists(group) || reader.attribute<std::int64_t>(group, "runs") == 0) return {};
+  auto const names = reader.texts(group + "/names");
+  auto const sizes = reader.whole_numbers(group + "/sizes");
+  auto const numbers = reader.numbers(group + "/numbers").values;
+  bool const is_table = sizes.shape.size() == 2 && sizes.shape[1] == names.size() && !names.empty();
+  if (!is_table) throw contradiction(reader, group, "sizes are not of its entries");
+  std::vector<OptimiserState> states(sizes.shape[0]);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < sizes.values.size(); ++i) {
+    auto const left = static_cast<std::int64_t>(numbers.size() - at);
+    std::int64_t const size = sizes.values[i];
+    if (size < 0 || size > left) throw contradiction(reader, group, "sizes are more than its numbers");
+    auto const from = numbers.begin() + static_cast<std::ptrdiff_t>(at);
+    states[i / names.size()][names[i % names.size()]].assign(from, from + size);
+    at += static_cast<std::size_t>(size);
+  }
+  // a run without a state: every state has entries that are not empty
+  for (auto& state : states)
+    if (std::all_of(state.begin(), state.end(), [](auto const& entry) { return entry.second.empty(); })) state.clear();
+  return states;
+}
+
+}  // namespace torquescope
