@@ -1,6 +1,7 @@
 #include "engine/optim/generational_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -21,10 +22,21 @@ GenerationalSearch::GenerationalSearch(std::string kind, Bounds bounds, RandomKe
   TORQUESCOPE_EXPECT(bounds_.lower.size() == bounds_.upper.size());
 }
 
+void GenerationalSearch::start_at(std::span<double const> point) {
+  TORQUESCOPE_EXPECT(!begun() && point.size() == dimension());
+  start_.assign(point.begin(), point.end());
+}
+
+void GenerationalSearch::fill_first_batch(MatrixView<double> members) const {
+  fill_initial_population(key_, bounds_, members);
+  for (std::size_t j = 0; j < start_.size(); ++j)
+    if (!std::isnan(start_[j])) members(0, j) = std::clamp(start_[j], bounds_.lower[j], bounds_.upper[j]);
+}
+
 void GenerationalSearch::ask(MatrixView<double> candidates) const {
   TORQUESCOPE_EXPECT(candidates.rows() == batch_size() && candidates.columns() == dimension());
   if (!begun()) {
-    fill_initial_population(key_, bounds_, candidates);
+    fill_first_batch(candidates);
     return;
   }
   make_trials({key_, static_cast<std::uint32_t>(progress_.generation + 1)}, candidates);
@@ -45,7 +57,7 @@ void GenerationalSearch::tell(MatrixView<double const> asked, std::span<double c
 
 void GenerationalSearch::keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness) {
   // members that a truncated batch left out keep their place, with the worst fitness
-  if (asked.rows() < batch_size()) fill_initial_population(key_, bounds_, population_.members());
+  if (asked.rows() < batch_size()) fill_first_batch(population_.members());
   std::copy_n(asked.data(), asked.rows() * asked.columns(), population_.numbers.begin());
   std::transform(fitness.begin(), fitness.end(), population_.fitness.begin(), ranked_fitness);
   forget_generation_before();

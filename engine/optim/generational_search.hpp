@@ -32,6 +32,7 @@ class GenerationalSearch : public Optimiser {
   std::size_t dimension() const final { return bounds_.dimension(); }
   std::size_t batch_size() const final { return population_.size(); }
   std::size_t largest_batch() const final { return n_members_; }
+  void start_at(std::span<double const> point) final;
   void ask(MatrixView<double> candidates) const final;
   void tell(MatrixView<double const> asked, std::span<double const> fitness) final;
 
@@ -58,6 +59,7 @@ class GenerationalSearch : public Optimiser {
 
  private:
   bool begun() const { return progress_.evaluations > 0; }
+  void fill_first_batch(MatrixView<double> members) const;
   void keep_initial_population(MatrixView<double const> asked, std::span<double const> fitness);
   void select_and_learn(MatrixView<double const> asked, std::span<double const> fitness);
   void forget_generation_before();
@@ -65,7 +67,8 @@ class GenerationalSearch : public Optimiser {
   std::string kind_;
   Bounds bounds_;
   RandomKey key_;
-  std::size_t n_members_;  // in the beginning
+  std::size_t n_members_;      // in the beginning
+  std::vector<double> start_;  // of the first member; empty: as the others
   Population population_;
   Population before_;                 // the generation before: differs from population_ in the winners
   std::vector<std::size_t> winners_;  // of the last generation

@@ -54,6 +54,9 @@ class Optimiser {
   // members of the largest batch, and of the largest population, from beginning to end: what is stored has room for
   // them. More than batch_size() only where a population shrinks
   virtual std::size_t largest_batch() const { return batch_size(); }
+  // before the first ask(): where the search begins, moved into the box; NaN where that is not known. The first member
+  // of a population, the mean of a distribution
+  virtual void start_at(std::span<double const> point) = 0;
   // fills batch_size() rows; calling it twice without tell() gives the same rows
   virtual void ask(MatrixView<double> candidates) const = 0;
   // `asked` may hold fewer rows than batch_size() when an evaluation budget cut the batch: the first rows count

@@ -24,6 +24,7 @@
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
+#include "engine/run/start_point.hpp"
 
 namespace torquescope {
 
@@ -349,6 +350,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     parts->box = box_from_recordings(*parts);
     parts->box_is_default = true;
   }
+  if (purpose != Purpose::diagnose) set_starts(*parts);
   if (purpose != Purpose::identify) parts->reductions = {};
   if (purpose == Purpose::identify && wants_statistics(*parts))
     parts->statistics.emplace(parts->train.regression.phi, parts->train.regression.tau);

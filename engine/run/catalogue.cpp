@@ -91,6 +91,7 @@ void add_estimators(std::vector<CatalogueEntry>& entries) {
     CatalogueEntry entry{choice.name, "optimiser", choice.title, {"source     " + choice.source}, choice.options};
     append(entry.options, StopRules::table().describe());
     append(entry.options, ObjectiveOptions::table().describe());
+    append(entry.options, StartOptions::table().describe());
     entries.push_back(std::move(entry));
   }
 }

@@ -9,29 +9,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/base/confined.hpp"
 #include "engine/base/error.hpp"
 #include "engine/optim/optimiser_state.hpp"
 #include "engine/run/earlier_search.hpp"
 #include "engine/run/last_states.hpp"
 #include "engine/run/stored_objects.hpp"
+#include "engine/store/look_at_result.hpp"
 
 namespace torquescope {
 namespace {
 
-void look_at(std::filesystem::path const& file) {
-  auto const read = [&] {
-    ResultReader const reader(file);
-    static_cast<void>(reader.verify());
-    for (auto const& [label, method] : read_earlier_search(reader).methods)
-      static_cast<void>(read_last_states(reader, label));
-    return std::string();
-  };
-  run_confined(read, limits_for_file(file, 60), [&file](std::string const& how) {
-    return Problem{.code = ExitCode::bad_data,
-                   .what = file.string() + " is damaged: HDF5 " + how + " while reading it",
-                   .help = "run without --continue"};
-  });
+void read_all(ResultReader const& reader) {
+  static_cast<void>(reader.verify());
+  for (auto const& [label, method] : read_earlier_search(reader).methods)
+    static_cast<void>(read_last_states(reader, label));
 }
 
 std::string line_of(std::string const& label, std::vector<OptimiserState> const& states, std::int64_t runs) {
@@ -52,7 +43,7 @@ std::string line_of(std::string const& label, std::vector<OptimiserState> const&
 }  // namespace
 
 EarlierResult::EarlierResult(std::filesystem::path const& file, Experiment::Parts const& parts, bool allow_mixed) {
-  look_at(file);
+  look_at_result(file, read_all);
   reader_ = std::make_unique<ResultReader const>(file);
   auto const earlier = read_earlier_search(*reader_);
   if (auto problems = reasons_to_begin_anew(earlier, parts, allow_mixed); !problems.empty()) throw Error(problems);

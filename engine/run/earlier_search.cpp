@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -91,10 +92,19 @@ std::vector<std::string> differences_of_data(EarlierSearch const& earlier, Exper
   return notes;
 }
 
+// NaN where a parameter had none
+bool is_same_start(std::vector<double> const& before, std::vector<double> const& now) {
+  auto const same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  return std::equal(before.begin(), before.end(), now.begin(), now.end(), same);
+}
+
 void compare_searches(EarlierSearch const& earlier, Experiment::Parts const& parts, std::vector<Pair> const& pairs,
                       std::vector<Problem>& problems) {
   auto notes = differences_of_jobs(earlier, parts, pairs);
   for (auto& line : differences_of_data(earlier, parts)) notes.push_back(std::move(line));
+  for (auto const& pair : pairs)
+    if (!is_same_start(earlier.methods.at(pair.now.label).start, pair.now.start))
+      notes.push_back(fmt::format("{}: {} holds another best estimate", pair.now.label, pair.now.start_from));
   if (notes.empty()) return;
   constexpr std::size_t most_lines = 12;
   if (notes.size() > most_lines) {
@@ -193,8 +203,10 @@ EarlierSearch read_earlier_search(ResultReader const& reader) {
   earlier.numerics_sha256 = reader.find_attribute<std::string>("/provenance", "numerics_sha256").value_or("");
   for (auto const& label : reader.attribute<std::vector<std::string>>("/runs", "order")) {
     std::string const group = "/runs/" + label;
-    earlier.methods[label] = {reader.find_attribute<std::string>(group, "fitness_used").value_or(""),
-                              reader.exists(group + "/population"), reader.exists(group + "/last_state")};
+    earlier.methods[label] = {
+        reader.find_attribute<std::string>(group, "fitness_used").value_or(""),
+        reader.find_attribute<std::vector<double>>(group, "start").value_or(std::vector<double>()),
+        reader.exists(group + "/population"), reader.exists(group + "/last_state")};
   }
   return earlier;
 }

@@ -22,6 +22,7 @@ namespace torquescope {
 struct EarlierSearch {
   struct Method {
     std::string fitness_used;
+    std::vector<double> start;  // of start_from; else empty
     bool has_populations = false, has_states = false;
   };
   std::filesystem::path file;

@@ -18,6 +18,14 @@ OptionTable<EstimatorOptions> const& EstimatorOptions::table() {
   return table;
 }
 
+OptionTable<StartOptions> const& StartOptions::table() {
+  static OptionTable<StartOptions> const table(
+      "estimator", "where a population method begins",
+      {{"start_from", &StartOptions::start_from,
+        "a result whose best estimate every run begins with: as its first member, or cmaes as its first mean"}});
+  return table;
+}
+
 namespace {
 
 template <class Options>
@@ -78,6 +86,10 @@ EstimatorPlan plan_population_method(OptimiserChoice const& choice, Section cons
   std::vector<std::string> shared = keys_of(EstimatorOptions::table());
   for (auto const& key : keys_of(StopRules::table())) shared.push_back(key);
   for (auto const& key : keys_of(ObjectiveOptions::table())) shared.push_back(key);
+  for (auto const& key : keys_of(StartOptions::table())) shared.push_back(key);
+  StartOptions start;
+  apply_own(StartOptions::table(), section, start, problems);
+  plan.start_from = start.start_from;
   apply_own(StopRules::table(), section, plan.stop_rules, problems);
   apply_own(ObjectiveOptions::table(), section, plan.objective, problems);
   if (auto problem = contradiction(plan.objective, section)) problems.push_back(*std::move(problem));
@@ -91,6 +103,7 @@ EstimatorPlan plan_population_method(OptimiserChoice const& choice, Section cons
   append_options(choice.options, section, plan);
   append_options(StopRules::table().describe(), section, plan);
   append_options(ObjectiveOptions::table().describe(), section, plan);
+  append_options(StartOptions::table().describe(), section, plan);
   return plan;
 }
 

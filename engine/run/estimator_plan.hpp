@@ -28,6 +28,13 @@ struct EstimatorOptions {
   static OptionTable<EstimatorOptions> const& table();
 };
 
+// where a population method begins
+struct StartOptions {
+  std::string start_from{};  // a result; empty: anywhere in the box
+
+  static OptionTable<StartOptions> const& table();
+};
+
 struct EstimatorPlan {
   std::string label;
   std::string kind;
@@ -43,6 +50,9 @@ struct EstimatorPlan {
   std::shared_ptr<FuzzyController const> controller{};  // of methods that have one
   StopRules stop_rules{};
   ObjectiveOptions objective{};
+  std::string start_from{};     // as the job says
+  std::vector<double> start{};  // what that comes to (start_point.hpp): by parameter, NaN where unknown; else empty
+  std::string start_words{};
 
   bool is_closed_form() const { return static_cast<bool>(fit); }
 };

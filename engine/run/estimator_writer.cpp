@@ -121,6 +121,7 @@ void write_results(ResultWriter& writer, EstimatorPlan const& plan, RunResults c
   writer.attribute(group, "kind", plan.kind);
   writer.attribute(group, "title", plan.title);
   for (auto const& [key, value] : plan.options) writer.attribute(group, key, value);
+  if (!plan.start.empty()) writer.attribute(group, "start", plan.start);
   write_index(writer, group, "run", results.runs());
   write_names(writer, group, "parameter", parameters);
   write_vectors(writer, group + "/parameters", results.parameters, {"SI", "estimated parameters"}, "parameter");

@@ -87,6 +87,8 @@ std::string Experiment::inputs_sha256() const {
   if (parts_->validate)
     for (auto const& recording : parts_->validate->recordings) digest.text(recording.sha256);
   if (parts_->arm) digest.text(parts_->arm->sha256);
+  for (auto const& plan : parts_->estimators)
+    if (!plan.start.empty()) digest.numbers(plan.start);
   return digest.hex();
 }
 
@@ -195,6 +197,8 @@ std::vector<std::string> Experiment::remarks() const {
         parts_->train.recordings.front().name));
   if (parts_->box_is_default)
     lines.push_back("search box (no [model.bounds]): " + box_words(parts_->parameter_names(), parts_->box));
+  for (auto const& plan : parts_->estimators)
+    if (!plan.start_words.empty()) lines.push_back(plan.start_words);
   // a verdict does not rest on single values: what no value can be trusted for is worth no warning there, and what
   // costs an interval nothing but width is in the interval
   std::string const& words = asks_for_values() ? parts_->health.remark : parts_->health.words;

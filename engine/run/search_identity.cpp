@@ -42,6 +42,7 @@ std::string search_sha256(Experiment::Parts const& parts, EstimatorPlan const& p
   auto const sections = parts.job.all("estimator");
   for (std::size_t i = 0; i < sections.size(); ++i)
     if (parts.estimators[i].label == plan.label) add(digest, *sections[i]);
+  if (!plan.start.empty()) digest.numbers(plan.start);
   return digest.hex();
 }
 

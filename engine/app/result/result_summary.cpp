@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "engine/base/confined.hpp"
 #include "engine/base/error.hpp"
 #include "engine/store/result_files.hpp"
 
@@ -229,18 +228,6 @@ ResultSummary summarise(Source const& reader) {
 }
 
 }  // namespace
-
-void look_at_result(std::filesystem::path const& file, std::function<void(ResultReader const&)> const& look) {
-  auto const read = [&] {
-    look(ResultReader(file));
-    return std::string();
-  };
-  run_confined(read, limits_for_file(file, 60), [&file](std::string const& how) {
-    return Problem{.code = ExitCode::bad_data,
-                   .what = file.string() + " is damaged: HDF5 " + how + " while reading it",
-                   .help = "delete it and run the job again: the same command makes the same file"};
-  });
-}
 
 ResultSummary read_summary(std::filesystem::path const& file) {
   auto const read = [](ResultReader const& reader) {

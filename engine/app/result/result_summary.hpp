@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/store/look_at_result.hpp"
 #include "engine/store/result_reader.hpp"
 #include "engine/store/written_result.hpp"
 
@@ -81,10 +82,6 @@ struct ResultSummary {
   std::int64_t evaluations() const;
   bool is_partial() const;  // some runs are missing
 };
-
-// reads in a process of its own what will be read here: whatever HDF5 does there with a file that nobody vouches for,
-// this process lives on. Errors: those of `look`; 65 when HDF5 crashes, loops or takes too much memory
-void look_at_result(std::filesystem::path const& file, std::function<void(ResultReader const&)> const& look);
 
 // looks at it first
 ResultSummary read_summary(std::filesystem::path const& file);

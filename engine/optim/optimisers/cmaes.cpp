@@ -69,6 +69,17 @@ class Cmaes final : public Optimiser {
   std::size_t dimension() const override { return bounds_.dimension(); }
   std::size_t batch_size() const override { return population_.size(); }
 
+  void start_at(std::span<double const> point) override {
+    TORQUESCOPE_EXPECT(!begun() && point.size() == dimension());
+    Eigen::VectorXd mean = distribution_.mean();
+    for (std::size_t j = 0; j < dimension(); ++j) {
+      double const width = bounds_.upper[j] - bounds_.lower[j];
+      double const place = (point[j] - bounds_.lower[j]) / width;
+      if (std::isfinite(place)) mean[static_cast<Eigen::Index>(j)] = std::clamp(place, 0.0, 1.0);
+    }
+    distribution_ = {mean, first_sigma_, batch_size()};
+  }
+
   void ask(MatrixView<double> candidates) const override {
     TORQUESCOPE_EXPECT(candidates.rows() == batch_size() && candidates.columns() == dimension());
     for (std::size_t i = 0; i < candidates.rows(); ++i) {

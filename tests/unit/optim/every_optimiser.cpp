@@ -83,6 +83,24 @@ TEST_P(EveryOptimiser, AskingTwiceGivesTheSameRows) {
   EXPECT_EQ(ask(*search).numbers, ask(*search).numbers);
 }
 
+TEST_P(EveryOptimiser, BeginsWhereItIsToldAsFarAsThatIsKnown) {
+  auto const search = make();
+  auto elsewhere = ask(*search);
+  search->start_at(std::vector<double>{0.25, nan, 99.0});
+  auto told = ask(*search);
+  if (!keeps_members(*search)) {  // a distribution: every candidate has moved, but along what is not known
+    for (std::size_t i = 0; i < told.fitness.size(); ++i) {
+      EXPECT_NE(told.rows()(i, 0), elsewhere.rows()(i, 0));
+      EXPECT_EQ(told.rows()(i, 1), elsewhere.rows()(i, 1));
+    }
+    return;
+  }
+  auto expected = elsewhere.numbers;
+  expected[0] = 0.25;
+  expected[2] = box.upper[2];
+  EXPECT_EQ(told.numbers, expected);
+}
+
 TEST_P(EveryOptimiser, KeepsEveryCandidateInsideTheBounds) {
   auto const search = make();
   for (int generation = 0; generation < 60; ++generation) {
