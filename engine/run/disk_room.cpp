@@ -18,6 +18,12 @@ std::uintmax_t history_bytes(HistoryShape const& shape, std::size_t runs) {
   return numbers * sizeof(double);
 }
 
+// what the last states of runs hold beside their populations: fitness and, at most, an archive as large
+std::uintmax_t last_state_bytes(HistoryShape const& shape, std::size_t runs) {
+  constexpr std::uintmax_t headers = std::uintmax_t{4} << 10;
+  return headers + runs * static_cast<std::uintmax_t>(shape.members * (shape.parameters + 1)) * sizeof(double);
+}
+
 std::uintmax_t sample_bytes(DataSet const& set) {
   constexpr std::uintmax_t channels = 6;  // time, recording, position, velocity, acceleration, torque
   auto const rows = static_cast<std::uintmax_t>(set.regression.rows());
@@ -69,7 +75,7 @@ std::uintmax_t result_bytes(Experiment::Parts const& parts) {
   for (auto const& plan : parts.estimators) {
     if (plan.is_closed_form()) continue;
     HistoryShape const shape = history_shape(parts, plan);
-    bytes += history_bytes(shape, runs);
+    bytes += history_bytes(shape, runs) + last_state_bytes(shape, runs);
     bytes += (runs + shape.generations + 1 + shape.members) * sizeof(double);  // scales
     if (plan.controller) bytes += curves_and_surfaces + runs * (shape.generations + 1) * path_numbers * sizeof(double);
   }
@@ -80,7 +86,8 @@ std::uintmax_t segment_bytes(Experiment::Parts const& parts, std::size_t runs) {
   if (runs == 0) return 0;
   std::uintmax_t bytes = bytes_of_names;
   for (auto const& plan : parts.estimators)
-    if (!plan.is_closed_form()) bytes += history_bytes(history_shape(parts, plan), runs);
+    if (!plan.is_closed_form())
+      bytes += history_bytes(history_shape(parts, plan), runs) + last_state_bytes(history_shape(parts, plan), runs);
   return bytes;
 }
 

@@ -115,8 +115,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
   CLI::App* command = app.add_subcommand(
       "run", "Identifies the parameters of a job's model. Killed or stopped? The same command goes on.");
   command->footer(
-      "  torquescope run jobs/crs_a465_joint.toml\n"
-      "  torquescope run lab.toml --threads 4 --out lab_4.h5 --time-budget 3600\n"
+      "  torquescope run jobs/crs_a465_joint.toml --threads 4 --out crs.h5\n"
       "  torquescope run lab.toml --continue lab.h5        more generations than before\n"
       "  torquescope run lab.toml --shard 0/2; torquescope run lab.toml --shard 1/2\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope list sections)")->required();
