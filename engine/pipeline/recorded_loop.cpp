@@ -8,6 +8,7 @@
 
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
+#include "engine/pipeline/drive_torque.hpp"
 #include "engine/pipeline/held_torque.hpp"
 
 namespace torquescope {
@@ -30,16 +31,11 @@ double first_velocity(Recording const& recording) {
   return std::abs(slope) * static_cast<double>(n - 1) <= recording.rows.encoder_step ? 0.0 : slope * recording.rate_hz;
 }
 
-// what the drive gave, of which a recording of one joint of an arm has only the joint's own part
-Eigen::VectorXd whole_torque(Recording const& recording) {
-  if (recording.gear_load.size() == 0) return recording.torque;
-  return recording.torque + torque_to_hold(recording.gear_load);
-}
-
 // Whether a loop of our own is the last resort: the law is that of a reference, and a joint that runs away even so is
 // what the torque cannot be right for. Of an arm's joint the law is known less well: what the others need is fitted
 bool is_last_resort(Recording const& recording) {
-  return recording.reference.size() == recording.position.size() && recording.gear_load.size() == 0;
+  bool const is_of_arm = recording.given != nullptr;
+  return recording.reference.size() == recording.position.size() && !is_of_arm;
 }
 
 constexpr double runaway = 3.0;  // times the largest torque of the recording, or of the model along its motion
@@ -53,7 +49,7 @@ RecordedLoop common_parts(Recording const& recording) {
   result.track.rate_hz = recording.rate_hz;
   result.track.start_position = recording.position[0];
   result.track.start_velocity = first_velocity(recording);
-  result.track.largest_torque = runaway * whole_torque(recording).cwiseAbs().maxCoeff();
+  result.track.largest_torque = runaway * drive_torque(recording).cwiseAbs().maxCoeff();
   return result;
 }
 
@@ -143,7 +139,7 @@ RecordedLoop recorded_loop(Recording const& recording, TrackedJoint const& joint
   RecordedLoop result = common_parts(recording);
   result.track.reference = recording.reference;
   if (recording.gear_load.size() > 0) result.track.gear_load = torque_to_hold(recording.gear_load);
-  Eigen::VectorXd const torque = whole_torque(recording);
+  Eigen::VectorXd const torque = drive_torque(recording);
   Eigen::VectorXd const* const of_others = recording.gear_load.size() > 0 ? &result.track.gear_load : nullptr;
   result.controller = fit_controller({recording.time_s, recording.reference, recording.position, torque, of_others});
   result.source = result.controller->is_white ? LoopSource::identified : LoopSource::approximated;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/pipeline/held_torque.hpp"
+#include "engine/pipeline/drive_torque.hpp"
 #include "engine/search/late_torque.hpp"
 
 namespace torquescope {
@@ -86,8 +86,7 @@ Eigen::VectorXd sinc_weights(double share) {
 Recording with_torque_earlier(Recording recording, double late_s) {
   double const samples = late_s * recording.rate_hz;
   // what was taken out of the channel was read with it
-  Eigen::VectorXd const taken_out = recording.gear_load.size() > 0 ? torque_to_hold(recording.gear_load)
-                                                                   : Eigen::VectorXd::Zero(recording.torque.size());
+  Eigen::VectorXd const taken_out = torque_taken_out(recording);
   Eigen::VectorXd const read = recording.torque + taken_out, weights = sinc_weights(samples - std::floor(samples));
   Eigen::Index const last = read.size() - 1;
   auto const first = static_cast<Eigen::Index>(std::floor(samples)) - half_width + 1;

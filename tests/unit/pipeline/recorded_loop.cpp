@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "engine/data/recording_reader.hpp"
 #include "engine/health/make_recording.hpp"
@@ -111,6 +112,18 @@ TEST(RecordedLoop, LetsAJointOfAnArmHaveTheTorqueOfItsDrive) {
   // its law is one of the whole torque
   RecordedLoop const found = recorded_loop(recording, joint, test::clean_filter());
   EXPECT_EQ(found.track.gear_load.size(), recording.torque.size());
+}
+
+// a simulator beside a single joint leaves a gear load as well, but nothing of other joints
+TEST(RecordedLoop, OfASingleJointWithASimulatorIsNoJointOfAnArm) {
+  auto recording = test::recorded(simulate_joint(limited_joint().plan, 5));
+  recording.torque *= 0.01;
+  recording.gear_load = Eigen::VectorXd::Constant(recording.torque.size(), 0.5);
+  TrackedJoint const joint{0.08, 0.3, 0.3, -0.3};
+  double const most_given = 3.0 * (recording.torque.array() + 0.5).abs().maxCoeff();
+  EXPECT_NEAR(tracking_loop(recording, joint, test::clean_filter()).track.largest_torque, most_given, 1e-9);
+  recording.given = std::make_shared<GivenSignals const>();
+  EXPECT_GT(tracking_loop(recording, joint, test::clean_filter()).track.largest_torque, 1.5 * most_given);
 }
 
 TEST(RecordedLoop, OfEmpsIsThePublishedController) {
