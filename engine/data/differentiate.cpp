@@ -43,6 +43,20 @@ Motion differentiate_smooth(Recording&& recording) {
   return motion;
 }
 
+Motion thinned(Motion const& motion, Eigen::Index first, Eigen::Index step) {
+  Eigen::Index const count = (motion.q.size() - first + step - 1) / step;
+  auto const every = [&](Eigen::VectorXd const& signal) -> Eigen::VectorXd {
+    return signal.size() == 0 ? signal : signal(Eigen::seqN(first, count, step)).eval();
+  };
+  return {motion.rate_hz / static_cast<double>(step),
+          every(motion.time_s),
+          every(motion.q),
+          every(motion.dq),
+          every(motion.ddq),
+          every(motion.torque),
+          motion.left_out};
+}
+
 std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz) {
   auto const n = motion.time_s.size();
   std::vector<bool> left_out(static_cast<std::size_t>(n), false);

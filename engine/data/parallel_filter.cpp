@@ -11,8 +11,12 @@ struct ParallelFilter::State {
   Eigen::Index edge = 0;
   Eigen::Index factor = 1;
   Eigen::Index kept = 0;
-  double rate_hz = 0.0;
+  double rate_hz = 0.0;  // of what is kept
+  double cutoff_hz = 0.0;
+  int order = 0;
 };
+
+ParallelFilter::ParallelFilter() : state_(std::make_unique<State>()) {}
 
 ParallelFilter::ParallelFilter(FilterOptions const& options, double rate_hz, Eigen::Index n_samples,
                                Section const& section)
@@ -21,7 +25,9 @@ ParallelFilter::ParallelFilter(FilterOptions const& options, double rate_hz, Eig
   state_->factor = decimation_factor(options, rate_hz, section);
   check_cutoff("parallel_cutoff_hz", cutoff_hz, rate_hz, section);
   check_length(options, n_samples, rate_hz);
-  if (cutoff_hz > 0) state_->sections = butterworth_lowpass(static_cast<int>(options.order), cutoff_hz, rate_hz);
+  state_->cutoff_hz = cutoff_hz;
+  state_->order = static_cast<int>(options.order);
+  if (cutoff_hz > 0) state_->sections = butterworth_lowpass(state_->order, cutoff_hz, rate_hz);
   state_->n_samples = n_samples;
   state_->edge = edge_samples(options, rate_hz);
   state_->kept = (n_samples - 2 * state_->edge + state_->factor - 1) / state_->factor;
@@ -48,6 +54,23 @@ Eigen::MatrixXd ParallelFilter::apply_columns(Eigen::Ref<Eigen::MatrixXd const> 
   TORQUESCOPE_EXPECT(signals.rows() == state_->n_samples);
   if (state_->sections.empty()) return signals(Eigen::seqN(state_->edge, state_->kept, state_->factor), Eigen::all);
   return zero_phase_columns(state_->sections, signals, {state_->edge, state_->kept, state_->factor});
+}
+
+Eigen::Index ParallelFilter::decimation() const { return state_->factor; }
+
+Eigen::Index ParallelFilter::first_of(Eigen::Index step) const { return state_->edge % step; }
+
+ParallelFilter ParallelFilter::of_every(Eigen::Index step) const {
+  TORQUESCOPE_EXPECT(step > 0 && state_->factor % step == 0);
+  Eigen::Index const first = first_of(step);
+  ParallelFilter result;
+  State& own = *result.state_ = *state_;
+  own.n_samples = (state_->n_samples - first + step - 1) / step;
+  own.edge = (state_->edge - first) / step;
+  own.factor = state_->factor / step;
+  double const rate_hz = state_->rate_hz * static_cast<double>(own.factor);
+  if (!own.sections.empty()) own.sections = butterworth_lowpass(own.order, own.cutoff_hz, rate_hz);
+  return result;
 }
 
 Eigen::VectorXd ParallelFilter::pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const {

@@ -95,7 +95,7 @@ CatalogueEvidence scan_catalogue(Evidence const& evidence, std::span<Effect cons
     auto const& law = result.laws[slices[i].law];
     std::vector<std::vector<double>> shapes;
     for (std::size_t k = slices[i].first; k < slices[i].last; ++k) shapes.push_back(law.scan.grid.point(k));
-    gains[i] = evidence.gains(*law.scan.effect, shapes, kind);
+    gains[i] = evidence.gains(*law.scan.effect, shapes, kind, DrivenBy::twin, LawRate::scan);
   });
   std::vector<Best> best(result.laws.size());
   for (std::size_t i = 0; i < slices.size(); ++i)

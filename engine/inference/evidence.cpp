@@ -83,7 +83,7 @@ Evidence::Evidence(Evidence const& of, std::size_t without) : stage_(of.stage_),
   for (auto const& one : of.training_.further()) further.push_back(without_it(one));
   training_.add(std::move(further), without);
   fill_folds();
-  for (auto const& one : of.unseen_) add_unseen(without_it(one));
+  for (auto const& one : of.unseen_) add_unseen(without_it(one.evidence));
 }
 
 void Evidence::fill_folds() {
@@ -94,12 +94,19 @@ void Evidence::fill_folds() {
 
 void Evidence::add_unseen(UnseenEvidence one) {
   one.nuisance = training_.in_basis(one.nuisance);
-  unseen_left_.push_back(std::move(one.signals));
-  unseen_left_.back().noalias() -= one.nuisance * whole_.products.whole;
-  Eigen::MatrixXd const blocks = block_sums(unseen_left_.back().array().square().matrix());
+  Unseen unseen;
+  unseen.nuisance_and_left.resize(one.nuisance.rows(), one.nuisance.cols() + one.signals.cols());
+  unseen.nuisance_and_left << one.nuisance, one.signals;
+  one.signals = {};
+  unseen.nuisance_and_left.rightCols(training_.signals()).noalias() -= one.nuisance * whole_.products.whole;
+  unseen.evidence = std::move(one);
+  Eigen::MatrixXd const products = inner_products(unseen.evidence.nuisance, unseen.nuisance_and_left);
+  unseen.nuisance_gram = products.leftCols(unseen.evidence.nuisance.cols());
+  unseen.nuisance_left = products.rightCols(training_.signals());
+  Eigen::MatrixXd const blocks = block_sums(unseen.left().array().square().matrix());
   left_unseen_.conservativeResize(left_unseen_.rows() + blocks.rows(), Eigen::NoChange);
   left_unseen_.bottomRows(blocks.rows()) = blocks;
-  unseen_.push_back(std::move(one));
+  unseen_.push_back(std::move(unseen));
 }
 
 Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
@@ -117,7 +124,7 @@ Evidence::InFolds Evidence::in_folds(FoldKind kind) const {
 
 double Evidence::torque_energy_unseen() const {
   double energy = 0.0;
-  for (auto const& one : unseen_) energy += one.comparison->rows.torque.squaredNorm();
+  for (auto const& one : unseen_) energy += one.evidence.comparison->rows.torque.squaredNorm();
   return energy;
 }
 
@@ -126,14 +133,14 @@ double Evidence::law_energy_unseen() const {
   auto const& effects = stage_->model().effects();
   for (auto const& one : unseen_)
     for (std::size_t i = 0; i < effects.size(); ++i)
-      if (!is_clock_bound(*effects[i].effect)) energy += torque_of(*stage_, *one.columns, i).squaredNorm();
+      if (!is_clock_bound(*effects[i].effect)) energy += torque_of(*stage_, *one.evidence.columns, i).squaredNorm();
   return energy;
 }
 
 std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vector<double>> const& shapes,
-                                     FoldKind kind, DrivenBy motion) const {
+                                     FoldKind kind, DrivenBy motion, LawRate rate) const {
   InFolds const& beside = folds_of(kind);
-  auto const each = training_.columns_of_each(effect, shapes, motion);
+  auto const each = training_.columns_of_each(effect, shapes, motion, rate);
   std::vector<OrthonormalGroup> groups;
   Eigen::Index width = 0;
   for (auto const& one : each) {
@@ -147,31 +154,30 @@ std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vect
     at += group.rank();
   }
   FoldProducts const all = fold_products(beside.folds, q, training_.basis_and_signals());
-  Eigen::Index const k = training_.nuisances(), m = training_.signals();
+  std::vector<FoldProducts> own;
+  for (auto const& group : groups) own.push_back(fold_products(beside.folds, group.q, group.q));
+  std::vector<Eigen::MatrixXd> in_folds = beside.gains.of_each(all, own);
   std::vector<LawGain> results;
   at = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Eigen::Index const rank = groups[i].rank();
     results.push_back(gain_of({&effect, std::span(shapes).subspan(i, 1), &groups[i], &each[i],
-                               picked(all, at, rank, 0, k), picked(all, at, rank, k, m)},
-                              beside));
+                               all.whole.block(at, training_.nuisances(), rank, training_.signals()), rate},
+                              std::move(in_folds[i])));
     at += rank;
   }
   return results;
 }
 
-LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) const {
+LawGain Evidence::gain_of(Candidate const& candidate, Eigen::MatrixXd in_folds) const {
   OrthonormalGroup const& group = *candidate.group;
   LawGain result;
-  result.train = result.first = result.unseen = Eigen::VectorXd::Zero(beside.left.cols());
+  result.train = result.first = result.unseen = Eigen::VectorXd::Zero(training_.signals());
   if (group.rank() == 0) return result;
   result.is_testable = true;
-  Eigen::MatrixXd const& coefficients = candidate.products.whole;
-  BoundedGain const bounded = bounded_gain(group, coefficients.col(0));
+  BoundedGain const bounded = bounded_gain(group, candidate.coefficients.col(0));
   result.parameters = bounded.parameters;
-  Eigen::MatrixXd in_folds =
-      beside.gains.of(candidate.cross, fold_products(beside.folds, group.q, group.q), candidate.products);
-  drop_wrong_signs(group, coefficients, in_folds);
+  drop_wrong_signs(group, candidate.coefficients, in_folds);
   result.train = in_folds.colwise().sum().transpose();
   result.first = in_folds.topRows(n_folds).colwise().sum().transpose();
   add_unseen(candidate, result);
@@ -181,47 +187,53 @@ LawGain Evidence::gain_of(Candidate const& candidate, InFolds const& beside) con
   return result;
 }
 
-Evidence::UnseenChange Evidence::change_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
+Evidence::UnseenStep Evidence::step_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
   OrthonormalGroup const& group = *candidate.group;
   // coefficients of the orthonormal columns are combinations of parameters: r parameters = coefficients
   Eigen::MatrixXd const to_parameters =
       group.r.transpose() *
       (group.r * group.r.transpose()).ldlt().solve(Eigen::MatrixXd::Identity(group.rank(), group.rank()));
   CarryOver const over = carry_over(*candidate.effect);
-  UnseenChange change;
-  change.by_share = over == CarryOver::in_part;
-  change.model = -one.nuisance * (inner_products(training_.basis(), *candidate.columns) * to_parameters);
+  UnseenStep step;
+  step.by_share = over == CarryOver::in_part;
+  step.nuisance = inner_products(training_.basis(), *candidate.columns) * to_parameters;
   if (over == CarryOver::none)
-    change.law = Eigen::MatrixXd::Zero(change.model.rows(), change.model.cols());
+    step.law = Eigen::MatrixXd::Zero(one.nuisance.rows(), to_parameters.cols());
   else
-    change.law = one.without_own(side_by_side(one.columns->columns_of_each(
-                     *candidate.effect, std::vector(candidate.shapes.begin(), candidate.shapes.end())))) *
-                 to_parameters;
-  return change;
+    step.law = one.without_own(side_by_side(one.columns->columns_of_each(
+                   *candidate.effect, std::vector(candidate.shapes.begin(), candidate.shapes.end()), candidate.rate))) *
+               to_parameters;
+  return step;
+}
+
+Evidence::UnseenProducts::UnseenProducts(UnseenStep const& step, Unseen const& unseen, Eigen::Index signals) {
+  Eigen::Index const k = step.nuisance.rows();
+  Eigen::MatrixXd const law = inner_products(step.law, unseen.nuisance_and_left);  // r x (k + 1 + M)
+  model_left = -step.nuisance.transpose() * unseen.nuisance_left.leftCols(signals);
+  law_left = law.middleCols(k, signals);
+  model_model = step.nuisance.transpose() * unseen.nuisance_gram * step.nuisance;
+  law_model = -law.leftCols(k) * step.nuisance;
+  law_law = inner_products(step.law, step.law);
 }
 
 // of each signal, what fits it best
-Eigen::RowVectorXd Evidence::UnseenChange::shares(Eigen::MatrixXd const& coefficients,
-                                                  Eigen::MatrixXd const& left) const {
-  if (!by_share) return Eigen::RowVectorXd::Ones(coefficients.cols());
-  Eigen::MatrixXd const products = inner_products(law, left), beside = inner_products(law, model),
-                        gram = inner_products(law, law);
-  Eigen::RowVectorXd const wanted = (coefficients.array() * (products - beside * coefficients).array()).colwise().sum();
-  Eigen::RowVectorXd const whole = (coefficients.array() * (gram * coefficients).array()).colwise().sum();
+Eigen::RowVectorXd Evidence::UnseenProducts::shares(Eigen::MatrixXd const& coefficients) const {
+  Eigen::RowVectorXd const wanted =
+      (coefficients.array() * (law_left - law_model * coefficients).array()).colwise().sum();
+  Eigen::RowVectorXd const whole = (coefficients.array() * (law_law * coefficients).array()).colwise().sum();
   return wanted.binaryExpr(whole, [](double a, double b) { return b > 0.0 ? std::clamp(a / b, 0.0, 1.0) : 0.0; });
 }
 
 void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
-  Eigen::MatrixXd const& coefficients = candidate.products.whole;
-  for (std::size_t i = 0; i < unseen_.size(); ++i) {
-    UnseenChange const change = change_unseen(candidate, unseen_[i]);
-    Eigen::MatrixXd both(change.model.rows(), 2 * change.model.cols());
-    both << change.model, change.law;
-    Eigen::MatrixXd steps(2 * coefficients.rows(), coefficients.cols());
-    steps << coefficients, coefficients * change.shares(coefficients, unseen_left_[i]).asDiagonal();
-    Eigen::MatrixXd const products = inner_products(both, unseen_left_[i]), gram = inner_products(both, both);
-    Eigen::MatrixXd gains = (steps.array() * (2.0 * products - gram * steps).array()).colwise().sum();
-    drop_wrong_signs(*candidate.group, coefficients, gains);
+  Eigen::MatrixXd const& steps = candidate.coefficients;
+  for (Unseen const& one : unseen_) {
+    UnseenStep const step = step_unseen(candidate, one.evidence);
+    UnseenProducts const of(step, one, steps.cols());
+    Eigen::MatrixXd const own = step.by_share ? Eigen::MatrixXd(steps * of.shares(steps).asDiagonal()) : steps;
+    auto const by_model = steps.array() * (2.0 * of.model_left - of.model_model * steps).array();
+    auto const by_law = own.array() * (2.0 * (of.law_left - of.law_model * steps) - of.law_law * own).array();
+    Eigen::MatrixXd gains = (by_model + by_law).colwise().sum();
+    drop_wrong_signs(*candidate.group, steps, gains);
     gain.unseen += gains.transpose();
   }
 }
@@ -238,8 +250,7 @@ RowsLeft Evidence::rows_left(FoldKind kind) const {
   Eigen::Index const k = training_.nuisances();
   RowsLeft left{of_recordings(left_on_rows(beside.folds, training_.basis(), training_.basis_and_signals().col(k),
                                            beside.gram, picked(beside.products, 0, k, 0, 1)))};
-  for (std::size_t i = 0; i < unseen_.size(); ++i)
-    left.parts.push_back({unseen_left_[i].col(0), unseen_[i].memory_rows});
+  for (Unseen const& one : unseen_) left.parts.push_back({one.left().col(0), one.evidence.memory_rows});
   return left;
 }
 
@@ -255,20 +266,20 @@ RowsLeft Evidence::rows_left(Effect const& effect, std::vector<std::vector<doubl
   }
   OrthonormalGroup const group = orthonormal_group(law, basis, of_each);
   Eigen::Index const k = training_.nuisances();
-  FoldProducts const all = fold_products(beside.folds, group.q, training_.basis_and_signals().leftCols(k + 1));
-  Candidate const candidate{
-      &effect, shapes, &group, &law, picked(all, 0, group.rank(), 0, k), picked(all, 0, group.rank(), k, 1)};
-  FoldProducts const gram = gram_of(beside.gram, candidate.cross, fold_products(beside.folds, group.q, group.q));
+  FoldProducts const all = fold_products(beside.folds, group.q, training_.basis_and_signals().leftCols(k + 1)),
+                     cross = picked(all, 0, group.rank(), 0, k), products = picked(all, 0, group.rank(), k, 1);
+  FoldProducts const gram = gram_of(beside.gram, cross, fold_products(beside.folds, group.q, group.q));
   Eigen::MatrixXd both(group.q.rows(), k + group.rank());
   both << basis, group.q;
   RowsLeft left{of_recordings(left_on_rows(beside.folds, both, training_.basis_and_signals().col(k), gram,
-                                           stacked(picked(beside.products, 0, k, 0, 1), candidate.products)))};
-  for (std::size_t i = 0; i < unseen_.size(); ++i) {
-    UnseenChange const change = change_unseen(candidate, unseen_[i]);
-    Eigen::VectorXd const own = unseen_left_[i].col(0);
-    Eigen::MatrixXd const& step = candidate.products.whole;
-    left.parts.push_back(
-        {own - change.model * step - change.law * step * change.shares(step, own), unseen_[i].memory_rows});
+                                           stacked(picked(beside.products, 0, k, 0, 1), products)))};
+  Candidate const candidate{&effect, shapes, &group, &law, products.whole};
+  for (Unseen const& one : unseen_) {
+    UnseenStep const step = step_unseen(candidate, one.evidence);
+    Eigen::VectorXd of_law = step.law * products.whole;
+    if (step.by_share) of_law *= UnseenProducts(step, one, 1).shares(products.whole)[0];
+    left.parts.push_back({one.left().col(0) + one.evidence.nuisance * (step.nuisance * products.whole) - of_law,
+                          one.evidence.memory_rows});
   }
   return left;
 }

@@ -84,7 +84,7 @@ class Evidence {
 
   // of several shapes of one law
   std::vector<LawGain> gains(Effect const& effect, std::vector<std::vector<double>> const& shapes, FoldKind kind,
-                             DrivenBy motion = DrivenBy::twin) const;
+                             DrivenBy motion = DrivenBy::twin, LawRate rate = LawRate::full) const;
   // by the model alone, and with a law beside it
   RowsLeft rows_left(FoldKind kind) const;
   RowsLeft rows_left(Effect const& effect, std::vector<double> const& shape, FoldKind kind,
@@ -112,17 +112,30 @@ class Evidence {
     std::span<std::vector<double> const> shapes;
     OrthonormalGroup const* group;
     Eigen::MatrixXd const* columns;
-    FoldProducts cross, products;  // with the basis, with the signals
+    Eigen::MatrixXd coefficients;  // of the group's columns, of each signal: r x (1 + M)
+    LawRate rate = LawRate::full;
   };
-  LawGain gain_of(Candidate const& candidate, InFolds const& beside) const;
-  // what a unit of the law's orthonormal columns changes on the rows of an unseen recording: by the model's parameters,
-  // and by the law itself, a share of which may belong to the recording
-  struct UnseenChange {
-    Eigen::MatrixXd model{}, law{};
+  LawGain gain_of(Candidate const& candidate, Eigen::MatrixXd in_folds) const;
+  // an unseen recording: training's nuisance columns there (n x k), and what their step leaves of its signals
+  struct Unseen {
+    UnseenEvidence evidence{};            // without its signals
+    Eigen::MatrixXd nuisance_and_left{};  // n x (k + 1 + M)
+    Eigen::MatrixXd nuisance_gram{}, nuisance_left{};
+    auto left() const { return nuisance_and_left.rightCols(nuisance_left.cols()); }
+  };
+  // What a unit of the law's orthonormal columns changes on the rows of an unseen recording: the nuisances by so much
+  // (k x r), with a minus sign, and the law itself (n x r), a share of which may belong to the recording
+  struct UnseenStep {
+    Eigen::MatrixXd nuisance{}, law{};
     bool by_share = false;
-    Eigen::RowVectorXd shares(Eigen::MatrixXd const& coefficients, Eigen::MatrixXd const& left) const;
   };
-  UnseenChange change_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
+  // inner products of the two changes, and with the first signals that are left there
+  struct UnseenProducts {
+    Eigen::MatrixXd model_left{}, law_left{}, model_model{}, law_model{}, law_law{};
+    UnseenProducts(UnseenStep const& step, Unseen const& unseen, Eigen::Index signals);
+    Eigen::RowVectorXd shares(Eigen::MatrixXd const& coefficients) const;
+  };
+  UnseenStep step_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
   void add_unseen(Candidate const& candidate, LawGain& gain) const;
   // what is left of training, one part for each of its recordings
   std::vector<RowsLeft::Part> of_recordings(Eigen::VectorXd const& left) const;
@@ -130,11 +143,10 @@ class Evidence {
   ModelStage const* stage_;
   TrainingRows training_;
   InFolds whole_{}, interleaved_{};
-  Eigen::MatrixXd left_unseen_{};         // blocks x (1 + M)
-  std::vector<UnseenEvidence> unseen_{};  // nuisance: of the basis of training
+  Eigen::MatrixXd left_unseen_{};  // blocks x (1 + M)
+  std::vector<Unseen> unseen_{};   // nuisance: of the basis of training
   std::vector<UnseenResidual> without_replicates_{};
   std::vector<std::shared_ptr<NoiseWeights const>> weights_unseen_{};
-  std::vector<Eigen::MatrixXd> unseen_left_{};  // of each: n x (1 + M), less the step of training's nuisance columns
 };
 
 }  // namespace torquescope

@@ -43,6 +43,24 @@ Eigen::MatrixXd one_above(Eigen::MatrixXd const& above, Eigen::MatrixXd const& b
   return both;
 }
 
+Eigen::MatrixXd one_beside(Eigen::MatrixXd const& left, Eigen::MatrixXd const& right) {
+  Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
+  both << left, right;
+  return both;
+}
+
+using Joining = Eigen::MatrixXd (&)(Eigen::MatrixXd const&, Eigen::MatrixXd const&);
+
+FoldProducts joined(FoldProducts const& one, FoldProducts const& other, Joining join) {
+  FoldProducts result;
+  for (std::size_t f = 0; f < one.inside.size(); ++f) {
+    result.inside.push_back(join(one.inside[f], other.inside[f]));
+    result.left_out.push_back(join(one.left_out[f], other.left_out[f]));
+  }
+  result.whole = join(one.whole, other.whole);
+  return result;
+}
+
 }  // namespace
 
 std::vector<Fold> folds(Eigen::Index n_rows, Eigen::Index guard, FoldKind kind) {
@@ -62,14 +80,10 @@ FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::Mat
   return result;
 }
 
-FoldProducts stacked(FoldProducts const& above, FoldProducts const& below) {
-  FoldProducts result;
-  for (std::size_t f = 0; f < above.inside.size(); ++f) {
-    result.inside.push_back(one_above(above.inside[f], below.inside[f]));
-    result.left_out.push_back(one_above(above.left_out[f], below.left_out[f]));
-  }
-  result.whole = one_above(above.whole, below.whole);
-  return result;
+FoldProducts stacked(FoldProducts const& above, FoldProducts const& below) { return joined(above, below, one_above); }
+
+FoldProducts side_by_side(FoldProducts const& left, FoldProducts const& right) {
+  return joined(left, right, one_beside);
 }
 
 FoldProducts picked(FoldProducts const& products, Eigen::Index first_row, Eigen::Index rows, Eigen::Index first_column,

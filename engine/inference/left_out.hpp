@@ -40,6 +40,9 @@ FoldProducts fold_products(std::vector<Fold> const& folds, Eigen::Ref<Eigen::Mat
 // one basis above the other
 FoldProducts stacked(FoldProducts const& above, FoldProducts const& below);
 
+// of one basis with further signals
+FoldProducts side_by_side(FoldProducts const& left, FoldProducts const& right);
+
 // a block of them
 FoldProducts picked(FoldProducts const& products, Eigen::Index first_row, Eigen::Index rows, Eigen::Index first_column,
                     Eigen::Index columns);

@@ -10,6 +10,7 @@
 // Source     Schur complement of the normal equations: Golub, Van Loan 2013, Matrix Computations, 3.2
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "engine/inference/left_out.hpp"
@@ -25,6 +26,10 @@ class LeftOutGains {
   // cross: of the candidate with the basis (r x k), own: with itself (r x r), products: with the signals (r x m).
   // Returns folds x m
   Eigen::MatrixXd of(FoldProducts const& cross, FoldProducts const& own, FoldProducts const& products) const;
+  // The same of several candidates, whose columns lie side by side: `all`: of these with basis and signals (R x (k +
+  // m)), own: of each with itself. The signals are many and a candidate's columns few: together they are products of
+  // matrices
+  std::vector<Eigen::MatrixXd> of_each(FoldProducts const& all, std::span<FoldProducts const> own) const;
 
   // Over all folds, for combinations of the signals: that with the weights w gains w' form w. m x m
   Eigen::MatrixXd form(FoldProducts const& cross, FoldProducts const& own, FoldProducts const& products) const;
@@ -39,8 +44,7 @@ class LeftOutGains {
   struct Beside {
     Eigen::MatrixXd fit{}, left{}, square{};
   };
-  Beside beside(std::size_t fold, FoldProducts const& cross, FoldProducts const& own,
-                FoldProducts const& products) const;
+  std::vector<Beside> beside(std::size_t fold, FoldProducts const& all, std::span<FoldProducts const> own) const;
 
   std::vector<Fit> folds_{};
 };

@@ -10,11 +10,18 @@
 namespace torquescope {
 namespace {
 
+void take(LawGain const& gain, RefinedCandidate& best) {
+  best.evidence.scan.gain = gain.total()[0];
+  best.evidence.train = gain.train[0];
+  best.evidence.unseen = gain.unseen[0];
+  best.parameters = gain.parameters;
+}
+
 // takes the shape when it gains more than what stands
 void offer(Evidence const& evidence, std::vector<double> const& shape, DrivenBy motion, RefinedCandidate& best) {
   Effect const& effect = *best.evidence.scan.effect;
   if (!effect.is_plausible(shape, evidence.columns().scales())) return;
-  LawGain gain = std::move(evidence.gains(effect, {shape}, best.evidence.folds, motion).front());
+  LawGain const gain = evidence.gains(effect, {shape}, best.evidence.folds, motion).front();
   if (!gain.is_testable) return;
   double const total = gain.total()[0];
   if (total <= best.evidence.scan.gain) {
@@ -22,11 +29,8 @@ void offer(Evidence const& evidence, std::vector<double> const& shape, DrivenBy 
     return;
   }
   if (motion == DrivenBy::recording) best.other_shapes.push_back(best.shape);
-  best.evidence.scan.gain = total;
-  best.evidence.train = gain.train[0];
-  best.evidence.unseen = gain.unseen[0];
+  take(gain, best);
   best.shape = shape;
-  best.parameters = std::move(gain.parameters);
   best.driven_by = motion;
 }
 
@@ -38,6 +42,8 @@ RefinedCandidate with_refined_shape(Evidence const& evidence, CandidateEvidence 
                                     RefinementSetting const& setting) {
   RefinedCandidate best{law, {}, law.scan.effect->parameters().size(), law.scan.shape, law.scan.parameters};
   Effect const& effect = *law.scan.effect;
+  // the scan looked at fewer samples
+  take(evidence.gains(effect, {law.scan.shape}, law.folds).front(), best);
   if (effect.n_shape() == 0) return best;
   Eigen::VectorXd const mismatch = evidence.stage().mismatch();
   ShapeSearch const search = shape_search(setting.optimiser, setting.seed);
@@ -60,10 +66,7 @@ void move_to(Evidence const& evidence, std::vector<double> shape, RefinedCandida
   LawGain const gain = evidence.gains(effect, {shape}, law.evidence.folds, law.driven_by).front();
   law.left = evidence.rows_left(effect, shape, law.evidence.folds, law.driven_by);
   law.shape = std::move(shape);
-  law.parameters = gain.parameters;
-  law.evidence.scan.gain = gain.total()[0];
-  law.evidence.train = gain.train[0];
-  law.evidence.unseen = gain.unseen[0];
+  take(gain, law);
   law.other_shapes.clear();
 }
 

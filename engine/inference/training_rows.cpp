@@ -86,8 +86,8 @@ Eigen::MatrixXd TrainingRows::in_basis(Eigen::MatrixXd const& nuisance) const {
 
 std::vector<Eigen::MatrixXd> TrainingRows::columns_of_each(Effect const& effect,
                                                            std::vector<std::vector<double>> const& shapes,
-                                                           DrivenBy motion) const {
-  std::vector<Eigen::MatrixXd> each = columns(motion).columns_of_each(effect, shapes);
+                                                           DrivenBy motion, LawRate rate) const {
+  std::vector<Eigen::MatrixXd> each = columns(motion).columns_of_each(effect, shapes, rate);
   if (further_.empty()) return each;
   for (auto& law : each) {
     Eigen::Index const first = law.rows();
@@ -96,7 +96,7 @@ std::vector<Eigen::MatrixXd> TrainingRows::columns_of_each(Effect const& effect,
   }
   if (carry_over(effect) == CarryOver::none || carry_over(effect) == CarryOver::in_part) return each;
   for (std::size_t i = 0; i < further_.size(); ++i) {
-    auto const here = further_[i].columns->columns_of_each(effect, shapes);
+    auto const here = further_[i].columns->columns_of_each(effect, shapes, rate);
     RowBlock const rows = recordings_[i + 1].rows;
     for (std::size_t k = 0; k < each.size(); ++k)
       each[k].middleRows(rows.from, rows.size()) = further_[i].without_own(here[k]);

@@ -45,7 +45,7 @@ class TrainingRows {
 
   // of each shape: N x L
   std::vector<Eigen::MatrixXd> columns_of_each(Effect const& effect, std::vector<std::vector<double>> const& shapes,
-                                               DrivenBy motion) const;
+                                               DrivenBy motion, LawRate rate = LawRate::full) const;
   // folds of each recording, those of the first in front
   std::vector<Fold> folds(FoldKind kind) const;
   // energy of effect i of the model

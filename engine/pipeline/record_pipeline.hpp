@@ -67,6 +67,10 @@ class RecordPipeline {
   Eigen::Index kept_samples() const { return filter_.kept_samples(); }  // before the mask
   double kept_rate_hz() const { return filter_.kept_rate_hz(); }
   double cutoff_hz() const { return cutoff_hz_; }  // of the parallel filter; 0: none
+  ParallelFilter const& parallel_filter() const { return filter_; }
+  // what ProcessedRecord::motion and ::drive were low-passed to; 0: neither was
+  double motion_band_hz() const { return options_.cutoff_hz; }
+  double drive_band_hz() const { return drive_options_.cutoff_hz; }
 
   // from now on process() keeps exactly these rows, whatever its own mask would be
   void restrict_to(std::vector<Eigen::Index> kept_rows);

@@ -38,6 +38,8 @@ CandidateColumns::CandidateColumns(RecordPipeline const& pipeline, TwinCompariso
       record_(driven_by == DrivenBy::twin ? &comparison.common : &comparison.recording),
       reference_(std::move(reference)),
       baseline_(on_motion(pipeline.model().regressor(), reference_, record_->motion)),
+      scan_(scan_motion_of_joint(pipeline, *record_, reference_)),
+      scan_drive_(scan_motion_of_drive(pipeline, *record_, reference_)),
       model_columns_(record_->columns) {
   auto const& rows = comparison.rows;
   row_motion_ = {rows.rate_hz, rows.time_s, rows.q, rows.dq, rows.ddq, rows.model_torque};
@@ -75,8 +77,8 @@ EffectInput CandidateColumns::input_of(Effect const& effect) const {
 }
 
 // the columns of all shapes, one shape after the other
-Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
-                                                   std::vector<std::vector<double>> const& shapes) const {
+Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes,
+                                                   LawRate rate) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
   auto const count = static_cast<Eigen::Index>(shapes.size());
   if (is_fixed_frequency(effect)) {
@@ -86,21 +88,26 @@ Eigen::MatrixXd CandidateColumns::plain_columns_of(Effect const& effect,
   }
   // of a long recording a few at a time at the full rate: only their rows are kept
   constexpr Eigen::Index enough_columns = 8, most_numbers = 1'000'000;
-  auto const n = record_->motion.q.size();
+  bool const is_full = rate == LawRate::full || needs_every_sample(effect);
+  ScanMotion const* const scan = is_full ? nullptr : (effect.has_inertia() ? scan_drive_ : scan_).get();
+  auto const filtered = [&](Eigen::MatrixXd const& signals) {
+    return scan ? scan->filtered_columns(signals, record_->kept_rows) : pipeline_->filtered_columns(signals, *record_);
+  };
+  Eigen::Index const n = scan ? scan->samples() : record_->motion.q.size();
   Eigen::Index const columns_at_once = std::max(enough_columns, most_numbers / n);
   Eigen::Index const at_once = std::max<Eigen::Index>(1, columns_at_once / linear);
-  EffectInput const input = input_of(effect);
+  EffectInput const input = scan ? scan->input() : input_of(effect);
   if (at_once >= count) {
     Eigen::MatrixXd all(n, linear * count);
     effect.columns_of_shapes(input, shapes, all);
-    return pipeline_->filtered_columns(all, *record_);
+    return filtered(all);
   }
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(record_->kept_rows.size()), linear * count);
   for (Eigen::Index first = 0; first < count; first += at_once) {
     Eigen::Index const now = std::min(at_once, count - first);
     Eigen::MatrixXd some(n, linear * now);
     effect.columns_of_shapes(input, {shapes.begin() + first, shapes.begin() + first + now}, some);
-    rows.middleCols(linear * first, linear * now) = pipeline_->filtered_columns(some, *record_);
+    rows.middleCols(linear * first, linear * now) = filtered(some);
   }
   return rows;
 }
@@ -136,9 +143,10 @@ OrthonormalGroup CandidateColumns::group(Effect const& effect, std::span<double 
 }
 
 std::vector<Eigen::MatrixXd> CandidateColumns::columns_of_each(Effect const& effect,
-                                                               std::vector<std::vector<double>> const& shapes) const {
+                                                               std::vector<std::vector<double>> const& shapes,
+                                                               LawRate rate) const {
   auto const linear = static_cast<Eigen::Index>(effect.n_linear());
-  Eigen::MatrixXd const plain = plain_columns_of(effect, shapes);
+  Eigen::MatrixXd const plain = plain_columns_of(effect, shapes, rate);
   std::vector<Eigen::MatrixXd> each;
   for (Eigen::Index first = 0; first < plain.cols(); first += linear) {
     each.emplace_back(plain.middleCols(first, linear));
@@ -148,9 +156,10 @@ std::vector<Eigen::MatrixXd> CandidateColumns::columns_of_each(Effect const& eff
 }
 
 std::vector<OrthonormalGroup> CandidateColumns::group_of_each(Effect const& effect,
-                                                              std::vector<std::vector<double>> const& shapes) const {
+                                                              std::vector<std::vector<double>> const& shapes,
+                                                              LawRate rate) const {
   std::vector<OrthonormalGroup> groups;
-  for (auto& columns : columns_of_each(effect, shapes))
+  for (auto& columns : columns_of_each(effect, shapes, rate))
     groups.push_back(orthonormal_group(std::move(columns), nuisance_, signs(effect)));
   return groups;
 }

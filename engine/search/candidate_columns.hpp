@@ -13,15 +13,19 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/search/scan_motion.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 #include "engine/twin/mismatch_rows.hpp"
 
 namespace torquescope {
 
 enum class DrivenBy { twin, recording };
+// of the samples that columns are made of: the recording's, or what a scan needs (scan_motion.hpp)
+enum class LawRate { full, scan };
 
 class CandidateColumns {
  public:
@@ -52,14 +56,15 @@ class CandidateColumns {
   std::vector<OrthonormalGroup> groups(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   // The same to the last digit as columns() and group() of one shape after the other, which the projection of groups()
   // is not
-  std::vector<Eigen::MatrixXd> columns_of_each(Effect const& effect,
-                                               std::vector<std::vector<double>> const& shapes) const;
-  std::vector<OrthonormalGroup> group_of_each(Effect const& effect,
-                                              std::vector<std::vector<double>> const& shapes) const;
+  std::vector<Eigen::MatrixXd> columns_of_each(Effect const& effect, std::vector<std::vector<double>> const& shapes,
+                                               LawRate rate = LawRate::full) const;
+  std::vector<OrthonormalGroup> group_of_each(Effect const& effect, std::vector<std::vector<double>> const& shapes,
+                                              LawRate rate = LawRate::full) const;
 
  private:
   EffectInput input_of(Effect const& effect) const;
-  Eigen::MatrixXd plain_columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
+  Eigen::MatrixXd plain_columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes,
+                                   LawRate rate = LawRate::full) const;
   Eigen::MatrixXd columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes) const;
   Eigen::MatrixXd fill_tangents(Eigen::VectorXd const& parameters, std::size_t without) const;
 
@@ -68,6 +73,7 @@ class CandidateColumns {
   ProcessedRecord const* record_;  // whose motion and rows the columns have
   BaselineReference reference_;
   FittedBaseline baseline_;
+  std::shared_ptr<ScanMotion const> scan_{}, scan_drive_{};  // none: a scan takes every sample
   Motion row_motion_;  // the rows' own samples, for effects that a zero-phase filter only scales
   Eigen::MatrixXd model_columns_, tangents_, nuisance_;
 };

@@ -43,6 +43,14 @@ class Refinement {
   // what a search finds is polished, even if the start explains more than that does before
   void forget_start() { best_.gain = -std::numeric_limits<double>::infinity(); }
 
+  // a search looks at fewer samples than the fit
+  void see_every_sample() {
+    if (best_.shape.empty()) return;
+    BoundedGain const gain = gain_at(best_.shape);
+    best_.gain = gain.gain;
+    best_.parameters = gain.parameters;
+  }
+
   void search_in(Bounds const& box, ShapeSearch const& search, std::uint32_t run, int threads) {
     auto const optimiser = search.make(box, {search.seed, run, RandomDomain::optimiser});
     std::size_t const d = ranges_.size();
@@ -56,7 +64,8 @@ class Refinement {
       std::vector<BoundedGain> gains(members);
       for_shapes_together(members, threads, [&](std::size_t first, std::size_t last) {
         auto const at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-        auto const groups = columns_.group_of_each(effect_, {shapes.begin() + at(first), shapes.begin() + at(last)});
+        auto const groups =
+            columns_.group_of_each(effect_, {shapes.begin() + at(first), shapes.begin() + at(last)}, LawRate::scan);
         for (std::size_t i = first; i < last; ++i) gains[i] = gain_of(groups[i - first]);
       });
       for (std::size_t i = 0; i < members; ++i) {
@@ -166,6 +175,7 @@ RefinedEffect refined_from(Refinement refinement, EffectScan const& scan, std::s
     if (search.everywhere) refinement.forget_start();
     refinement.search_in(search.everywhere ? whole : scan.grid.box(point), search, static_cast<std::uint32_t>(point),
                          threads);
+    refinement.see_every_sample();
     refinement.polish();
   }
   return std::move(refinement).take();
@@ -195,7 +205,7 @@ std::optional<std::size_t> best_plausible_point(CandidateColumns const& columns,
   for_shapes_together(points.size(), threads, [&](std::size_t first, std::size_t last) {
     std::vector<std::vector<double>> shapes;
     for (std::size_t i = first; i < last; ++i) shapes.push_back(scan.grid.point(points[i]));
-    auto const groups = columns.group_of_each(*scan.effect, shapes);
+    auto const groups = columns.group_of_each(*scan.effect, shapes, LawRate::scan);
     for (std::size_t i = first; i < last; ++i) {
       auto const& group = groups[i - first];
       gains[points[i]] = bounded_gain(group, inner_products(group.q, mismatch)).gain;
