@@ -1,5 +1,5 @@
 #pragma once
-// The motion that a catalogue is scanned on: every n-th sample of the full rate, with a filter that keeps the same rows.
+// The motion that a catalogue is scanned on: every n-th sample, with a filter that keeps the same rows.
 //
 // Why        rows are some tens per second, and laws cost what their samples do. A scan compares gains of the recording
 //            with gains of replicates through the same columns, so what thinning adds is the same for both. What is

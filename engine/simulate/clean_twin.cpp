@@ -99,6 +99,19 @@ LaneInstant instant_of(LaneState const& state, double time_s, double step_s, dou
   return at;
 }
 
+// The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the caller
+// knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of that time
+// what the second order leaves out, a sixth of the square, is 7e-5
+double longest_step_s(TwinJoint const& joint, StickingRange const& sticking, double step_s, double tick_s) {
+  auto const has_memory = [](LaneEffectMaker const& make) { return make()->follows_steps(); };
+  if (sticking.is_any() || std::any_of(joint.effects.begin(), joint.effects.end(), has_memory)) return step_s;
+  constexpr double fiftieth = 0.02;
+  LaneJoint const& own = joint.lanes;
+  double const decay = std::abs(own.viscous) / own.inertia;
+  double const swing = std::sqrt(std::hypot(own.gravity_sin, own.gravity_cos) / own.inertia);
+  return std::clamp(fiftieth / std::max({decay, swing, fiftieth / tick_s}), std::min(step_s, tick_s), tick_s);
+}
+
 // Steps for which a law without memory is held. Beside it stands a viscous torque that is not: where both are large and
 // cancel, as fits of a power of the speed near 1 have them, that moves the acceleration by (viscous held / inertia)^2 /
 // 12, at a tenth by a thousandth. A tick, if it is short enough
@@ -124,10 +137,11 @@ TwinLoop noiseless(TwinLoop loop) {
 }
 
 CleanTwin::CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s)
-    : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)) {
+    : joint_(std::move(joint)), loop_(std::move(loop)), track_(std::move(track)), asked_step_s_(step_s) {
   Eigen::Index const n = track_.reference.size();
   TORQUESCOPE_EXPECT(n > 0 && track_.rate_hz > 0.0 && step_s > 0.0 && !loop_.law.position.empty());
-  steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * step_s) * (1.0 - 1e-9)));
+  double const longest_s = longest_step_s(joint_, loop_.sticking, step_s, 1.0 / track_.rate_hz);
+  steps_per_tick_ = static_cast<std::size_t>(std::ceil(1.0 / (track_.rate_hz * longest_s) * (1.0 - 1e-9)));
   step_s_ = 1.0 / (track_.rate_hz * static_cast<double>(steps_per_tick_));
 
   ReferenceSignal const reference(track_.reference);

@@ -73,20 +73,21 @@ struct TwinGroup {
 
 class CleanTwin {
  public:
+  // step_s: of laws with a memory; where nothing asks for it the steps are longer, a whole number of them per tick
   CleanTwin(TwinJoint joint, TwinLoop loop, TwinTrack track, double step_s);
 
   Eigen::Index samples() const { return track_.reference.size(); }
   TwinJoint const& joint() const { return joint_; }
   TwinLoop const& loop() const { return loop_; }
   TwinTrack const& track() const { return track_; }
-  double step_s() const { return step_s_; }  // as taken: a whole number of steps per tick
+  double step_s() const { return asked_step_s_; }
   void simulate(TwinAddress const& address, std::uint32_t group, TwinGroup& out) const;
 
  private:
   TwinJoint joint_;
   TwinLoop loop_;
   TwinTrack track_;
-  double step_s_ = 0.0;
+  double asked_step_s_ = 0.0, step_s_ = 0.0;
   std::size_t steps_per_tick_ = 0;
   Eigen::VectorXd open_;    // the law's part that no twin changes
   Eigen::VectorXd wanted_;  // reference seen by the summed error
