@@ -26,6 +26,21 @@ Eigen::VectorXd recombination_weights(std::size_t n_samples) {
 
 }  // namespace
 
+// the same logarithms go on below 0 for the worse half; what they sum to keeps C positive (tutorial, eq. 49 to 53)
+Eigen::VectorXd CovarianceAdaptation::weights_against(std::size_t n_samples) const {
+  auto const mu = weights_.size();
+  auto const n = static_cast<double>(mean_.size());
+  Eigen::VectorXd against(static_cast<Index>(n_samples) - mu);
+  for (Index i = 0; i < against.size(); ++i)
+    against[i] = std::log((static_cast<double>(n_samples) + 1.0) / 2.0) - std::log(static_cast<double>(mu + i) + 1.0);
+  against = against.cwiseMin(0.0);
+  double const sum = -against.sum();
+  double const mu_eff = 1.0 / weights_.squaredNorm(), mu_eff_against = sum * sum / against.squaredNorm();
+  double const most = std::min({1.0 + c_1_ / c_mu_, 1.0 + 2.0 * mu_eff_against / (mu_eff + 2.0),
+                                (1.0 - c_1_ - c_mu_) / (n * c_mu_)});
+  return against * (most / sum);
+}
+
 CovarianceAdaptation::CovarianceAdaptation(Eigen::VectorXd mean, double sigma, std::size_t n_samples)
     : weights_(recombination_weights(n_samples)),
       mean_(std::move(mean)),
@@ -43,6 +58,7 @@ CovarianceAdaptation::CovarianceAdaptation(Eigen::VectorXd mean, double sigma, s
   c_mu_ = std::min(1.0 - c_1_, 2.0 * (mu_eff - 2.0 + 1.0 / mu_eff) / ((n + 2.0) * (n + 2.0) + mu_eff));
   // expected length of a standard normal vector
   usual_length_ = std::sqrt(n) * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n));
+  worse_weights_ = weights_against(n_samples);
   decompose();
 }
 
@@ -50,7 +66,11 @@ Eigen::VectorXd CovarianceAdaptation::sample(Eigen::VectorXd const& z) const {
   return mean_ + sigma_ * (axes_ * lengths_.cwiseProduct(z));
 }
 
-void CovarianceAdaptation::learn(Eigen::MatrixXd const& ranked_z) {
+Eigen::VectorXd CovarianceAdaptation::deviates_of(Eigen::VectorXd const& place) const {
+  return (axes_.transpose() * (place - mean_)).cwiseQuotient(sigma_ * lengths_);
+}
+
+void CovarianceAdaptation::learn(Eigen::MatrixXd const& ranked_z, Eigen::MatrixXd const& worse_z) {
   Index const used = std::min(weights_.size(), ranked_z.cols());
   if (used == 0) return;
   Eigen::VectorXd const weights = weights_.head(used) / weights_.head(used).sum();
@@ -73,7 +93,15 @@ void CovarianceAdaptation::learn(Eigen::MatrixXd const& ranked_z) {
   if (!stalled) path_c_ += std::sqrt(c_c_ * (2.0 - c_c_) * mu_eff) * step;
   double const variance_lost = stalled ? c_c_ * (2.0 - c_c_) : 0.0;
 
-  covariance_ *= 1.0 - c_1_ - c_mu_ + c_1_ * variance_lost;
+  // the worst have the last weights
+  Eigen::VectorXd const against = worse_weights_.tail(std::min(worse_z.cols(), worse_weights_.size()));
+  covariance_ *= 1.0 - c_1_ - c_mu_ * (1.0 + against.sum()) + c_1_ * variance_lost;
+  for (Index i = 0; i < against.size(); ++i) {
+    auto const z = worse_z.col(worse_z.cols() - against.size() + i);
+    Eigen::VectorXd const away = axes_ * lengths_.cwiseProduct(z);
+    // each as long as a usual sample: one far away must not take more than there is
+    covariance_ += c_mu_ * against[i] * n / z.squaredNorm() * away * away.transpose();
+  }
   covariance_ += c_1_ * path_c_ * path_c_.transpose();
   covariance_ += c_mu_ * steps * weights.asDiagonal() * steps.transpose();
   // rounding differs on both sides of the diagonal

@@ -3,7 +3,7 @@
 //
 // Equation   x = m + sigma B D z,  C = B D^2 B^T;  m moves to the weighted mean of the better half; sigma follows the
 //            length of the path p_sigma (cumulative step size adaptation), C the path p_c (rank one) and the better
-//            half (rank mu). Weights are positive only: not active
+//            half (rank mu). Of the worse half, who is told of may take variance away along its steps (active)
 // Order      only the order of fitness counts, so nothing changes when fitness goes through an increasing function.
 //            Samples without finite fitness have no place in the order: with fewer than mu others, these share the
 //            weight; with none, nothing is learned
@@ -29,8 +29,11 @@ class CovarianceAdaptation {
 
   // z: R standard normal numbers
   Eigen::VectorXd sample(Eigen::VectorXd const& z) const;
-  // the z of this generation's finite samples, best first: mu of them are read
-  void learn(Eigen::MatrixXd const& ranked_z);
+  // the z of which sample() would be this
+  Eigen::VectorXd deviates_of(Eigen::VectorXd const& place) const;
+  // the z of this generation's finite samples, best first: mu of them are read. `worse_z` of those that are to take
+  // variance away, the worst last
+  void learn(Eigen::MatrixXd const& ranked_z, Eigen::MatrixXd const& worse_z = {});
 
   bool is_collapsed() const;
   Eigen::VectorXd const& mean() const { return mean_; }
@@ -44,9 +47,11 @@ class CovarianceAdaptation {
 
  private:
   void decompose();
+  Eigen::VectorXd weights_against(std::size_t n_samples) const;
 
   // of the number of samples and parameters alone
-  Eigen::VectorXd weights_;  // mu of them, sum 1
+  Eigen::VectorXd weights_;        // mu of them, sum 1
+  Eigen::VectorXd worse_weights_;  // of the others, at most 0
   double c_sigma_, d_sigma_, c_c_, c_1_, c_mu_, usual_length_;
 
   Eigen::VectorXd mean_;

@@ -24,12 +24,14 @@ struct PBestTrials {
   Bounds const& bounds;
   double best_share;
   BoundRepair repair;
+  std::size_t first = 0;  // target of the first trial; the others follow
 };
 
 void make_current_to_pbest_trials(PBestTrials const& of, DrawControls const& draw, TrialStreams const& streams,
                                   MatrixView<double> const& trials);
 
-// how far the fitness of a member fell, halved so that it cannot overflow; 0 where that cannot be measured
+// how far fitness fell, halved so that it cannot overflow; 0 where that cannot be measured
+double improvement(double before, double after);
 double improvement_of(Selected const& step, std::size_t member);
 
 }  // namespace torquescope

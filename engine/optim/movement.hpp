@@ -6,6 +6,8 @@
 //   raw        as printed: depends on the units of x and on the scale of f
 //   relative   x in box widths, f in standard deviations of the fitness of both generations together. No scale or shift
 //              of f or of any x matters (scaled by powers of two: the same bits); FC is 0 .. 2
+//   spread     f as relative; x likewise, each parameter in standard deviations of both generations together, root mean
+//              square over the parameters: PC is 0 .. 2 too, and does not fade as the population narrows
 //            Members that had no finite fitness before or after have no fitness change: they count 0 in FC.
 // Shapes     members x dimension; fitness: one number per member
 
@@ -19,7 +21,7 @@
 
 namespace torquescope {
 
-enum class MovementNorm { raw, relative };
+enum class MovementNorm { raw, relative, spread };
 
 // in the order of the enum
 std::vector<std::string> const& movement_norm_words();

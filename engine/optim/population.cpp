@@ -32,10 +32,11 @@ std::vector<std::size_t> ranking(std::span<double const> fitness) {
   return order;
 }
 
-void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members) {
+void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members,
+                             std::uint32_t generation) {
   TORQUESCOPE_EXPECT(members.columns() == bounds.dimension());
   for (std::size_t i = 0; i < members.rows(); ++i) {
-    RandomStream random(key, 0, static_cast<std::uint32_t>(i));
+    RandomStream random(key, generation, static_cast<std::uint32_t>(i));
     for (std::size_t j = 0; j < members.columns(); ++j) {
       // the product may round up to the width, the sum beyond the upper bound
       members(i, j) = std::min(random.uniform(bounds.lower[j], bounds.upper[j]), bounds.upper[j]);

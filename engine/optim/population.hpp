@@ -2,12 +2,13 @@
 // Members and their fitness, and how they begin: uniform in the box.
 //
 // Equation   x_ij = lower_j + u_ij (upper_j - lower_j), u in [0, 1)                     (seed eq. 4)
-// Random     u_ij is draw j of the stream (key, generation 0, member i)
+// Random     u_ij is draw j of the stream (key, generation, member i)
 // Shapes     members x dimension, row-major; fitness: one number per member, +inf where there is no finite one
 // Threads    free functions on the caller's numbers
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,8 @@ struct Population {
   std::vector<double> fitness;
 };
 
-void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members);
+void fill_initial_population(RandomKey key, Bounds const& bounds, MatrixView<double> members,
+                             std::uint32_t generation = 0);
 
 // indices from the best member to the worst, equally good ones in their order
 std::vector<std::size_t> ranking(std::span<double const> fitness);

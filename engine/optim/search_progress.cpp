@@ -32,4 +32,11 @@ void record_best(Progress& progress, Population const& population) {
   progress.best.assign(member.begin(), member.end());
 }
 
+void record_batch(MatrixView<double const> asked, std::span<double const> fitness, Population& told,
+                  Progress& progress) {
+  for (std::size_t i = 0; i < fitness.size(); ++i) told.set_member(i, asked.row(i), ranked_fitness(fitness[i]));
+  count_batch(progress, fitness);
+  record_best(progress, told);
+}
+
 }  // namespace torquescope

@@ -18,4 +18,8 @@ void count_batch(Progress& progress, std::span<double const> fitness);
 // a member better than any before it, found in progress.generation
 void record_best(Progress& progress, Population const& population);
 
+// of a search that keeps no members: the candidates told last, and what they say, in progress.generation
+void record_batch(MatrixView<double const> asked, std::span<double const> fitness, Population& told,
+                  Progress& progress);
+
 }  // namespace torquescope

@@ -18,7 +18,7 @@ namespace torquescope::testing {
 
 inline std::vector<std::string> const& landscape_names() {
   static std::vector<std::string> const names{"sphere",    "ellipsoid",      "rosenbrock", "sharp ridge",
-                                              "rastrigin", "step ellipsoid", "gallagher",  "different powers"};
+                                              "rastrigin", "step ellipsoid", "gallagher",  "different powers", "turned rosenbrock", "turned rastrigin"};
   return names;
 }
 
@@ -41,8 +41,11 @@ class Landscape {
     if (name_ == "sphere") return x.squaredNorm();
     if (name_ == "rosenbrock") return rosenbrock((x.array() + 1.0).matrix());
     if (name_ == "rastrigin")
-      return (10.0 + x.array().square() - 10.0 * (2.0 * std::numbers::pi * x.array()).cos()).sum();
+      return bumpy(x);
     Eigen::VectorXd const z = turn_ * x;
+    if (name_ == "turned rosenbrock")
+      return rosenbrock((std::max(1.0, std::sqrt(static_cast<double>(n_)) / 8.0) * z).array() + 1.0);
+    if (name_ == "turned rastrigin") return bumpy(z);
     if (name_ == "ellipsoid") return stretched(z, 1e6);
     if (name_ == "sharp ridge") return z[0] * z[0] + 100.0 * z.tail(n_ - 1).norm();
     if (name_ == "step ellipsoid") return stretched((z.array() + 0.5).floor().matrix(), 100.0);
@@ -61,6 +64,10 @@ class Landscape {
     double sum = 0.0;
     for (Eigen::Index j = 0; j < n_; ++j) sum += std::pow(condition, share(j)) * z[j] * z[j];
     return sum;
+  }
+
+  static double bumpy(Eigen::VectorXd const& z) {
+    return (10.0 + z.array().square() - 10.0 * (2.0 * std::numbers::pi * z.array()).cos()).sum();
   }
 
   double rosenbrock(Eigen::VectorXd const& z) const {

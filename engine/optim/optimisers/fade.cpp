@@ -46,7 +46,7 @@ OptionTable<FadeOptions> const& fade_options() {
        {"defuzzification", &O::defuzzification, defuzzification_words(), "from clipped sets to F and CR"},
        {"centroid_points", &O::centroid_points, "points", 101, 1e5, "grid of the centroid"},
        {"norm", &O::norm, movement_norm_words(),
-        "PC and FC as printed (raw) or in units of the box and of the spread of fitness (relative)"},
+        "PC and FC as printed (raw), in units of the box and of the spread of fitness (relative), or both of spreads"},
        {"F_first", &O::F_first, "1", 0.0, 2.0, "F of generation 1, before there is any movement"},
        {"CR_first", &O::CR_first, "1", 0.0, 1.0, "CR of generation 1"},
        {"repair", &O::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});
