@@ -36,8 +36,8 @@ Eigen::VectorXd CovarianceAdaptation::weights_against(std::size_t n_samples) con
   against = against.cwiseMin(0.0);
   double const sum = -against.sum();
   double const mu_eff = 1.0 / weights_.squaredNorm(), mu_eff_against = sum * sum / against.squaredNorm();
-  double const most = std::min({1.0 + c_1_ / c_mu_, 1.0 + 2.0 * mu_eff_against / (mu_eff + 2.0),
-                                (1.0 - c_1_ - c_mu_) / (n * c_mu_)});
+  double const most =
+      std::min({1.0 + c_1_ / c_mu_, 1.0 + 2.0 * mu_eff_against / (mu_eff + 2.0), (1.0 - c_1_ - c_mu_) / (n * c_mu_)});
   return against * (most / sum);
 }
 

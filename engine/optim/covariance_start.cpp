@@ -89,8 +89,8 @@ void CovarianceStart::learn(std::int64_t generation) {
   bool all_inside = true;
   std::vector<Eigen::VectorXd> better, worse;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    Eigen::VectorXd const z = deviates(first + static_cast<std::int64_t>(order[k] / settings_.batch_size),
-                                       order[k] % settings_.batch_size);
+    Eigen::VectorXd const z =
+        deviates(first + static_cast<std::int64_t>(order[k] / settings_.batch_size), order[k] % settings_.batch_size);
     Eigen::VectorXd const place = distribution_.sample(z), inside = mirrored(place);
     bool const is_inside = inside == place;
     all_inside = all_inside && is_inside;

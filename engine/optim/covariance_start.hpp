@@ -3,7 +3,8 @@
 //
 // Units      each parameter as a place in the box, 0 .. 1: one step size fits all
 // Bounds     samples are mirrored, and the distribution learns from the mirrored ones: an image beyond a bound would
-//            be a second minimum. They take no variance away: at a corner most are among the worse. Resampling needs 2^R samples near a corner; a penalty changes the order of fitness
+//            be a second minimum. Resampling needs 2^R samples near a corner; a penalty changes the order of fitness
+// Worse half teaches in generations without mirrored samples alone: at a corner it would keep the step size large
 // End        the start is stuck (start_history.hpp), or its distribution has collapsed
 // Random     sample of member i in generation t: stream (key, t, i)
 // Source     Hansen: The CMA evolution strategy: a tutorial, arXiv 1604.00772 (2016)

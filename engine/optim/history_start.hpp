@@ -56,7 +56,7 @@ class HistoryStart {
   RandomKey key_;
   HistoryStartSettings settings_;
   Population members_;
-  Population before_;  // when the sweep began
+  Population before_;          // when the sweep began
   std::size_t n_members_ = 0;  // so far
   std::size_t next_ = 0;       // target of the coming batch's first trial
   SuccessHistory history_;

@@ -1,7 +1,8 @@
 #pragma once
 // Functions to search, shifted and turned by an instance's own numbers; the minimum is 0, in a box of -5 .. 5.
 //
-// Equation   z = Q (x - x_0), Q orthogonal of normal numbers, x_0 uniform in -4 .. 4; Rastrigin and Rosenbrock unturned
+// Equation   z = Q (x - x_0), Q orthogonal of normal numbers, x_0 uniform in -4 .. 4; Rastrigin and Rosenbrock both as
+//            they are and turned, there z + 1 is Rosenbrock's argument
 //            gallagher: 1 - max_k w_k exp(-|z - y_k|^2 / (2 D s_k^2)), 101 peaks, w_0 = 1 at z = 0, others 0.11 .. 0.91
 // Source     after Hansen, Finck, Ros, Auger: Real-parameter black-box optimization benchmarking 2009, INRIA RR-6829;
 //            without their transformations of values and places, so not their numbers
@@ -17,8 +18,9 @@
 namespace torquescope::testing {
 
 inline std::vector<std::string> const& landscape_names() {
-  static std::vector<std::string> const names{"sphere",    "ellipsoid",      "rosenbrock", "sharp ridge",
-                                              "rastrigin", "step ellipsoid", "gallagher",  "different powers", "turned rosenbrock", "turned rastrigin"};
+  static std::vector<std::string> const names{
+      "sphere",         "ellipsoid", "rosenbrock",       "sharp ridge",       "rastrigin",
+      "step ellipsoid", "gallagher", "different powers", "turned rosenbrock", "turned rastrigin"};
   return names;
 }
 
@@ -40,11 +42,9 @@ class Landscape {
     Eigen::VectorXd const x = Eigen::Map<Eigen::VectorXd const>(at.data(), n_) - centre_;
     if (name_ == "sphere") return x.squaredNorm();
     if (name_ == "rosenbrock") return rosenbrock((x.array() + 1.0).matrix());
-    if (name_ == "rastrigin")
-      return bumpy(x);
+    if (name_ == "rastrigin") return bumpy(x);
     Eigen::VectorXd const z = turn_ * x;
-    if (name_ == "turned rosenbrock")
-      return rosenbrock((std::max(1.0, std::sqrt(static_cast<double>(n_)) / 8.0) * z).array() + 1.0);
+    if (name_ == "turned rosenbrock") return rosenbrock((z.array() + 1.0).matrix());
     if (name_ == "turned rastrigin") return bumpy(z);
     if (name_ == "ellipsoid") return stretched(z, 1e6);
     if (name_ == "sharp ridge") return z[0] * z[0] + 100.0 * z.tail(n_ - 1).norm();

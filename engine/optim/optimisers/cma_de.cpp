@@ -1,5 +1,5 @@
-// Starts of an evolution strategy and of a differential evolution in turn: the first are quick where one valley leads to
-// the minimum, turned or not; the second find it among many along the parameters.
+// Starts of an evolution strategy and of a differential evolution in turn: the first are quick where one valley leads
+// to the minimum, turned or not; the second find it among many along the parameters.
 //
 // Covariance covariance_start.hpp, the worse half of the samples teaching too; each start has twice the samples of the
 //            one before. The first two have all evaluations

@@ -2,6 +2,7 @@
 //
 // Source     Storn, Price: Differential evolution, J. Global Optimization 11 (1997) 341-359
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/optim/generational_search.hpp"
@@ -14,8 +15,11 @@ namespace torquescope {
 
 namespace {
 
+// too few members stand still in a stretched valley before they have found its axes (bench/README.md)
+std::size_t usual_de_members(std::size_t dimension) { return std::max<std::size_t>(30, 10 * dimension); }
+
 struct DeOptions {
-  std::int64_t population = 30;
+  std::int64_t population = 0;
   double F = 0.5;
   double CR = 0.9;
   std::string repair = "midpoint";
@@ -24,7 +28,8 @@ struct DeOptions {
 OptionTable<DeOptions> const& de_options() {
   static OptionTable<DeOptions> const table(
       "estimator", "differential evolution DE/rand/1/bin",
-      {{"population", &DeOptions::population, "members", 4, 1e5, "members per generation"},
+      {{"population", &DeOptions::population, "members", 0, 1e5,
+        "members per generation; 0: 10 per parameter, at least 30"},
        {"F", &DeOptions::F, "1", 0.0, 2.0, "mutation factor"},
        {"CR", &DeOptions::CR, "1", 0.0, 1.0, "crossover rate"},
        {"repair", &DeOptions::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});
@@ -54,9 +59,9 @@ class DifferentialEvolution final : public GenerationalSearch {
 };
 
 MakeSearch configure_de(DeOptions const& options) {
-  auto const n_members = static_cast<std::size_t>(options.population);
   TrialSettings const settings{options.F, options.CR, named_choice<BoundRepair>(bound_repair_words(), options.repair)};
-  return [n_members, settings](Bounds const& bounds, RandomKey key) {
+  return [population = options.population, settings](Bounds const& bounds, RandomKey key) {
+    auto const n_members = members_of(population, usual_de_members, bounds.dimension());
     return std::make_unique<DifferentialEvolution>(bounds, key, n_members, settings);
   };
 }
@@ -65,7 +70,8 @@ MakeSearch configure_de(DeOptions const& options) {
 
 OptimiserChoice de_optimiser() {
   return make_choice<DeOptions>("de", "Differential evolution DE/rand/1/bin",
-                                "Storn, Price: J. Global Optimization 11 (1997) 341-359", de_options(), configure_de);
+                                "Storn, Price: J. Global Optimization 11 (1997) 341-359", de_options(), configure_de,
+                                usual_de_members);
 }
 
 }  // namespace torquescope

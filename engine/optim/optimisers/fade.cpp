@@ -36,7 +36,8 @@ OptionTable<FadeOptions> const& fade_options() {
   using O = FadeOptions;
   static OptionTable<O> const table(
       "estimator", "fuzzy adaptive differential evolution",
-      {{"population", &O::population, "members", 4, 1e5, "members per generation"},
+      {{"population", &O::population, "members", 4, 1e5,
+        "members per generation; more in more parameters did not help"},
        {"pairing", &O::pairing, pairing_words(),
         "which change levels each fuzzy controller reads; the seed contradicts the original paper"},
        {"F_universe", &O::F_universe, "1", 0.1, 2.0,
@@ -46,7 +47,8 @@ OptionTable<FadeOptions> const& fade_options() {
        {"defuzzification", &O::defuzzification, defuzzification_words(), "from clipped sets to F and CR"},
        {"centroid_points", &O::centroid_points, "points", 101, 1e5, "grid of the centroid"},
        {"norm", &O::norm, movement_norm_words(),
-        "PC and FC as printed (raw), in units of the box and of the spread of fitness (relative), or both of spreads"},
+        "PC and FC as printed (raw), in units of the box and of the spread of fitness (relative), or of spreads "
+        "(spread)"},
        {"F_first", &O::F_first, "1", 0.0, 2.0, "F of generation 1, before there is any movement"},
        {"CR_first", &O::CR_first, "1", 0.0, 1.0, "CR of generation 1"},
        {"repair", &O::repair, bound_repair_words(), "what happens to a parameter outside its bounds"}});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -121,6 +122,41 @@ TEST(CovarianceAdaptation, GoesOnFromItsNumbers) {
   copy.restore(distribution.numbers());
   for (auto* one : {&distribution, &copy}) one->learn(deviates(4, 9, 50));
   EXPECT_EQ(copy.numbers(), distribution.numbers());
+}
+
+// the worse half moves nothing but C, and only along its steps
+TEST(CovarianceAdaptation, TheWorseHalfTakesVarianceAwayAlongItsSteps) {
+  Eigen::VectorXd const mean = Eigen::VectorXd::Constant(3, 0.5);
+  CovarianceAdaptation without(mean, 0.3, 10), with = without;
+  Eigen::MatrixXd const better = deviates(3, 5, 1);
+  Eigen::MatrixXd worse = Eigen::MatrixXd::Zero(3, 4);
+  worse.row(1) << 1.0, -0.5, 2.0, -3.0;
+  without.learn(better);
+  with.learn(better, worse);
+  EXPECT_EQ(with.mean(), without.mean());
+  EXPECT_EQ(with.sigma(), without.sigma());
+  // what is not taken away there is not forgotten elsewhere: the weights sum to less
+  Eigen::MatrixXd const change = with.covariance() - without.covariance();
+  EXPECT_LT(change(1, 1), -0.01);
+  EXPECT_GT(change(0, 0), 0.0);
+  EXPECT_NEAR(change(0, 0), change(2, 2), 1e-15);
+}
+
+TEST(CovarianceAdaptation, StaysPositiveWhateverTheWorseHalfIs) {
+  CovarianceAdaptation distribution(Eigen::VectorXd::Constant(4, 0.5), 0.3, 8);
+  for (std::uint32_t generation = 0; generation < 300; ++generation) {
+    Eigen::MatrixXd const z = deviates(4, 8, generation);
+    distribution.learn(z.leftCols(4), 1e3 * z.rightCols(4));
+    Eigen::LDLT<Eigen::MatrixXd> const factor(distribution.covariance());
+    ASSERT_TRUE(factor.isPositive()) << generation;
+  }
+}
+
+TEST(CovarianceAdaptation, KnowsTheDeviatesOfAPlace) {
+  CovarianceAdaptation distribution(Eigen::VectorXd::Constant(4, 0.5), 0.3, 8);
+  for (std::uint32_t generation = 0; generation < 20; ++generation) distribution.learn(deviates(4, 8, generation));
+  Eigen::VectorXd const z = deviates(4, 1, 99);
+  EXPECT_LT((distribution.deviates_of(distribution.sample(z)) - z).norm(), 1e-12);
 }
 
 }  // namespace covariance_adaptation_test

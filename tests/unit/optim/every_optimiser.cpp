@@ -230,6 +230,21 @@ TEST_P(EveryOptimiser, FindsASmoothMinimum) {
   EXPECT_LT(ends[2], 1e-3);
 }
 
+// long enough that starts end and others begin; FADE as its paper prints it depends on the scale
+TEST_P(EveryOptimiser, IgnoresScaleAndOffsetOfFitness) {
+  std::vector<Setting> settings;
+  if (GetParam() == "fade") settings.push_back({"norm", std::string("relative")});
+  auto const after = [&](testing::Fitness const& fitness) {
+    auto const search = make_optimiser(GetParam(), testing::cube(3, -2.0, 2.0), key, settings);
+    run_to_generation(*search, fitness, 600);
+    return ask(*search).numbers;
+  };
+  auto const reference = after(testing::bumpy);
+  EXPECT_EQ(after([](auto x) { return 0x1p40 * testing::bumpy(x); }), reference);
+  EXPECT_EQ(after([](auto x) { return 0x1p-300 * testing::bumpy(x); }), reference);
+  EXPECT_EQ(after([](auto x) { return testing::bumpy(x) + 4096.0; }), reference);
+}
+
 TEST_P(EveryOptimiser, RefusesAStateOfAnotherKindSizeOrKey) {
   auto const search = make();
   run_to_generation(*search, cornered, 3);

@@ -72,18 +72,6 @@ TEST(Jade, TakesTheStepsOfThePaper) {
   EXPECT_GT(n_removed, 2u);
 }
 
-TEST(Jade, TrajectoryIgnoresScaleAndOffsetOfFitness) {
-  auto const after = [](testing::Fitness const& fitness) {
-    auto const search = make_optimiser("jade", box, key);
-    run_to_generation(*search, fitness, 40);
-    return members_of(*search);
-  };
-  auto const reference = after(bumpy);
-  EXPECT_EQ(after([](auto x) { return 0x1p40 * bumpy(x); }), reference);
-  EXPECT_EQ(after([](auto x) { return 0x1p-300 * bumpy(x); }), reference);
-  EXPECT_EQ(after([](auto x) { return bumpy(x) - 4096.0; }), reference);
-}
-
 // neither a tie nor room made by a member that had no number is a success
 TEST(Jade, LearnsOnlyFromImprovementsThatCanBeMeasured) {
   for (double const first : {std::numeric_limits<double>::quiet_NaN(), 1.0}) {

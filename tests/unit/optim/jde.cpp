@@ -113,17 +113,6 @@ TEST(Jde, NewControlsAreUniformInTheirRanges) {
   }
 }
 
-TEST(Jde, TrajectoryIgnoresScaleAndOffsetOfFitness) {
-  auto const after = [](testing::Fitness const& fitness) {
-    auto const search = make_optimiser("jde", box, key);
-    run_to_generation(*search, fitness, 40);
-    return members_of(*search);
-  };
-  auto const reference = after(bumpy);
-  EXPECT_EQ(after([](auto x) { return 0x1p40 * bumpy(x); }), reference);
-  EXPECT_EQ(after([](auto x) { return bumpy(x) - 4096.0; }), reference);
-}
-
 TEST(Jde, EachOptionChangesTheSearch) {
   auto const best_after = [](std::vector<Setting> settings) {
     auto const search = make_optimiser("jde", box, key, std::move(settings));

@@ -113,18 +113,6 @@ TEST(Lshade, PopulationShrinksLinearlyToFourAndTheBestStay) {
   }
 }
 
-TEST(Lshade, TrajectoryIgnoresScaleAndOffsetOfFitness) {
-  auto const after = [](testing::Fitness const& fitness) {
-    auto const search = make_optimiser("lshade", box, key);
-    run_to_generation(*search, fitness, 60);
-    return members_of(*search);
-  };
-  auto const reference = after(bumpy);
-  EXPECT_EQ(after([](auto x) { return 0x1p40 * bumpy(x); }), reference);
-  EXPECT_EQ(after([](auto x) { return 0x1p-300 * bumpy(x); }), reference);
-  EXPECT_EQ(after([](auto x) { return bumpy(x) + 4096.0; }), reference);
-}
-
 // room made by a member that had no number teaches nothing
 TEST(Lshade, LearnsOnlyFromImprovementsThatCanBeMeasured) {
   auto const search = make_optimiser("lshade", box, key);

@@ -41,7 +41,7 @@ TEST(Movement, MembersThatStayedAddNothingToAnyBit) {
   std::vector<std::size_t> const winners{2, 3, 11, 19};
   auto after = before;
   for (std::size_t const i : winners) after.set_member(i, other.members().row(i), other.fitness[i]);
-  for (auto const norm : {MovementNorm::raw, MovementNorm::relative}) {
+  for (auto const norm : {MovementNorm::raw, MovementNorm::relative, MovementNorm::spread}) {
     auto const of_winners = movement_between(before, after, winners, box, norm);
     auto const of_all = moved(before, after, box, norm);
     EXPECT_EQ(of_winners.PC, of_all.PC);
@@ -64,7 +64,7 @@ TEST(Movement, RawIsTheRootMeanSquareOfTheSeedsEquation) {
 
 TEST(Movement, AtRestIsZero) {
   auto const population = random_population(1);
-  for (auto const norm : {MovementNorm::raw, MovementNorm::relative}) {
+  for (auto const norm : {MovementNorm::raw, MovementNorm::relative, MovementNorm::spread}) {
     auto const movement = moved(population, population, box, norm);
     EXPECT_EQ(movement.PC, 0.0);
     EXPECT_EQ(movement.FC, 0.0);
@@ -94,6 +94,27 @@ TEST(Movement, RelativeIgnoresAnOffsetOfFitness) {
   EXPECT_NEAR(shifted.FC, reference.FC, 1e-12);
 }
 
+TEST(Movement, SpreadKeepsItsBitsInWhateverUnitAndBox) {
+  auto const before = random_population(1);
+  auto const after = random_population(2);
+  auto const reference = moved(before, after, box, MovementNorm::spread);
+  auto const in_units = [](Population population) {
+    for (std::size_t i = 0; i < population.numbers.size(); ++i) population.numbers[i] *= i % 3 == 0 ? 0x1p30 : 0x1p-9;
+    return population;
+  };
+  auto const movement =
+      moved(in_units(before), in_units(after), testing::cube(3, -0x1p30, 0x1p31), MovementNorm::spread);
+  EXPECT_EQ(movement.PC, reference.PC);
+  EXPECT_EQ(movement.FC, reference.FC);
+  EXPECT_EQ(moved(scaled(before, 0x1p-40, 1.0), scaled(after, 0x1p-40, 1.0), box, MovementNorm::spread).PC,
+            reference.PC);
+}
+
+// independent populations: a step is the difference of two numbers of the same spread
+TEST(Movement, SpreadOfIndependentPopulationsIsNearRootTwo) {
+  EXPECT_NEAR(moved(random_population(1), random_population(2), box, MovementNorm::spread).PC, std::sqrt(2.0), 0.3);
+}
+
 TEST(Movement, RelativeFunctionChangeIsAtMostTwo) {
   Population before(4, 1);
   Population after(4, 1);
@@ -109,7 +130,7 @@ TEST(Movement, MembersWithoutFiniteFitnessHaveNoFunctionChange) {
   auto after = before;
   before.fitness[3] = std::numeric_limits<double>::infinity();
   after.fitness[4] = before.fitness[4] - 2.0;
-  for (auto const norm : {MovementNorm::raw, MovementNorm::relative}) {
+  for (auto const norm : {MovementNorm::raw, MovementNorm::relative, MovementNorm::spread}) {
     double const FC = moved(before, after, box, norm).FC;
     EXPECT_TRUE(std::isfinite(FC));
     EXPECT_GT(FC, 0.0);
