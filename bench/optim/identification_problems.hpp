@@ -1,10 +1,10 @@
 #pragma once
-// Identification problems as functions of a box 0 .. 1, drawn with their truth: criteria that least squares cannot take.
+// Identification problems as functions of a box 0 .. 1, drawn with their truth: criteria beyond least squares.
 //
-// huber      two links in a vertical plane, 6 base parameters, viscous and Coulomb friction of both joints (10), one
+// huber      two links in a vertical plane, 6 base parameters, viscous and Coulomb friction of the joints (10), one
 //            torque in ten an outlier, Huber's loss
-// friction   viscous, Coulomb, Stribeck (level, speed, exponent), presliding (level, damping, distance), offset (9), all
-//            of them searched, squares
+// friction   viscous, Coulomb, Stribeck (level, speed, exponent), presliding (level, damping, distance), offset (9),
+//            all of them searched, squares
 // loop       a joint under the engine's pd controller, positions simulated anew for every candidate: inertia, viscous,
 //            Coulomb, Stribeck (level, speed, exponent), gravity (7), squares of position
 // bodies     the second of the two links as a body of positive density: 10 numbers of the Cholesky factor of its

@@ -103,20 +103,6 @@ TEST(CmaDe, RefusesAStateThatItCannotBeIn) {
   }
 }
 
-TEST(CmaDe, SearchScalesWithTheBox) {
-  auto const plain = make();
-  auto const scaled = make_optimiser("cma_de", testing::cube(3, -0x1p21, 0x1p21), key);
-  run_to_generation(*plain, bumpy, 1200);
-  run_to_generation(
-      *scaled,
-      [](auto x) {
-        return bumpy(std::array{x[0] * 0x1p-20, x[1] * 0x1p-20, x[2] * 0x1p-20});
-      },
-      1200);
-  auto const expected = ask(*plain).numbers, numbers = ask(*scaled).numbers;
-  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], 0x1p20 * expected[i]);
-}
-
 // each kind of start has its landscape, and both together have both
 TEST(CmaDe, SolvesWhatEitherKindSolvesAlone) {
   auto const solved = [](std::string const& landscape, std::string const& starts) {

@@ -53,20 +53,6 @@ TEST(Cmaes, AsksTheSameForEveryIncreasingFunctionOfFitness) {
   EXPECT_EQ(candidates_after([](auto x) { return std::log(turned(x)); }), reference);
 }
 
-TEST(Cmaes, SearchScalesWithTheBox) {
-  auto const plain = make_optimiser("cmaes", box, key);
-  auto const scaled = make_optimiser("cmaes", testing::cube(3, -0x1p21, 0x1p21), key);
-  run_to_generation(*plain, turned, 40);
-  run_to_generation(
-      *scaled,
-      [](auto x) {
-        return turned(std::array{x[0] * 0x1p-20, x[1] * 0x1p-20, x[2] * 0x1p-20});
-      },
-      40);
-  for (std::size_t i = 0; i < plain->population().rows(); ++i)
-    for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(scaled->population()(i, j), 0x1p20 * plain->population()(i, j));
-}
-
 // a condition of 1e4 costs what learning it costs, in whatever direction its axes point
 TEST(Cmaes, TurningTheAxesDoesNotMatterMuch) {
   double const along = median_generations(straight, 1e-12);

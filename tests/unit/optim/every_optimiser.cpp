@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -243,6 +244,22 @@ TEST_P(EveryOptimiser, IgnoresScaleAndOffsetOfFitness) {
   EXPECT_EQ(after([](auto x) { return 0x1p40 * testing::bumpy(x); }), reference);
   EXPECT_EQ(after([](auto x) { return 0x1p-300 * testing::bumpy(x); }), reference);
   EXPECT_EQ(after([](auto x) { return testing::bumpy(x) + 4096.0; }), reference);
+}
+
+TEST_P(EveryOptimiser, ScalesWithTheBox) {
+  std::vector<Setting> settings;
+  if (GetParam() == "fade") settings.push_back({"norm", std::string("relative")});
+  auto const plain = make_optimiser(GetParam(), testing::cube(3, -2.0, 2.0), key, settings);
+  auto const scaled = make_optimiser(GetParam(), testing::cube(3, -0x1p21, 0x1p21), key, settings);
+  run_to_generation(*plain, testing::bumpy, 600);
+  run_to_generation(
+      *scaled,
+      [](auto x) {
+        return testing::bumpy(std::array{x[0] * 0x1p-20, x[1] * 0x1p-20, x[2] * 0x1p-20});
+      },
+      600);
+  auto const expected = ask(*plain).numbers, numbers = ask(*scaled).numbers;
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], 0x1p20 * expected[i]);
 }
 
 TEST_P(EveryOptimiser, RefusesAStateOfAnotherKindSizeOrKey) {
