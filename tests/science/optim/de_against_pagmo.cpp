@@ -80,7 +80,8 @@ void print(char const* name, Medians const& medians) {
 TEST(De, ConvergesAtThePaceOfPagmos) {
   constexpr int runs = 300;
   auto const pagmos = medians_of(pagmo_gaps(runs));
-  auto const ours = medians_of(gaps_of(make_linear_joint(), "de", {{"repair", std::string("random")}}, runs));
+  auto const ours = medians_of(
+      gaps_of(make_linear_joint(), "de", {{"population", std::int64_t{30}}, {"repair", std::string("random")}}, runs));
   print("pagmo", pagmos);
   print("ours", ours);
   for (std::size_t m = 0; m < milestones.size(); ++m) {

@@ -49,7 +49,7 @@ void expect_near(Medians const& ours, Medians const& prototype) {
 }
 
 TEST(DeOnTheLinearJoint, ReachesLeastSquaresWithinTheSeedsHundredGenerations) {
-  auto const medians = run_and_print("de", {});
+  auto const medians = run_and_print("de", {{"population", std::int64_t{30}}});
   EXPECT_LT(medians[3], 1e-9);
   expect_near(medians, {2.9e-2, 1.8e-3, 1.7e-6, 8e-12});
 }
@@ -63,7 +63,7 @@ TEST(FadeOnTheLinearJoint, ConvergesAtThePaceOfThePrototype) {
 
 // the reverse of the seed's table 4: least squares is the optimum, and plain DE comes closer to it
 TEST(FadeOnTheLinearJoint, IsSlowerThanPlainDe) {
-  auto const de = run_and_print("de", {});
+  auto const de = run_and_print("de", {{"population", std::int64_t{30}}});
   auto const fade = run_and_print("fade", {});
   auto const fade_narrow = run_and_print("fade", {narrow_F});
   EXPECT_LT(1e3 * de[3], fade[3]);

@@ -73,5 +73,12 @@ TEST(De, ReportsTheControlsOfTheJob) {
   EXPECT_GT(search->progress().PC, 0.0);
 }
 
+TEST(De, HasMoreMembersInMoreParameters) {
+  for (auto const& [dimension, members] : {std::pair{1, 30}, {3, 30}, {4, 40}, {60, 600}}) {
+    auto const bounds = testing::cube(static_cast<std::size_t>(dimension), -1.0, 1.0);
+    EXPECT_EQ(testing::make_optimiser("de", bounds, {1, 0})->batch_size(), static_cast<std::size_t>(members));
+  }
+}
+
 }  // namespace de_test
 }  // namespace torquescope
