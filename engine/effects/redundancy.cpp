@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -65,7 +66,7 @@ std::vector<Redundancy> find_redundancies(std::vector<Effect const*> const& term
     for (std::size_t k = 0; k < independent.size(); ++k)
       earlier.col(static_cast<Eigen::Index>(k)) = independent[k].values;
     Eigen::VectorXd factors(earlier.cols());
-    if (earlier.cols() > 0) factors = earlier.colPivHouseholderQr().solve(column.values);
+    if (earlier.cols() > 0) factors = solve_pivoted(earlier, column.values);
     double const rest = earlier.cols() > 0 ? (column.values - earlier * factors).norm() : column.values.norm();
     if (rest > collinear * column.values.norm()) {
       independent.push_back(column);

@@ -1,13 +1,11 @@
 #include "engine/excite/motion_quality.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -30,17 +28,17 @@ double angle_between(MatrixXd const& gram, std::vector<Index> const& one, std::v
   auto const rest = neither(one, other, gram.rows());
   MatrixXd left = gram(both, both);
   if (!rest.empty()) {
-    Eigen::LLT<MatrixXd> const root(gram(rest, rest));
-    if (root.info() != Eigen::Success) return 0.0;
-    MatrixXd const share = root.matrixL().solve(gram(rest, both));
+    auto const root = cholesky_of(gram(rest, rest));
+    if (!root) return 0.0;
+    MatrixXd const share = root->solve_lower(gram(rest, both));
     left -= share.transpose() * share;
   }
   auto const n = static_cast<Index>(one.size()), m = static_cast<Index>(other.size());
-  Eigen::LLT<MatrixXd> const a(left.topLeftCorner(n, n)), b(left.bottomRightCorner(m, m));
-  if (a.info() != Eigen::Success || b.info() != Eigen::Success) return 0.0;
-  MatrixXd const half = a.matrixL().solve(left.topRightCorner(n, m));
-  MatrixXd const cosines = b.matrixL().solve(half.transpose());
-  return std::acos(std::min(1.0, Eigen::JacobiSVD<MatrixXd>(cosines).singularValues()[0]));
+  auto const a = cholesky_of(left.topLeftCorner(n, n)), b = cholesky_of(left.bottomRightCorner(m, m));
+  if (!a || !b) return 0.0;
+  MatrixXd const half = a->solve_lower(left.topRightCorner(n, m));
+  MatrixXd const cosines = b->solve_lower(half.transpose());
+  return std::acos(std::min(1.0, singular_values(cosines)[0]));
 }
 
 }  // namespace
@@ -60,8 +58,7 @@ MotionQuality motion_quality(RowModel const& model, MotionSamples const& samples
   if (!(squares.minCoeff() > 0.0) || !squares.allFinite()) return {infinite, -infinite};
   Eigen::VectorXd const scale = squares.cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd const scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  Eigen::VectorXd const values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  Eigen::VectorXd const values = symmetric_eigenvalues(scaled);
   double const rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(model.size) * values.maxCoeff();
   if (values.minCoeff() <= rounding) return {infinite, -infinite};
   double const logarithms = values.array().log().sum() + squares.array().log().sum();

@@ -1,9 +1,9 @@
 #include "engine/inference/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/statistics/equal_blocks.hpp"
@@ -191,8 +191,8 @@ Evidence::UnseenStep Evidence::step_unseen(Candidate const& candidate, UnseenEvi
   OrthonormalGroup const& group = *candidate.group;
   // coefficients of the orthonormal columns are combinations of parameters: r parameters = coefficients
   Eigen::MatrixXd const to_parameters =
-      group.r.transpose() *
-      (group.r * group.r.transpose()).ldlt().solve(Eigen::MatrixXd::Identity(group.rank(), group.rank()));
+      group.r.transpose() * solve_semidefinite(group.r * group.r.transpose(),
+                                               Eigen::MatrixXd(Eigen::MatrixXd::Identity(group.rank(), group.rank())));
   CarryOver const over = carry_over(*candidate.effect);
   UnseenStep step;
   step.by_share = over == CarryOver::in_part;

@@ -1,9 +1,9 @@
 #include "engine/inference/left_out.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 
@@ -127,7 +127,7 @@ namespace {
 Eigen::MatrixXd fit_without(std::size_t f, FoldProducts const& gram, FoldProducts const& products) {
   Eigen::Index const k = products.whole.rows();
   Eigen::MatrixXd const seen = (1.0 + left_out_ridge) * Eigen::MatrixXd::Identity(k, k) - gram.left_out[f];
-  return seen.llt().solve(products.whole - products.left_out[f]);
+  return solve_positive(seen, Eigen::MatrixXd(products.whole - products.left_out[f]));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "engine/inference/left_out_gains.hpp"
 
-#include <Eigen/Cholesky>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/inference/decision_levels.hpp"
 
 namespace torquescope {
@@ -19,7 +19,10 @@ Eigen::MatrixXd seen_gram(Eigen::MatrixXd const& left_out) {
 LeftOutGains::LeftOutGains(FoldProducts const& gram, FoldProducts const& products) {
   for (std::size_t f = 0; f < gram.inside.size(); ++f) {
     Eigen::Index const k = gram.whole.rows();
-    Fit one{seen_gram(gram.left_out[f]).llt().solve(Eigen::MatrixXd::Identity(k, k)), gram.inside[f], {}, {}};
+    Fit one{solve_positive(seen_gram(gram.left_out[f]), Eigen::MatrixXd(Eigen::MatrixXd::Identity(k, k))),
+            gram.inside[f],
+            {},
+            {}};
     one.fit = one.inverse * (products.whole - products.left_out[f]);
     one.left = products.inside[f] - gram.inside[f] * one.fit;
     folds_.push_back(std::move(one));
@@ -46,7 +49,7 @@ std::vector<LeftOutGains::Beside> LeftOutGains::beside(std::size_t f, FoldProduc
     auto const own_u = u.middleCols(at, r);
     Eigen::MatrixXd const schur = seen_gram(one.left_out[f]) - outside.middleRows(at, r) * own_u;
     Eigen::MatrixXd const crossed = inside.middleRows(at, r) * own_u;
-    each.push_back({schur.llt().solve(seen.middleRows(at, r)), left.middleRows(at, r),
+    each.push_back({solve_positive(schur, Eigen::MatrixXd(seen.middleRows(at, r))), left.middleRows(at, r),
                     one.inside[f] + crossed + crossed.transpose() + own_u.transpose() * gram_u.middleCols(at, r)});
     at += r;
   }

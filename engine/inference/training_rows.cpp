@@ -1,8 +1,8 @@
 #include "engine/inference/training_rows.hpp"
 
-#include <Eigen/Cholesky>
 #include <utility>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/inference/law_forms.hpp"
@@ -71,9 +71,10 @@ void TrainingRows::stack(std::vector<Eigen::MatrixXd> const& forms) {
     all.block(rows.from, k, rows.size(), n_signals) = further_[i].signals;
     at += forms[i].cols();
   }
-  Eigen::LLT<Eigen::MatrixXd> const factor(gram);
+  auto const factor = cholesky_of(gram);
+  TORQUESCOPE_ENSURE(factor.has_value());
   to_basis_ = Eigen::MatrixXd::Zero(first_k, k);
-  to_basis_.leftCols(first_k) = factor.matrixU().solve(Eigen::MatrixXd::Identity(first_k, first_k));
+  to_basis_.leftCols(first_k) = factor->solve_upper(Eigen::MatrixXd::Identity(first_k, first_k));
   all.leftCols(first_k) = (all.leftCols(first_k) * to_basis_.leftCols(first_k)).eval();
   basis_ = all.leftCols(k);
   basis_and_signals_ = std::move(all);

@@ -1,11 +1,11 @@
 #include "engine/optim/covariance_adaptation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -118,9 +118,9 @@ bool CovarianceAdaptation::is_collapsed() const {
 }
 
 void CovarianceAdaptation::decompose() {
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const solver(covariance_);
-  axes_ = solver.eigenvectors();
-  lengths_ = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  auto const found = symmetric_axes(covariance_);
+  axes_ = found.vectors;
+  lengths_ = found.values.cwiseMax(0.0).cwiseSqrt();
 }
 
 std::vector<double> CovarianceAdaptation::numbers() const {

@@ -1,10 +1,10 @@
 #include "engine/pipeline/noise_weights.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -42,13 +42,13 @@ WanderOnRows NoiseWeights::wander_on(std::vector<Eigen::Index> const& kept_rows)
   if (!wanders()) return result;
   result.modes = modes_(kept_rows, Eigen::all);
   apply_rows(result.modes, kept_rows);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const squares(result.modes.transpose() * result.modes);
+  auto const squares = symmetric_axes(result.modes.transpose() * result.modes);
   // with W'W = V D^2 V': (I + W W')^(-1/2) = I - W V (1 - (1 + D^2)^(-1/2)) D^(-2) V' W'
-  Eigen::VectorXd const shrink = squares.eigenvalues().unaryExpr([](double square) {
+  Eigen::VectorXd const shrink = squares.values.unaryExpr([](double square) {
     double const root = std::sqrt(1.0 + std::max(0.0, square));
     return 1.0 / (root * (root + 1.0));  // the same without a difference of near numbers
   });
-  result.shrink = squares.eigenvectors() * shrink.asDiagonal() * squares.eigenvectors().transpose();
+  result.shrink = squares.vectors * shrink.asDiagonal() * squares.vectors.transpose();
   return result;
 }
 

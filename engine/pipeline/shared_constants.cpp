@@ -1,9 +1,9 @@
 #include "engine/pipeline/shared_constants.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/data/levels.hpp"
 
 namespace torquescope {
@@ -20,7 +20,7 @@ bool is_constant(Eigen::VectorXd const& column) {
 double fitted(ProcessedRecord const& prepared, std::vector<Eigen::Index> columns, Eigen::Index column) {
   columns.push_back(column);
   Eigen::MatrixXd const x = prepared.columns(Eigen::all, columns);
-  Eigen::VectorXd const theta = x.colPivHouseholderQr().solve(prepared.torque);
+  Eigen::VectorXd const theta = solve_pivoted(x, prepared.torque);
   return theta[theta.size() - 1];
 }
 

@@ -1,23 +1,23 @@
 #include "engine/problem/covariance_root.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
 Eigen::MatrixXd covariance_root(Eigen::MatrixXd const& covariance) {
   Eigen::VectorXd const error = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   Eigen::VectorXd const per_error = (error.array() > 0.0).select(error.cwiseInverse(), 0.0);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(per_error.asDiagonal() * covariance *
-                                                            per_error.asDiagonal());
-  return error.asDiagonal() * axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  auto const axes = symmetric_axes(per_error.asDiagonal() * covariance * per_error.asDiagonal());
+  return error.asDiagonal() * axes.vectors * axes.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 Eigen::MatrixXd largest_axes(Eigen::MatrixXd const& gram, double least_energy) {
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(gram);
+  auto const axes = symmetric_axes(gram);
   Eigen::Index k = 0;
-  while (k < gram.cols() && axes.eigenvalues()[gram.cols() - 1 - k] > least_energy) ++k;
-  return axes.eigenvectors().rightCols(k).rowwise().reverse();
+  while (k < gram.cols() && axes.values[gram.cols() - 1 - k] > least_energy) ++k;
+  return axes.vectors.rightCols(k).rowwise().reverse();
 }
 
 Eigen::MatrixXd largest_parts(Eigen::MatrixXd const& columns, double least) {

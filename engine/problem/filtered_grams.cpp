@@ -1,8 +1,9 @@
 #include "engine/problem/filtered_grams.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <optional>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -23,9 +24,9 @@ std::optional<Eigen::VectorXd> pooled_solution(std::vector<FilteredGram> const& 
   if (!(length.minCoeff() > 0.0)) return {};
   Eigen::VectorXd const scale = length.cwiseInverse();
   Eigen::MatrixXd const scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  Eigen::LLT<Eigen::MatrixXd> const root(scaled);
-  if (root.info() != Eigen::Success) return {};
-  Eigen::VectorXd const solution = scale.asDiagonal() * root.solve(scale.asDiagonal() * right);
+  auto const root = cholesky_of(scaled);
+  if (!root) return {};
+  Eigen::VectorXd const solution = scale.asDiagonal() * root->solve(Eigen::VectorXd(scale.asDiagonal() * right));
   if (!solution.allFinite()) return {};
   return solution;
 }

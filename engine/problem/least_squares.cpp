@@ -1,10 +1,10 @@
 #include "engine/problem/least_squares.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/problem/hac.hpp"
 #include "engine/problem/hac_bias.hpp"
 #include "engine/problem/regressor_health.hpp"
@@ -16,16 +16,12 @@ namespace {
 // QR of the weighted rows, reduced, with columns of length one: W^1/2 phi D^-1 = Q R
 struct ScaledQr {
   Eigen::VectorXd length;  // D
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  PivotedQr qr;
   Eigen::VectorXd torque;  // of the rows that the QR has seen
 };
 
 ScaledQr factorise(RegressionData const& data, Eigen::VectorXd length, ReducedRows&& reduced) {
-  ScaledQr factors;
-  factors.length = std::move(length);
-  factors.qr.setThreshold(identifiable_threshold);
-  factors.qr.compute(reduced.phi);
-  factors.torque = std::move(reduced.tau);
+  ScaledQr factors{std::move(length), PivotedQr(reduced.phi, identifiable_threshold), std::move(reduced.tau)};
   if (factors.qr.rank() < data.parameters()) throw not_identifiable(data);
   return factors;
 }
@@ -62,9 +58,10 @@ Eigen::MatrixXd inverse_information(RegressionData const& data, Eigen::VectorXd 
   auto const factors = factorise(data, roots(d));
   auto const count = data.parameters();
   // (R'R)^-1 = R^-1 R^-T, then undo the pivoting and the scaling
-  Eigen::MatrixXd const inverse_r =
-      factors.qr.matrixR().topRows(count).triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count));
-  Eigen::MatrixXd const unpivoted = factors.qr.colsPermutation() * inverse_r;
+  Eigen::MatrixXd const inverse_r = factors.qr.inverse_triangle();
+  Eigen::VectorXi const order = factors.qr.order();
+  Eigen::MatrixXd unpivoted(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) unpivoted.row(order[k]) = inverse_r.row(k);
   Eigen::MatrixXd const unscaled = factors.length.cwiseInverse().asDiagonal() * unpivoted;
   return unscaled * unscaled.transpose();
 }

@@ -1,12 +1,12 @@
 #include "engine/problem/position_factor.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/data/known_factors.hpp"
 #include "engine/data/levels.hpp"
 
@@ -111,9 +111,7 @@ class Trials {
   double torque() const { return tau_.norm(); }
 
  private:
-  Eigen::VectorXd residual(Eigen::MatrixXd const& phi) const {
-    return tau_ - phi * phi.colPivHouseholderQr().solve(tau_);
-  }
+  Eigen::VectorXd residual(Eigen::MatrixXd const& phi) const { return tau_ - phi * solve_pivoted(phi, tau_); }
 
   std::vector<JointState> at_;
   std::vector<Effect const*> telling_;

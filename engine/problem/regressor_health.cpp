@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/problem/row_reduction.hpp"
 
 namespace torquescope {
@@ -48,8 +48,7 @@ double condition(Eigen::VectorXd const& singular_values) {
 }
 
 // singular values and right vectors, from the R x R factor of phi = Q R
-using SquareSvd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>;
-SquareSvd right_svd(ReducedRows const& reduced) { return SquareSvd(triangular_factor(reduced), Eigen::ComputeFullV); }
+RightSingular right_svd(ReducedRows const& reduced) { return right_singular(triangular_factor(reduced)); }
 
 // columns that make up the weakest direction
 std::vector<std::size_t> weakest_members(Eigen::MatrixXd const& right_vectors) {
@@ -105,14 +104,14 @@ RegressorHealth regressor_health(RegressionData const& data, Reductions const& r
   }
   health.correlation = reductions.unit_columns.phi.transpose() * reductions.unit_columns.phi;
   auto const svd = right_svd(reductions.unit_columns);
-  health.condition_number = condition(svd.singularValues());
-  health.condition_number_raw = condition(right_svd(reductions.raw).singularValues());
+  health.condition_number = condition(svd.values);
+  health.condition_number_raw = condition(right_svd(reductions.raw).values);
   health.identifiable = health.condition_number * identifiable_threshold < 1.0;
 
   health.words =
       pair_words(data, health.correlation, worth_a_warning, "trust what both make together, neither value by itself; ");
   if (health.words.empty() && health.condition_number > reported_condition) {
-    auto const members = weakest_members(svd.matrixV());
+    auto const members = weakest_members(svd.vectors);
     health.words = fmt::format(
         "{} are nearly dependent (condition number {:.0f}): trust what they make together, no value by itself; {}",
         listed(names_of(data, members)), health.condition_number, advice(data, members));
@@ -134,7 +133,7 @@ Error not_identifiable(RegressionData const& data) {
   std::vector<std::size_t> silent;
   for (Eigen::Index r = 0; r < lengths.size(); ++r)
     if (lengths[r] == 0.0) silent.push_back(static_cast<std::size_t>(r));
-  auto const members = silent.empty() ? weakest_members(right_svd(reductions_of(data).unit_columns).matrixV()) : silent;
+  auto const members = silent.empty() ? weakest_members(right_svd(reductions_of(data).unit_columns).vectors) : silent;
   auto const names = listed(names_of(data, members));
   problem.what = silent.empty() ? "the recording cannot tell " + names + " apart: they are proportional in this motion"
                                 : "the recording never excites " + names + ": the regressor is zero there";

@@ -1,9 +1,9 @@
 #include "engine/problem/row_reduction.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -35,8 +35,7 @@ ReducedRows reduce_rows(RegressionData const& data, RowScaling const& scaling, E
     stack.topRows(triangle.rows()) = triangle;
     stack.bottomLeftCorner(block_rows, R) = scaled_rows(data, scaling, first, block_rows);
     stack.bottomRightCorner(block_rows, 1) = scaled_torque(data, scaling, first, block_rows);
-    Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> const qr(stack);  // in place
-    triangle = stack.topRows(std::min(stack.rows(), R + 1)).triangularView<Eigen::Upper>();
+    triangle = triangle_in_place(stack);
   }
 
   // a row below the R-th holds no regressor, only torque that nothing can fit
@@ -60,8 +59,8 @@ Reductions reductions_of(RegressionData const& data) {
 }
 
 Eigen::MatrixXd triangular_factor(ReducedRows const& reduced) {
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(reduced.phi);
-  return qr.matrixQR().topRows(reduced.phi.cols()).triangularView<Eigen::Upper>();
+  TORQUESCOPE_EXPECT(reduced.phi.rows() >= reduced.phi.cols());
+  return triangle_of(reduced.phi);
 }
 
 Eigen::MatrixXd triangular_factor(RegressionData const& data, RowScaling const& scaling, Eigen::Index block_rows) {

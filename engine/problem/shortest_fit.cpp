@@ -1,6 +1,6 @@
 #include "engine/problem/shortest_fit.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -11,13 +11,12 @@ Eigen::VectorXd shortest_fit(std::vector<FilteredGram> const& grams, Eigen::Inde
   // a column of nothing has length one: it gets no value
   Eigen::VectorXd const length = pooled.information.diagonal().cwiseSqrt();
   Eigen::VectorXd const scale = (length.array() > 0.0).select(length.cwiseInverse(), 1.0);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const axes(scale.asDiagonal() * pooled.information *
-                                                            scale.asDiagonal());
-  Eigen::VectorXd const& size = axes.eigenvalues();
-  Eigen::VectorXd along = axes.eigenvectors().transpose() * scale.cwiseProduct(pooled.right);
+  auto const axes = symmetric_axes(scale.asDiagonal() * pooled.information * scale.asDiagonal());
+  Eigen::VectorXd const& size = axes.values;
+  Eigen::VectorXd along = axes.vectors.transpose() * scale.cwiseProduct(pooled.right);
   for (Eigen::Index k = 0; k < along.size(); ++k)
     along[k] = size[k] > in_the_rows * size[size.size() - 1] ? along[k] / size[k] : 0.0;
-  return scale.cwiseProduct(axes.eigenvectors() * along);
+  return scale.cwiseProduct(axes.vectors * along);
 }
 
 }  // namespace torquescope

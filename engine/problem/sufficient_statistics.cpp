@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "kernels/aligned_doubles.hpp"
 #include "kernels/gram.hpp"
 
@@ -65,9 +64,9 @@ std::optional<RowMajor> root_of(Eigen::MatrixXd const& products) {
   Eigen::VectorXd const length = products.diagonal().cwiseSqrt();
   if (!length.allFinite() || !(length.array() > 0.0).all()) return {};
   Eigen::VectorXd const inverse = length.cwiseInverse();
-  Eigen::LLT<Eigen::MatrixXd> const cholesky(inverse.asDiagonal() * products * inverse.asDiagonal());
-  if (cholesky.info() != Eigen::Success) return {};
-  return RowMajor(Eigen::MatrixXd(cholesky.matrixU()) * length.asDiagonal());
+  auto const cholesky = cholesky_of(inverse.asDiagonal() * products * inverse.asDiagonal());
+  if (!cholesky) return {};
+  return RowMajor(cholesky->lower().transpose() * length.asDiagonal());
 }
 
 // (root' root)^-1 right
@@ -97,8 +96,7 @@ void multiply(RowMajor const& left, RowMajor const& right, RowMajor& high, RowMa
 double scaled_condition(RowMajor const& root) {
   Eigen::VectorXd const inverse = root.colwise().norm().cwiseInverse();
   Eigen::MatrixXd const scaled = root * inverse.asDiagonal();
-  Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> const svd(scaled);  // square already
-  auto const& values = svd.singularValues();
+  Eigen::VectorXd const values = singular_values_of_square(scaled);
   return values[0] / values[values.size() - 1];
 }
 

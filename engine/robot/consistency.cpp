@@ -1,12 +1,11 @@
 #include "engine/robot/consistency.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/robot/pseudo_inertia.hpp"
 
 namespace torquescope {
@@ -179,7 +178,7 @@ class ClosestBodies {
     rows << at.residual, root * MatrixXd::Identity(n, n);
     VectorXd right(p + n);
     right << -residual(), -root * at.divergence;
-    return Eigen::ColPivHouseholderQR<MatrixXd>(rows).solve(right);
+    return solve_pivoted(rows, right);
   }
 
   // Steps at one weight until the squared decrement is below `least`, or rounding alone is left of it. The cost is
@@ -226,9 +225,9 @@ ConsistentParameters consistent_parameters(SerialChain const& chain, BaseParamet
 }
 
 MatrixXd information_root(MatrixXd const& covariance) {
-  Eigen::LLT<MatrixXd> const factor(covariance);
-  TORQUESCOPE_EXPECT(factor.info() == Eigen::Success);
-  return factor.matrixL().solve(MatrixXd::Identity(covariance.rows(), covariance.cols()));
+  auto const factor = cholesky_of(covariance);
+  TORQUESCOPE_EXPECT(factor.has_value());
+  return factor->solve_lower(MatrixXd::Identity(covariance.rows(), covariance.cols()));
 }
 
 }  // namespace torquescope

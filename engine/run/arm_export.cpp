@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
 #include "engine/robot/consistency.hpp"
 #include "engine/robot/pseudo_inertia.hpp"
@@ -55,14 +54,14 @@ Eigen::MatrixXd base_root(Eigen::MatrixXd const& information, Index p) {
   Eigen::MatrixXd schur = unit.topLeftCorner(p, p);
   if (others > 0)
     schur -= unit.topRightCorner(p, others) *
-             unit.bottomRightCorner(others, others).llt().solve(unit.bottomLeftCorner(others, p));
-  Eigen::LLT<Eigen::MatrixXd> const factor(schur);
-  validate(factor.info() == Eigen::Success, [] {
+             solve_positive(unit.bottomRightCorner(others, others), Eigen::MatrixXd(unit.bottomLeftCorner(others, p)));
+  auto const factor = cholesky_of(schur);
+  validate(factor.has_value(), [] {
     return Problem{.code = ExitCode::bad_data,
                    .what = "the recordings of this result cannot tell its base parameters apart",
                    .help = "record a motion that moves every joint, and identify again"};
   });
-  return Eigen::MatrixXd(factor.matrixU()) * lengths.head(p).asDiagonal();
+  return factor->lower().transpose() * lengths.head(p).asDiagonal();
 }
 
 std::string listed(std::vector<std::string> const& names) { return fmt::format("{}", fmt::join(names, ", ")); }
@@ -89,8 +88,8 @@ std::vector<std::string> words_of(BaseParameters const& base) {
 // of zero thickness: nothing is near it
 bool is_flat(LinkInertia const& link) {
   constexpr double rounding = 1e-12;
-  Eigen::SelfAdjointEigenSolver<PseudoInertia> const solver(pseudo_inertia(link.vector()), Eigen::EigenvaluesOnly);
-  return !(solver.eigenvalues().minCoeff() > rounding * solver.eigenvalues().maxCoeff());
+  Eigen::VectorXd const sizes = symmetric_eigenvalues(pseudo_inertia(link.vector()));
+  return !(sizes.minCoeff() > rounding * sizes.maxCoeff());
 }
 
 InertiaPrior prior_of_file(SerialChain const& chain) {

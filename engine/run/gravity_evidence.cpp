@@ -1,7 +1,6 @@
 #include "engine/run/gravity_evidence.hpp"
 
-#include <Eigen/QR>
-
+#include "engine/base/dense_solvers.hpp"
 #include "engine/effects/regressor.hpp"
 #include "engine/problem/regression_data.hpp"
 
@@ -14,7 +13,7 @@ GravityEvidence measure_gravity(Recording const& recording, FilterOptions const&
     return make_regression_data({recording}, filter, regressor, Section{"filter", {}, {}});
   };
   auto const residual_energy = [](Eigen::MatrixXd const& columns, Eigen::VectorXd const& torque) {
-    Eigen::VectorXd const parameters = columns.colPivHouseholderQr().solve(torque);
+    Eigen::VectorXd const parameters = solve_pivoted(columns, torque);
     return (torque - columns * parameters).squaredNorm();
   };
   GravityEvidence evidence;

@@ -1,10 +1,10 @@
 #include "engine/search/law_discrepancy.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -28,8 +28,7 @@ class BoundedShift {
  private:
   static Eigen::MatrixXd triangle_of(Eigen::MatrixXd const& columns) {
     TORQUESCOPE_EXPECT(columns.rows() >= columns.cols());
-    Eigen::HouseholderQR<Eigen::MatrixXd> const qr(columns);
-    return qr.matrixQR().topRows(columns.cols()).triangularView<Eigen::Upper>();
+    return torquescope::triangle_of(columns);
   }
 
   // towards one bound: without the others' it is the first try, theirs can only shorten it

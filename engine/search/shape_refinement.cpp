@@ -1,6 +1,5 @@
 #include "engine/search/shape_refinement.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/search/shapes_together.hpp"
 
 namespace torquescope {
@@ -149,7 +149,7 @@ class Refinement {
     Eigen::VectorXd const left = without_nuisance(mismatch_) - jacobian.leftCols(linear) * best_.parameters;
     Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1.0 + damping;
-    Eigen::VectorXd const move = normal.ldlt().solve(jacobian.transpose() * left);
+    Eigen::VectorXd const move = solve_semidefinite(normal, Eigen::VectorXd(jacobian.transpose() * left));
     std::vector<double> next = best_.shape;
     for (std::size_t k = 0; k < d; ++k) {
       double const unit = to_unit(ranges_[k], best_.shape[k]);

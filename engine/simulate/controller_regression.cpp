@@ -1,10 +1,10 @@
 #include "engine/simulate/controller_regression.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/simulate/loop_law.hpp"
 
 namespace torquescope {
@@ -67,22 +67,17 @@ ControllerRegression regress_controller(LoopSignals const& s, ControllerColumns 
   for (auto& one : length) one = one > 0.0 ? one : 1.0;
   Eigen::MatrixXd const scaled = x * length.cwiseInverse().asDiagonal();
   // columns of no use (a reference that never accelerates) get 0, not a wild number
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-12);
-  qr.compute(scaled);
+  PivotedQr const qr(scaled, 1e-12);
 
   ControllerRegression result{columns, qr.solve(u), {}, {}, 0.0};
   result.residual = u - scaled * result.coefficients;
   result.sse = result.residual.squaredNorm();
   Eigen::Index const rank = qr.rank();
-  Eigen::MatrixXd const inverse = qr.matrixR()
-                                      .topLeftCorner(rank, rank)
-                                      .triangularView<Eigen::Upper>()
-                                      .solve(Eigen::MatrixXd::Identity(rank, rank));
+  Eigen::MatrixXd const inverse = qr.inverse_triangle();
+  Eigen::VectorXi const order = qr.order();
   double const variance = result.sse / static_cast<double>(x.rows() - rank);
   Eigen::VectorXd errors = Eigen::VectorXd::Constant(columns.count(), std::numeric_limits<double>::infinity());
-  for (Eigen::Index i = 0; i < rank; ++i)
-    errors[qr.colsPermutation().indices()[i]] = std::sqrt(variance) * inverse.row(i).norm();
+  for (Eigen::Index i = 0; i < rank; ++i) errors[order[i]] = std::sqrt(variance) * inverse.row(i).norm();
   result.coefficients.array() /= length.array();
   result.errors = errors.cwiseQuotient(length);
   return result;

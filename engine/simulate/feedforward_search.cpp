@@ -1,9 +1,9 @@
 #include "engine/simulate/feedforward_search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/simulate/autoregression.hpp"
 
 namespace torquescope {
@@ -35,11 +35,8 @@ class Projection {
   Projection(LoopSignals const& s, ControllerColumns const& columns, SampleRows const& rows)
       : reference_(s.reference), rows_(rows) {
     Eigen::MatrixXd const x = controller_regressors(s, columns, rows);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-12);
     Eigen::RowVectorXd const per_length = x.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-    qr.compute(x * per_length.asDiagonal());
-    basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), qr.rank());
+    basis_ = PivotedQr(x * per_length.asDiagonal(), 1e-12).basis();
     Eigen::VectorXd const u = picked(s.torque, rows);
     residual_ = u - basis_ * (basis_.transpose() * u);
   }

@@ -1,9 +1,9 @@
 #include "engine/simulate/orthogonal_noise.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "engine/simulate/noise.hpp"
 
 namespace torquescope {
@@ -17,9 +17,7 @@ Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd phi, double mse, RandomKey cons
   // columns of a common size, so that the rank does not depend on units
   for (auto column : phi.colwise())
     if (column.norm() > 0.0) column.normalize();
-  Eigen::ColPivHouseholderQR<Eigen::Ref<Eigen::MatrixXd>> const qr(phi);  // in place
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, qr.rank());
-  basis.applyOnTheLeft(qr.householderQ());
+  Eigen::MatrixXd const basis = basis_in_place(phi);
 
   // twice: the second pass removes what the rounding of the first left
   for (int pass = 0; pass < 2; ++pass) noise -= basis * (basis.transpose() * noise).eval();

@@ -1,11 +1,11 @@
 #include "engine/statistics/bounded_projection.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 #include "kernels/column_products.hpp"
 
 namespace torquescope {
@@ -18,7 +18,7 @@ BoundedGain solve_subset(Eigen::MatrixXd const& r, Eigen::VectorXd const& c, std
   BoundedGain result{0.0, Eigen::VectorXd::Zero(r.cols())};
   if (chosen.empty()) return result;
   Eigen::MatrixXd const part = r(Eigen::all, chosen);
-  Eigen::VectorXd const theta = part.completeOrthogonalDecomposition().solve(c);
+  Eigen::VectorXd const theta = solve_shortest(part, c);
   result.parameters(chosen) = theta;
   result.gain = c.squaredNorm() - (c - part * theta).squaredNorm();
   return result;

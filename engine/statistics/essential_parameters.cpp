@@ -1,12 +1,12 @@
 #include "engine/statistics/essential_parameters.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -30,15 +30,14 @@ std::optional<Fit> fit_of(MatrixXd const& gram, std::vector<Index> const& kept, 
   if (n > 0 && !(lengths.minCoeff() > 0.0)) return std::nullopt;
   VectorXd const scale = lengths.cwiseInverse();
   MatrixXd const unit = scale.asDiagonal() * gram(kept, kept) * scale.asDiagonal();
-  Eigen::LLT<MatrixXd> const factor(unit);
-  if (n > 0 && (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() < dependent))
-    return std::nullopt;
+  auto const factor = cholesky_of(unit);
+  if (!factor || (n > 0 && factor->lower().diagonal().cwiseAbs2().minCoeff() < dependent)) return std::nullopt;
   VectorXd const right = scale.cwiseProduct(gram(kept, torque));
-  VectorXd const solved = factor.solve(right);
+  VectorXd const solved = factor->solve(right);
   Fit fit;
   fit.residual_energy = std::max(0.0, gram(torque, torque) - solved.dot(right));
   double const variance = fit.residual_energy / static_cast<double>(rows - n);
-  MatrixXd const inverse = factor.solve(MatrixXd::Identity(n, n));
+  MatrixXd const inverse = factor->solve(MatrixXd(MatrixXd::Identity(n, n)));
   fit.values = scale.cwiseProduct(solved);
   fit.errors = scale.cwiseProduct((variance * inverse.diagonal()).cwiseSqrt());
   return fit;

@@ -1,11 +1,11 @@
 #include "engine/statistics/gram_identifiability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -62,14 +62,14 @@ GramIdentifiability gram_identifiability(MatrixXd const& gram, VectorXd const& p
       Index const a = columns[static_cast<std::size_t>(i)], b = columns[static_cast<std::size_t>(j)];
       scaled(i, j) = gram(a, b) / std::sqrt(gram(a, a) * gram(b, b));
     }
-  Eigen::SelfAdjointEigenSolver<MatrixXd> const axes(scaled);
-  double const largest = axes.eigenvalues()[n - 1], zero = 1e-15 * static_cast<double>(n) * largest;  // rounding
+  auto const axes = symmetric_axes(scaled);
+  double const largest = axes.values[n - 1], zero = 1e-15 * static_cast<double>(n) * largest;  // rounding
   // what each direction adds to each variance, over the whole of it; strong directions do not count
   MatrixXd shares(n, n);
   VectorXd weak = VectorXd::Zero(n);
   for (Index k = 0; k < n; ++k) {
-    double const eigenvalue = std::max(axes.eigenvalues()[k], zero);
-    shares.col(k) = axes.eigenvectors().col(k).cwiseAbs2() / eigenvalue;
+    double const eigenvalue = std::max(axes.values[k], zero);
+    shares.col(k) = axes.vectors.col(k).cwiseAbs2() / eigenvalue;
     weak[k] = std::sqrt(largest / eigenvalue) > weak_condition_index ? 1.0 : 0.0;
   }
   for (Index j = 0; j < n; ++j) shares.row(j) /= shares.row(j).sum();
@@ -85,7 +85,7 @@ GramIdentifiability gram_identifiability(MatrixXd const& gram, VectorXd const& p
   found.groups = connected(members, (shares.array() > 0.1 * shared_variance).select(shares, 0.0));
   for (auto& group : found.groups)
     for (auto& member : group) member = columns[static_cast<std::size_t>(member)];
-  double const least = axes.eigenvalues()[0];
+  double const least = axes.values[0];
   found.condition = least > zero ? std::sqrt(largest / least) : std::numeric_limits<double>::infinity();
   return found;
 }

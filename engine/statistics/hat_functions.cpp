@@ -1,8 +1,9 @@
 #include "engine/statistics/hat_functions.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
+
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 namespace {
@@ -25,7 +26,7 @@ Signals what_is_left(Signals const& signals, Eigen::MatrixXd const& columns) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
   normal.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
   normal.diagonal().array() += ridge * normal.trace();
-  return signals - columns * normal.selfadjointView<Eigen::Lower>().ldlt().solve(columns.transpose() * signals);
+  return signals - columns * solve_semidefinite(normal, Signals(columns.transpose() * signals));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "engine/statistics/scaled_solution.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <vector>
 
 #include "engine/base/contract.hpp"
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope {
 
@@ -13,7 +13,7 @@ Eigen::MatrixXd solve_scaled(Eigen::MatrixXd columns, Eigen::Ref<Eigen::MatrixXd
   Eigen::VectorXd const per_length =
       columns.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? 1.0 / one : 1.0; });
   columns *= per_length.asDiagonal();
-  return per_length.asDiagonal() * Eigen::MatrixXd(columns.completeOrthogonalDecomposition().solve(signals));
+  return per_length.asDiagonal() * solve_shortest(columns, Eigen::MatrixXd(signals));
 }
 
 Eigen::VectorXd beside_columns(Eigen::MatrixXd const& columns, Eigen::VectorXd const& signal) {
@@ -53,7 +53,7 @@ class HeldSolution {
     }
     if (free.empty()) return;
     Eigen::MatrixXd const part = r_(Eigen::all, free);
-    Eigen::VectorXd const solved = part.completeOrthogonalDecomposition().solve(left);
+    Eigen::VectorXd const solved = solve_shortest(part, left);
     values_(free) = solved;
   }
 
@@ -105,15 +105,16 @@ Eigen::MatrixXd solve_scaled(Eigen::MatrixXd const& columns, Eigen::Ref<Eigen::M
   auto const is_allowed = [&](auto const& one) {
     return (one.array() >= bounds.lower.array()).all() && (one.array() <= bounds.upper.array()).all();
   };
+  std::vector<Eigen::Index> beyond;
+  for (Eigen::Index i = 0; i < found.cols(); ++i)
+    if (!is_allowed(found.col(i))) beyond.push_back(i);
+  if (beyond.empty()) return found;
   Eigen::VectorXd const length = columns.colwise().norm().unaryExpr([](double one) { return one > 0.0 ? one : 1.0; });
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(columns * length.cwiseInverse().asDiagonal());
-  Eigen::Index const k = std::min(columns.rows(), columns.cols());
-  Eigen::MatrixXd const r = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
+  auto const [r, c] = qr_factors(columns * length.cwiseInverse().asDiagonal(), signals(Eigen::all, beyond));
   CoefficientBounds const scaled{bounds.lower.cwiseProduct(length), bounds.upper.cwiseProduct(length)};
-  for (Eigen::Index i = 0; i < found.cols(); ++i) {
-    if (is_allowed(found.col(i))) continue;
-    Eigen::VectorXd const c = (qr.householderQ().adjoint() * signals.col(i)).head(k);
-    found.col(i) = HeldSolution(r, c, scaled).found().cwiseQuotient(length);
+  for (std::size_t k = 0; k < beyond.size(); ++k) {
+    Eigen::VectorXd const own = c.col(static_cast<Eigen::Index>(k));
+    found.col(beyond[k]) = HeldSolution(r, own, scaled).found().cwiseQuotient(length);
   }
   return found;
 }

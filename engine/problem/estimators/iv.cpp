@@ -8,10 +8,10 @@
 // Errors     Error 65 without instruments, and when they do not tell the parameters apart
 // Source     Janot, Vandanjon, Gautier 2014, doi:10.1109/TCST.2013.2246163; HAC errors of P's scores as of Phi's
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/regressor_health.hpp"
@@ -49,15 +49,9 @@ Error no_instruments() {
 Eigen::MatrixXd projected(Eigen::MatrixXd const& phi, Eigen::MatrixXd const& instruments, RegressionData const& data) {
   Eigen::VectorXd length = instruments.colwise().norm();
   for (auto& one : length) one = one > 0.0 ? one : 1.0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(identifiable_threshold);
-  qr.compute(instruments * length.cwiseInverse().asDiagonal());
+  PivotedQr const qr(instruments * length.cwiseInverse().asDiagonal(), identifiable_threshold);
   if (qr.rank() < phi.cols()) throw not_identifiable(data);
-  Eigen::MatrixXd coordinates = phi;
-  coordinates.applyOnTheLeft(qr.householderQ().adjoint());
-  coordinates.bottomRows(phi.rows() - phi.cols()).setZero();
-  coordinates.applyOnTheLeft(qr.householderQ());
-  return coordinates;
+  return qr.projected(phi, phi.cols());
 }
 
 LeastSquaresFit fit_iv(RegressionData const& data, IvOptions const& options) {
