@@ -81,12 +81,6 @@ MatrixXd triangle_of(MatrixXd const& columns) {
   return qr.matrixQR().topRows(std::min(columns.rows(), columns.cols())).triangularView<Eigen::Upper>();
 }
 
-// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is a view, and what it looks at is changed
-MatrixXd triangle_in_place(Eigen::Ref<MatrixXd> columns) {
-  Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> const qr(columns);
-  return columns.topRows(std::min(columns.rows(), columns.cols())).triangularView<Eigen::Upper>();
-}
-
 struct PivotedQr::Factors {
   Eigen::ColPivHouseholderQR<MatrixXd> qr;
 };
@@ -123,9 +117,8 @@ MatrixXd PivotedQr::projected(MatrixXd signals, Index dimensions) const {
   return signals;
 }
 
-// NOLINTNEXTLINE(performance-unnecessary-value-param): as above
-MatrixXd basis_in_place(Eigen::Ref<MatrixXd> columns) {
-  Eigen::ColPivHouseholderQR<Eigen::Ref<MatrixXd>> const qr(columns);
+MatrixXd basis_of(MatrixXd const& columns) {
+  Eigen::ColPivHouseholderQR<MatrixXd> const qr(columns);
   MatrixXd basis = MatrixXd::Identity(columns.rows(), qr.rank());
   basis.applyOnTheLeft(qr.householderQ());
   return basis;

@@ -50,8 +50,6 @@ struct QrFactors {
 };
 QrFactors qr_factors(Eigen::MatrixXd const& columns, Eigen::MatrixXd const& right);
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd const& columns);
-// in the memory of columns, which then hold nothing of use
-Eigen::MatrixXd triangle_in_place(Eigen::Ref<Eigen::MatrixXd> columns);
 
 // columns P = Q R with pivoting; what is below the threshold, of the largest pivot, is dependent
 class PivotedQr {
@@ -72,8 +70,8 @@ class PivotedQr {
   struct Factors;
   std::unique_ptr<Factors> factors_;
 };
-// orthonormal, of the columns' span, in their memory; the threshold is Eigen's own
-Eigen::MatrixXd basis_in_place(Eigen::Ref<Eigen::MatrixXd> columns);
+// the same with Eigen's own threshold
+Eigen::MatrixXd basis_of(Eigen::MatrixXd const& columns);
 
 // square = vectors diag(values) vectors', smallest first, of the lower triangle
 struct SymmetricAxes {

@@ -35,7 +35,7 @@ ReducedRows reduce_rows(RegressionData const& data, RowScaling const& scaling, E
     stack.topRows(triangle.rows()) = triangle;
     stack.bottomLeftCorner(block_rows, R) = scaled_rows(data, scaling, first, block_rows);
     stack.bottomRightCorner(block_rows, 1) = scaled_torque(data, scaling, first, block_rows);
-    triangle = triangle_in_place(stack);
+    triangle = triangle_of(stack);
   }
 
   // a row below the R-th holds no regressor, only torque that nothing can fit

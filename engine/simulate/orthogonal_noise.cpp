@@ -17,7 +17,7 @@ Eigen::VectorXd orthogonal_noise(Eigen::MatrixXd phi, double mse, RandomKey cons
   // columns of a common size, so that the rank does not depend on units
   for (auto column : phi.colwise())
     if (column.norm() > 0.0) column.normalize();
-  Eigen::MatrixXd const basis = basis_in_place(phi);
+  Eigen::MatrixXd const basis = basis_of(phi);
 
   // twice: the second pass removes what the rounding of the first left
   for (int pass = 0; pass < 2; ++pass) noise -= basis * (basis.transpose() * noise).eval();
