@@ -12,17 +12,12 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/fused-inl.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
 
-using D = hn::CappedTag<double, n_lanes>;
-using V = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-inline constexpr std::size_t n_vectors = n_lanes / vector_lanes;
 // 4 x 4 sums of AVX-512 fill half of its registers; AVX2 takes two vectors for a sum and has half of the registers
 inline constexpr std::size_t tile = n_vectors == 1 ? 4 : 2;
 

@@ -13,23 +13,17 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "kernels/fused-inl.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
 
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
 using Bits = hn::RebindToSigned<D>;
-inline constexpr D d;
 inline constexpr Bits bits;
-inline constexpr std::size_t lanes = hn::MaxLanes(d);
 
 // added to |n| < 2^51 it leaves the nearest integer in the last bits
 inline constexpr double round_to_integer = 0x1.8p52;
-
-HWY_INLINE V set(double value) { return hn::Set(d, value); }
 
 // coefficients[0] + z (coefficients[1] + z (...))
 template <std::size_t n>
@@ -217,16 +211,16 @@ HWY_INLINE CosineSine cosine_sine_of(V factor, V x) {
 template <class Function>
 HWY_INLINE void for_each_vector(double const* x, std::size_t n, Function const& function) {
   std::size_t i = 0;
-  for (; i + lanes <= n; i += lanes) function(hn::LoadU(d, x + i), i, lanes);
+  for (; i + vector_lanes <= n; i += vector_lanes) function(hn::LoadU(d, x + i), i, vector_lanes);
   if (i == n) return;
-  double padded[lanes] = {};
+  double padded[vector_lanes] = {};
   std::copy_n(x + i, n - i, padded);
   function(hn::LoadU(d, padded), i, n - i);
 }
 
 HWY_INLINE void store(V value, std::size_t count, double* out) {
-  if (count == lanes) return hn::StoreU(value, d, out);
-  double padded[lanes];
+  if (count == vector_lanes) return hn::StoreU(value, d, out);
+  double padded[vector_lanes];
   hn::StoreU(value, d, padded);
   std::copy_n(padded, count, out);
 }

@@ -12,7 +12,7 @@
 #define HWY_TARGET_INCLUDE "kernels/gram.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "kernels/fused-inl.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 #ifndef TORQUESCOPE_KERNELS_GRAM_CHUNK
 #define TORQUESCOPE_KERNELS_GRAM_CHUNK
@@ -26,11 +26,6 @@ inline constexpr std::size_t chunk_samples = chunk_tiles * tile_samples;
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 
-using D = hn::CappedTag<double, n_lanes>;
-using Vector = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-inline constexpr std::size_t vectors_of_lanes = n_lanes / vector_lanes;
 // rows of a square of products held in registers: 16 of 32, or 8 of 16
 inline constexpr std::size_t square = vector_lanes == n_lanes ? 4 : 2;
 
@@ -42,26 +37,26 @@ HWY_INLINE void add_square(double const* HWY_RESTRICT chunk, std::size_t n_rows,
     row_i[k] = std::min(first_i + k, n_rows - 1) * tile_samples;
     row_j[k] = std::min(first_j + k, n_rows - 1) * tile_samples;
   }
-  Vector sum[square][square][vectors_of_lanes];
+  V sum[square][square][n_vectors];
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < square; ++i)
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < square; ++j)
 #pragma GCC unroll 4
-      for (std::size_t v = 0; v < vectors_of_lanes; ++v)
+      for (std::size_t v = 0; v < n_vectors; ++v)
         sum[i][j][v] = hn::LoadU(d, lanes + (i * square + j) * n_lanes + v * vector_lanes);
 
   for (std::size_t tile = 0; tile < chunk_tiles; ++tile, chunk += n_rows * tile_samples) {
     for (std::size_t sample = 0; sample < tile_samples; sample += n_lanes) {
 #pragma GCC unroll 4
-      for (std::size_t v = 0; v < vectors_of_lanes; ++v) {
+      for (std::size_t v = 0; v < n_vectors; ++v) {
         double const* const from = chunk + sample + v * vector_lanes;
-        Vector right[square];
+        V right[square];
 #pragma GCC unroll 4
         for (std::size_t j = 0; j < square; ++j) right[j] = hn::LoadU(d, from + row_j[j]);
 #pragma GCC unroll 4
         for (std::size_t i = 0; i < square; ++i) {
-          Vector const left = hn::LoadU(d, from + row_i[i]);
+          V const left = hn::LoadU(d, from + row_i[i]);
 #pragma GCC unroll 4
           for (std::size_t j = 0; j < square; ++j) sum[i][j][v] = fused_mul_add(left, right[j], sum[i][j][v]);
         }
@@ -74,7 +69,7 @@ HWY_INLINE void add_square(double const* HWY_RESTRICT chunk, std::size_t n_rows,
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < square; ++j)
 #pragma GCC unroll 4
-      for (std::size_t v = 0; v < vectors_of_lanes; ++v)
+      for (std::size_t v = 0; v < n_vectors; ++v)
         hn::StoreU(sum[i][j][v], d, lanes + (i * square + j) * n_lanes + v * vector_lanes);
 }
 
@@ -92,7 +87,7 @@ inline constexpr std::size_t n_together = 4;
 static_assert(tile_samples % (n_together * vector_lanes) == 0);
 
 struct Together {
-  Vector part[n_together];
+  V part[n_together];
 
   HWY_INLINE explicit Together(double const* from) {
 #pragma GCC unroll 4

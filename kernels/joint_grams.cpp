@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "kernels/joint_grams.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "kernels/fused-inl.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 #ifndef TORQUESCOPE_KERNELS_JOINT_GRAMS_PAIRS
 #define TORQUESCOPE_KERNELS_JOINT_GRAMS_PAIRS
@@ -26,10 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
 
-using D = hn::CappedTag<double, n_lanes>;
-using V = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
 // side of a square of products held in registers: 16 of 32, or 9 of 16
 inline constexpr std::size_t side = vector_lanes == n_lanes ? 4 : 3;
 

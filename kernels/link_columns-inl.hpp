@@ -7,8 +7,7 @@
 #include <cstddef>
 
 #include "hwy/highway.h"
-#include "kernels/fused-inl.hpp"
-#include "kernels/lane_sum.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 #if defined(TORQUESCOPE_KERNELS_LINK_COLUMNS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TORQUESCOPE_KERNELS_LINK_COLUMNS_INL
@@ -21,16 +20,10 @@ HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
 
-using D = hn::CappedTag<double, n_lanes>;
-using V = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-
 struct Triple {
   V x, y, z;
 };
 
-HWY_INLINE V set(double value) { return hn::Set(d, value); }
 // c + a b, c - a b
 HWY_INLINE V plus(V a, V b, V c) { return fused_mul_add(a, b, c); }
 HWY_INLINE V minus(V a, V b, V c) { return fused_neg_mul_add(a, b, c); }

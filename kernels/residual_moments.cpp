@@ -11,17 +11,11 @@
 #define HWY_TARGET_INCLUDE "kernels/residual_moments.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "kernels/fused-inl.hpp"
+#include "kernels/double_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::kernels::HWY_NAMESPACE {
 namespace {
-
-using D = hn::CappedTag<double, n_lanes>;
-using V = hn::Vec<D>;
-inline constexpr D d;
-inline constexpr std::size_t vector_lanes = hn::MaxLanes(d);
-inline constexpr std::size_t n_vectors = n_lanes / vector_lanes;
 
 struct Lanes {
   V part[n_vectors];

@@ -7,18 +7,14 @@
 // the part up to HWY_ONCE is compiled once per instruction set
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/simulate/lane_step.cpp"
+#include "engine/simulate/lane_field-inl.hpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 namespace {
-
-using D = hn::CappedTag<double, twin_lanes>;
-using V = hn::Vec<D>;
-inline constexpr D d;
 
 // An effect may take nearly all of the joint's inertia and answer by a spring (a load on a light motor). What it takes
 // beyond this share that stays goes by the acceleration of the step before.

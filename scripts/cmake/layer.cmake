@@ -46,6 +46,7 @@ endfunction()
 # seldom_run(TARGET), seldom_run_files(FILE...): orders work or reads and writes text, and its time is not felt; a third
 # less time to compile than at -O3
 function(seldom_run target)
+  set_target_properties(${target} PROPERTIES TORQUESCOPE_SELDOM_RUN ON)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 function(seldom_run_files)
@@ -60,21 +61,49 @@ function(compile_together target files)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${TORQUESCOPE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
-# precompile(TARGET HEADER...): for layers whose every file reads large headers, where files are compiled one by one: a
-# third of the time of their cold build. Files compiled together read them once in fourteen files anyhow, and gain less
-# than precompiling takes
-function(precompile target)
-  if(TORQUESCOPE_TOGETHER)
+# instruction_sets_together(TARGET NAME FILE...): files that Highway compiles once per instruction set, as one. Its
+# headers take 2 s of a file, for each set anew; most of such files take half a second besides
+function(instruction_sets_together target name)
+  if(NOT TORQUESCOPE_TOGETHER)
+    target_sources(${target} PRIVATE ${ARGN})
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     return()
   endif()
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  set(all ${CMAKE_CURRENT_BINARY_DIR}/${name}_together.cpp)
+  # every file names itself; the loop over the sets, which the first of them begins, must go on with all
+  set(again "#undef HWY_TARGET_INCLUDE\n#define HWY_TARGET_INCLUDE \"${all}\"\n")
+  set(text "${again}#include \"hwy/foreach_target.h\"\n")
+  foreach(file IN LISTS ARGN)
+    string(APPEND text "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${file}\"\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${all} CONTENT "${text}${again}" @ONLY)
+  target_sources(${target} PRIVATE ${all})
+  set_source_files_properties(${all} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
-function(precompile_matrices target)
-  precompile(${target} <Eigen/Core> <Eigen/QR> <Eigen/Cholesky> <algorithm> <cmath> <functional> <optional> <string>
-    <vector>)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(${target} PRIVATE -Wno-stringop-overread)  # as above: of code that is not there
+# headers_once(TARGET): what nearly every file of the engine reads, read once for all layers that ask for it: about 1 s
+# of each file, or of each that several are compiled as. GCC takes them only with the flags they were read with (fmt's
+# definition, code that can be moved), and compiles what is in them as they were: a set each for -O3 and seldom_run()
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/headers.cpp CONTENT "// of headers_once()\n")
+foreach(headers torquescope_headers torquescope_headers_of_seldom)
+  add_library(${headers} OBJECT ${CMAKE_BINARY_DIR}/generated/headers.cpp)
+  target_link_libraries(${headers} PRIVATE torquescope_flags Eigen3::Eigen fmt::fmt)
+  set_target_properties(${headers} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_precompile_headers(${headers} PRIVATE <Eigen/Core> <fmt/format.h> <algorithm> <cmath> <filesystem>
+    <functional> <map> <memory> <optional> <span> <string> <vector>)
+endforeach()
+seldom_run(torquescope_headers_of_seldom)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(torquescope_flags INTERFACE -Wno-stringop-overread)  # as above: of code that is not there
+endif()
+function(headers_once target)
+  target_link_libraries(${target} PRIVATE fmt::fmt)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  get_target_property(is_seldom ${target} TORQUESCOPE_SELDOM_RUN)
+  if(is_seldom)
+    target_precompile_headers(${target} REUSE_FROM torquescope_headers_of_seldom)
+  else()
+    target_precompile_headers(${target} REUSE_FROM torquescope_headers)
   endif()
 endfunction()
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/robot/robot_writers.hpp"
+#include "engine/robot/vector3.hpp"
 #include "engine/robot/written_text.hpp"
 
 namespace torquescope::writers {
@@ -60,13 +61,28 @@ std::string joint_text(ChainJoint const& joint, FramePose const& origin, std::st
          fmt::format("    {}\n    <axis xyz=\"0 0 1\"/>\n    {}\n  </joint>\n", origin_text(origin), limit_text(joint));
 }
 
+// the shortest turn of one direction onto another
+Eigen::Matrix3d turn_onto(Eigen::Vector3d const& from, Eigen::Vector3d const& onto) {
+  constexpr double opposite = 1e-12;
+  double const cosine = from.dot(onto);
+  if (cosine > opposite - 1.0) {
+    double const twice = std::sqrt(2.0 * (1.0 + cosine));
+    Eigen::Vector3d const axis = cross(from, onto) / twice;
+    return Eigen::Quaterniond(0.5 * twice, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+  }
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  across[std::abs(from.x()) < 0.9 ? 0 : 1] = 1.0;
+  Eigen::Vector3d const axis = (across - from.dot(across) * from).normalized();
+  return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();  // half a turn about anything across
+}
+
 // frame 0 as it stood in the robot's own file when gravity points down there, else turned until it does
 FramePose standing(SerialChain const& chain) {
   double const size = chain.gravity.norm();
   Eigen::Vector3d const down(0.0, 0.0, -1.0);
   FramePose pose = chain.base;
   if (size == 0.0 || (pose.rotation * chain.gravity - size * down).norm() <= 1e-12 * size) return pose;
-  pose.rotation = Eigen::Quaterniond::FromTwoVectors(chain.gravity, down).toRotationMatrix();
+  pose.rotation = turn_onto(chain.gravity / size, down);
   return pose;
 }
 
