@@ -99,9 +99,9 @@ LaneInstant instant_of(LaneState const& state, double time_s, double step_s, dou
   return at;
 }
 
-// The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the caller
-// knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of that time
-// what the second order leaves out, a sixth of the square, is 7e-5
+// The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the
+// caller knows. The joint alone decays at viscous / inertia and swings at sqrt(gravity / inertia): at a fiftieth of
+// that time what the second order leaves out, a sixth of the square, is 7e-5
 double longest_step_s(TwinJoint const& joint, StickingRange const& sticking, double step_s, double tick_s) {
   auto const has_memory = [](LaneEffectMaker const& make) { return make()->follows_steps(); };
   if (sticking.is_any() || std::any_of(joint.effects.begin(), joint.effects.end(), has_memory)) return step_s;
