@@ -29,6 +29,7 @@
 #include "engine/run/estimator_writer.hpp"
 #include "engine/run/optimise.hpp"
 #include "engine/run/run_scheduler.hpp"
+#include "engine/store/scale_datasets.hpp"
 
 namespace torquescope::bench {
 namespace {
@@ -165,7 +166,15 @@ int run(Request const& request) {
         mse.push_back(history->best.back());
         if (writer) timed([&] { write_history(*writer, "de", index, history); });
       });
-  if (writer) timed([&] { writer->finish(); });
+  if (writer)
+    timed([&] {
+      // what the dimensions of the histories are named by
+      write_index(*writer, "/runs/de", "run", shape.runs);
+      std::vector<std::string> names;
+      for (std::size_t k = 0; k < R; ++k) names.push_back("parameter_" + std::to_string(k));
+      write_names(*writer, "/runs/de", "parameter", names);
+      writer->finish();
+    });
   writer.reset();
   // nothing else has a thread of its own then
   if (request.threads == 1) storing_s += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - seconds_of(CLOCK_THREAD_CPUTIME_ID);

@@ -1,0 +1,54 @@
+"""Diagnoses of a simulated joint, 1 kHz, 200 twins, two threads: seconds by the clock beside the goal, and memory."""
+import pathlib
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "jobs"))
+import simulated_job  # noqa: E402
+
+from bench_context import Run  # noqa: E402
+from row import Row  # noqa: E402
+
+WANTED_S = 15.0
+ONE = {"stribeck": 0.35, "stribeck_speed": 0.15, "stribeck_exponent": 1.0}
+THREE = {**ONE, "spring": 0.4, "cogging_sin": 0.08, "cogging_order": 6}
+CASES = (("one effect, 60 s", ONE, 60, WANTED_S), ("three effects, 60 s", THREE, 60, WANTED_S),
+         ("one effect, 300 s", ONE, 300, None))
+
+
+def job(effects, duration_s):
+    return simulated_job.job(
+        [{"name": "ols"}],
+        replaced=("model.bounds",),
+        experiment={"name": "diagnosis", "seed": 11},
+        filter={"cutoff_hz": 30, "parallel_cutoff_hz": 15, "decimate_to_hz": 50},
+        diagnose={"effects": "all", "twins": 200},
+        simulate={"mode": "closed_loop", "rate_hz": 1000, "duration_s": duration_s, "validate": True},
+        simulate__plant={"inertia": 0.09, "viscous": 0.35, "coulomb": 0.6, **effects},
+        simulate__reference={"kind": "multisine", "max_speed": 3.0},
+        simulate__controller={"kind": "pd", "rate_hz": 1000},
+        simulate__encoder={"counts_per_revolution": 131072})
+
+
+class Diagnosis:
+    def __init__(self, context, build, text):
+        path, out = context.folder / "diagnosis.toml", context.folder / "diagnosis.h5"
+        path.write_text(text)
+        out.unlink(missing_ok=True)
+        start = time.monotonic()
+        done = Run([context.program(build), "diagnose", path, "--out", out, "--threads", 2, "--quiet"], threads=2)
+        self.clock_s, self.cpu_s, self.peak_mb = time.monotonic() - start, done.cpu_s, done.peak_mb
+
+
+def rows(context):
+    for name, effects, duration_s, wanted_s in CASES:
+        now, *before = [Diagnosis(context, build, job(effects, duration_s)) for build in context.builds()]
+        was = before[0] if before else None
+        yield Row(f"diagnosis, {name}", "s", now.clock_s, wanted_s or duration_s,
+                  "what is wanted" if wanted_s else "the recording's length", 1.0 if wanted_s else None,
+                  was and was.clock_s)
+        yield Row(f"diagnosis, {name}", "CPU s", now.cpu_s, duration_s, "the recording's length", None,
+                  was and was.cpu_s)
+        if duration_s == 300:
+            yield Row(f"diagnosis, {name}: peak memory", "MB", now.peak_mb, duration_s * 1000 * 3 * 8 / 1e6,
+                      "time, position, torque as numbers", None, was and was.peak_mb)
