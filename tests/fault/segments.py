@@ -345,7 +345,7 @@ class Segments(study.FaultTest):
     def test_a_generation_that_takes_long_is_not_waited_for(self):
         folder = self.folder(
             study.JOB.replace("population = 14", "population = 100000")
-            .replace("duration_s = 15", "duration_s = 2000")
+            .replace("duration_s = 15", "duration_s = 4000")
             .replace("validate = true", "validate = false")
         )
         process = folder.start("run", "job.toml", "--out", "r.h5", "--threads", "1")
