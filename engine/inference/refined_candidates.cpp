@@ -42,8 +42,12 @@ RefinedCandidate with_refined_shape(Evidence const& evidence, CandidateEvidence 
                                     RefinementSetting const& setting) {
   RefinedCandidate best{law, {}, law.scan.effect->parameters().size(), law.scan.shape, law.scan.parameters};
   Effect const& effect = *law.scan.effect;
-  // the scan looked at fewer samples
-  take(evidence.gains(effect, {law.scan.shape}, law.folds).front(), best);
+  // the scan looked at fewer samples; what all of them cannot tell from the model gains nothing
+  LawGain const of_all = evidence.gains(effect, {law.scan.shape}, law.folds).front();
+  if (of_all.is_testable)
+    take(of_all, best);
+  else
+    best.evidence.scan.gain = best.evidence.train = best.evidence.unseen = 0.0;
   if (effect.n_shape() == 0) return best;
   Eigen::VectorXd const mismatch = evidence.stage().mismatch();
   ShapeSearch const search = shape_search(setting.optimiser, setting.seed);

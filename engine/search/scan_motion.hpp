@@ -27,7 +27,7 @@ Eigen::Index scan_step(RecordPipeline const& pipeline, double band_hz);
 
 class ScanMotion {
  public:
-  // motion: of the full rate; reference: none where no law asks for the baseline's torque
+  // motion, reference: of the full rate; with_baseline: laws ask for the torque of the baseline
   ScanMotion(RecordPipeline const& pipeline, Motion const& motion, Eigen::Index step,
              BaselineReference const& reference, bool with_baseline);
 
