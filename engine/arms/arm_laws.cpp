@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "engine/robot/inverse_dynamics.hpp"
@@ -16,6 +17,7 @@ struct MovingArm {
   SerialChain const& chain;
   Eigen::VectorXd standard;
   std::vector<Motion> const& motion;
+  std::vector<bool> has_drive{};  // [N] whether its drive's inertia is a parameter, apart from those of links
 
   Eigen::Index samples() const { return motion.front().q.size(); }
   Eigen::VectorXd at(Eigen::VectorXd Motion::*what, Eigen::Index sample) const {
@@ -94,6 +96,62 @@ ColumnsOfJoints joint_zero(MovingArm const& arm, std::size_t joint) {
   return all;
 }
 
+// A joint's way: position, speed and acceleration [n] each, of a joint or of a part of it
+struct Way {
+  Eigen::VectorXd position, speed, acceleration;
+
+  static Way of(Eigen::VectorXd const& position, double rate_hz) {
+    Eigen::VectorXd const speed = central_derivative(position, rate_hz);
+    return {position, speed, central_derivative(speed, rate_hz)};
+  }
+};
+
+// [N] for an arm that moves along a joint's way, and not otherwise: change of torque per unit of it, at one sample
+Eigen::VectorXd change_along(MovingArm const& arm, Eigen::VectorXd const& links, std::size_t joint, Way const& way,
+                             Eigen::Index sample) {
+  // of a central difference: a way of 1e-5 rad, good to ten digits; speeds enter by their squares, accelerations in
+  // proportion, and both are as exact
+  double const step = 1e-5 / std::max(way.position.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  auto const moved = [&](double by) {
+    auto const i = static_cast<Eigen::Index>(joint);
+    Eigen::VectorXd q = arm.at(&Motion::q, sample), dq = arm.at(&Motion::dq, sample),
+                    ddq = arm.at(&Motion::ddq, sample);
+    q[i] += by * way.position[sample];
+    dq[i] += by * way.speed[sample];
+    ddq[i] += by * way.acceleration[sample];
+    return inverse_dynamics(arm.chain, links, q, dq, ddq);
+  };
+  return (moved(step) - moved(-step)) / (2.0 * step);
+}
+
+// A spring behind the encoder of one joint: its link lags by load / stiffness, and all joints feel where it is. The
+// load is the links' torque. Where the model has the drive's inertia J in a link's, neither is known: columns of J, J^2
+ColumnsOfJoints joint_compliance(MovingArm const& arm, std::size_t joint) {
+  Eigen::VectorXd const links = arm.standard.head(numbers_per_link * static_cast<Eigen::Index>(arm.motion.size()));
+  Eigen::VectorXd load(arm.samples());
+  for (Eigen::Index i = 0; i < arm.samples(); ++i)
+    load[i] = inverse_dynamics(arm.chain, links, arm.at(&Motion::q, i), arm.at(&Motion::dq, i),
+                               arm.at(&Motion::ddq, i))[static_cast<Eigen::Index>(joint)];
+  double const rate_hz = arm.motion.front().rate_hz;
+  Way const lag = Way::of(-load, rate_hz), back = Way::of(arm.motion[joint].ddq, rate_hz);
+  bool const has_drive = arm.has_drive[joint];
+  ColumnsOfJoints all(arm.motion.size(), Eigen::MatrixXd::Zero(arm.samples(), has_drive ? 1 : 3));
+  for (Eigen::Index i = 0; i < arm.samples(); ++i) {
+    Eigen::VectorXd const of_load = change_along(arm, links, joint, lag, i);
+    Eigen::VectorXd const of_drive = has_drive ? of_load : change_along(arm, links, joint, back, i);
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      all[j](i, 0) = of_load[static_cast<Eigen::Index>(j)];
+      if (!has_drive) all[j](i, 1) = of_drive[static_cast<Eigen::Index>(j)];
+    }
+  }
+  // the drive does not lag
+  if (!has_drive) {
+    all[joint].col(1) -= lag.acceleration;
+    all[joint].col(2) -= back.acceleration;
+  }
+  return all;
+}
+
 // parameters of an arm that is a unit of one number of its last link, and nothing else
 Eigen::VectorXd one_number_of_last_link(MovingArm const& arm, LinkNumber number) {
   auto const joints = static_cast<Eigen::Index>(arm.motion.size());
@@ -151,18 +209,23 @@ struct ArmLaw {
 };
 
 constexpr ArmLaw of_the_arm[] = {{"gravity_direction", gravity_direction, nullptr},
+                                 {"joint_compliance", nullptr, joint_compliance},
                                  {"joint_zero", nullptr, joint_zero},
                                  {"payload_picked_up", payload_picked_up, nullptr},
                                  {"tip_contact", tip_contact, nullptr}};
 
 MovingArm moving(ArmModel const& model, Eigen::VectorXd const& parameters, std::vector<Motion> const& motion) {
-  return {model.chain(), model.base().to_standard(parameters.head(model.base().size())), motion};
+  std::vector<bool> has_drive(model.joints(), false);
+  auto const links = numbers_per_link * static_cast<Eigen::Index>(model.joints());
+  for (Eigen::Index const column : model.base().columns())
+    if (column >= links) has_drive[static_cast<std::size_t>(column - links)] = true;
+  return {model.chain(), model.base().to_standard(parameters.head(model.base().size())), motion, has_drive};
 }
 
 }  // namespace
 
 std::vector<GivenSignals> arm_law_signals(ArmModel const& model, std::vector<Motion> const& motion) {
-  MovingArm const arm{model.chain(), {}, motion};
+  MovingArm const arm{model.chain(), {}, motion, {}};
   std::vector<GivenSignals> signals(motion.size());
   for (JointLaw const& law : of_a_joint) {
     ColumnsOfJoints columns = law.columns(arm);

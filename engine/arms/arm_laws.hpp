@@ -2,7 +2,8 @@
 // What other joints, the robot file or the world may do to the joints of an arm: columns of arm_law_choices().
 //
 // Of a joint  friction and inertia of its neighbours (their recorded motion); judged as any law of that joint
-// Of the arm  gravity_direction, joint_zero, payload_picked_up, tip_contact: several joints feel the same parameters
+// Of the arm  gravity_direction, joint_compliance, joint_zero, payload_picked_up, tip_contact: several joints feel
+//             the same parameters
 // New law     one file in effects/arm_laws, one name in effects/CMakeLists.txt, one line in a table of arm_laws.cpp
 // Shapes      columns at the full rate of the motion
 // Units       SI

@@ -55,7 +55,8 @@ std::vector<Eigen::Index> by_instant(std::vector<ArmRow> const& rows, RowBlock c
 }
 
 // rows are in the order of time
-void add_stretches(WholeArmRows& all, std::size_t recording, RowBlock const& rows, RecordedRows const& of) {
+void add_stretches(WholeArmRows& all, std::size_t recording, RowBlock const& rows, RecordedRows const& of,
+                   double noise_correlation) {
   auto const at = [&](Eigen::Index i) -> ArmRow const& { return all.rows[static_cast<std::size_t>(i)]; };
   if (rows.size() == 0) return;
   double const period = 1.0 / of.kept_rate_hz;
@@ -65,7 +66,7 @@ void add_stretches(WholeArmRows& all, std::size_t recording, RowBlock const& row
     Eigen::Index const from = next;
     while (next < rows.to && at(next).instant < instants.to) ++next;
     auto const time = [&](Eigen::Index instant) { return start + static_cast<double>(instant) * period; };
-    all.stretches.push_back({recording, {from, next}, time(instants.from), time(instants.to)});
+    all.stretches.push_back({recording, {from, next}, time(instants.from), time(instants.to), noise_correlation});
   }
 }
 
@@ -92,10 +93,12 @@ WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parame
   all.torque.resize(n);
   all.rows.resize(static_cast<std::size_t>(n));
   std::vector<Eigen::Index> order;
+  std::vector<double> noise_correlation;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     Recording const& first = recordings[k].joints.front();
     ParallelFilter const parallel(filter.options, first.rate_hz, first.position.size(), filter.section);
     put_rows(all, of_recording[k].from, model, noise, rows[k], laws[k], parallel);
+    noise_correlation.push_back(parallel.neighbour_correlation());
     auto const own = by_instant(all.rows, of_recording[k]);
     order.insert(order.end(), own.begin(), own.end());
   }
@@ -105,7 +108,7 @@ WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parame
   std::vector<ArmRow> sorted;
   for (Eigen::Index const i : order) sorted.push_back(all.rows[static_cast<std::size_t>(i)]);
   all.rows = std::move(sorted);
-  for (std::size_t k = 0; k < rows.size(); ++k) add_stretches(all, k, of_recording[k], rows[k]);
+  for (std::size_t k = 0; k < rows.size(); ++k) add_stretches(all, k, of_recording[k], rows[k], noise_correlation[k]);
   return all;
 }
 

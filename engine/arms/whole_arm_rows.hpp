@@ -29,6 +29,7 @@ struct ArmStretch {
   std::size_t recording = 0;
   RowBlock rows{};
   double from_s = 0.0, until_s = 0.0;
+  double noise_correlation = 0.0;  // ParallelFilter::neighbour_correlation() of its recording
 };
 
 // of a law: its columns among those of all

@@ -18,8 +18,9 @@ Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& more
 }
 
 // energy of noise on the rows of a stretch of one joint after the other, from rows that follow each other
-double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, RowBlock const& block,
+double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
                     std::size_t joints) {
+  RowBlock const& block = stretch.rows;
   std::vector<Eigen::Index> last(joints, -1);
   std::vector<double> squares(joints, 0.0), pairs(joints, 0.0), count(joints, 0.0);
   for (Eigen::Index i = block.from; i < block.to; ++i) {
@@ -35,7 +36,7 @@ double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, R
   }
   double energy = 0.0;
   for (std::size_t j = 0; j < joints; ++j)
-    if (pairs[j] > 0.0) energy += count[j] * squares[j] / (2.0 * pairs[j]);
+    if (pairs[j] > 0.0) energy += count[j] * squares[j] / (2.0 * (1.0 - stretch.noise_correlation) * pairs[j]);
   return energy;
 }
 
@@ -72,7 +73,7 @@ class WholeArmWork {
     for (std::uint32_t step = 0; !rows_.places.empty() && !rows_.stretches.empty(); ++step) {
       auto scanned = scan_whole_arm_laws(rows_, basis_, residual_, {question_.seed, step, question_.threads});
       if (scanned.empty()) break;
-      std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
+      sort_strongest_first(scanned);
       Eigen::VectorXd const left = left_out_of_stretches(rows_, basis_, residual_);
       Judged best = judged(scanned.front(), left);
       if (step == 0) {
@@ -108,6 +109,14 @@ class WholeArmWork {
     return stretches;
   }
 
+  // z tells a law from chance, and what it gains tells laws apart: those beyond chance come by their gain
+  void sort_strongest_first(std::vector<ScannedLaw>& scanned) const {
+    std::stable_sort(scanned.begin(), scanned.end(), [](auto const& a, auto const& b) { return a.z > b.z; });
+    auto const chance = std::stable_partition(scanned.begin(), scanned.end(),
+                                              [&](ScannedLaw const& one) { return one.p <= question_.alpha; });
+    std::stable_sort(scanned.begin(), chance, [](auto const& a, auto const& b) { return a.gain > b.gain; });
+  }
+
   static HeldOutGain gain_of(std::vector<ArmStretch> const& stretches, Eigen::VectorXd const& before,
                              Eigen::VectorXd const& after, Blocks which) {
     std::vector<HeldOutBlock> blocks;
@@ -134,12 +143,13 @@ class WholeArmWork {
     for (ArmStretch const& stretch : stretches) {
       before += energy_on(left, stretch.rows);
       after += energy_on(one.left, stretch.rows);
-      noise += noise_energy(rows_, residual_, stretch.rows, question_.model.joints());
+      noise += noise_energy(rows_, residual_, stretch, question_.model.joints());
       plain_before += plain_energy(rows_, noise_, left, stretch.rows);
       plain_after += plain_energy(rows_, noise_, one.left, stretch.rows);
       plain_torque += plain_energy(rows_, noise_, rows_.torque, stretch.rows);
     }
-    found.explained = before > noise ? (before - after) / (before - noise) : 0.0;
+    // what is rougher than noise makes it look larger than it is: no more is noise than is left
+    found.explained = before > after ? (before - after) / (before - std::min(noise, after)) : 0.0;
     found.before = std::sqrt(plain_before / plain_torque);
     found.after = std::sqrt(plain_after / plain_torque);
     look_at_unseen(found);

@@ -4,7 +4,8 @@
 // Accepted   as WholeArmReason says; the error on rows left out must fall clearly (held_out_gain.hpp), and more of the
 //            mismatch be explained than is left (decision_levels.hpp)
 // Mismatch   energy left on rows left out, less that of noise: half the mean square of the difference of neighbouring
-//            rows (von Neumann 1941, doi:10.1214/aoms/1177731677). Of a law with instants: in its recording
+//            rows (von Neumann 1941, doi:10.1214/aoms/1177731677), over one less the correlation that the parallel
+//            filter leaves between them. Of a law with instants: in its recording
 // Alike      other laws beyond chance that leave not clearly more on rows left out
 // Unseen     a law with instants acts there from the beginning or not at all, as the first stretch tells
 // Errors     those of the filters

@@ -8,10 +8,7 @@
 #include "engine/data/zero_phase.hpp"
 
 namespace torquescope {
-namespace {
-
-// central differences inside, one-sided at both ends
-Eigen::VectorXd derivative(Eigen::VectorXd const& signal, double rate_hz) {
+Eigen::VectorXd central_derivative(Eigen::Ref<Eigen::VectorXd const> const& signal, double rate_hz) {
   Eigen::Index const n = signal.size();
   Eigen::VectorXd result(n);
   result[0] = (signal[1] - signal[0]) * rate_hz;
@@ -19,8 +16,6 @@ Eigen::VectorXd derivative(Eigen::VectorXd const& signal, double rate_hz) {
   result.segment(1, n - 2) = (signal.tail(n - 2) - signal.head(n - 2)) * (rate_hz / 2);
   return result;
 }
-
-}  // namespace
 
 Eigen::MatrixXd smooth_positions(Eigen::Ref<Eigen::MatrixXd const> const& positions, FilterOptions const& options,
                                  double rate_hz) {
@@ -35,9 +30,10 @@ Motion differentiate_smooth(Recording&& recording) {
   motion.rate_hz = recording.rate_hz;
   motion.time_s = std::move(recording.time_s);
   motion.q = std::move(recording.position);
-  motion.dq = recording.velocity.size() > 0 ? std::move(recording.velocity) : derivative(motion.q, motion.rate_hz);
-  motion.ddq =
-      recording.acceleration.size() > 0 ? std::move(recording.acceleration) : derivative(motion.dq, motion.rate_hz);
+  motion.dq =
+      recording.velocity.size() > 0 ? std::move(recording.velocity) : central_derivative(motion.q, motion.rate_hz);
+  motion.ddq = recording.acceleration.size() > 0 ? std::move(recording.acceleration)
+                                                 : central_derivative(motion.dq, motion.rate_hz);
   motion.torque = std::move(recording.torque);
   motion.left_out = std::move(recording.left_out);
   return motion;

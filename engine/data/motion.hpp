@@ -49,6 +49,8 @@ Motion differentiate(Recording&& recording, FilterOptions const& options, Sectio
 Eigen::MatrixXd smooth_positions(Eigen::Ref<Eigen::MatrixXd const> const& positions, FilterOptions const& options,
                                  double rate_hz);
 Motion differentiate_smooth(Recording&& recording);
+// [n] central differences inside, one-sided at both ends; n > 1
+Eigen::VectorXd central_derivative(Eigen::Ref<Eigen::VectorXd const> const& signal, double rate_hz);
 // every step-th sample from `first` on: of a motion that was low-passed for the rate that is left
 Motion thinned(Motion const& motion, Eigen::Index first, Eigen::Index step);
 
@@ -68,7 +70,8 @@ class ParallelFilter {
   Eigen::MatrixXd apply_columns(Eigen::Ref<Eigen::MatrixXd const> const& signals) const;
   Eigen::VectorXd pick(Eigen::Ref<Eigen::VectorXd const> const& signal) const;  // the same samples, not low-passed
 
-  Eigen::Index decimation() const;  // samples from one that is kept to the next
+  double neighbour_correlation() const;  // of kept samples that follow each other, where the signal was white noise
+  Eigen::Index decimation() const;       // samples from one that is kept to the next
   // The same for signals of which every step-th sample is there, from first_of(step) on: it keeps the same samples.
   // Requires   step divides decimation(), and the cut-off lies below half the rate that is left
   ParallelFilter of_every(Eigen::Index step) const;

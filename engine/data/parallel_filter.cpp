@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "engine/base/contract.hpp"
 #include "engine/data/filter_checks.hpp"
 #include "engine/data/motion.hpp"
@@ -57,6 +60,22 @@ Eigen::MatrixXd ParallelFilter::apply_columns(Eigen::Ref<Eigen::MatrixXd const> 
 }
 
 Eigen::Index ParallelFilter::decimation() const { return state_->factor; }
+
+double ParallelFilter::neighbour_correlation() const {
+  if (state_->sections.empty()) return 0.0;
+  double const rate_hz = state_->rate_hz * static_cast<double>(state_->factor);
+  auto const warped = [&](double frequency_hz) { return std::tan(std::numbers::pi * frequency_hz / rate_hz); };
+  // gain of a Butterworth filter that runs forwards and backwards, squared: the spectrum of what passes it
+  constexpr int frequencies = 4096;
+  double power = 0.0, with_next = 0.0;
+  for (int k = 0; k < frequencies; ++k) {
+    double const hz = rate_hz * (k + 0.5) / (2.0 * frequencies);
+    double const gain = 1.0 / (1.0 + std::pow(warped(hz) / warped(state_->cutoff_hz), 2 * state_->order));
+    power += gain * gain;
+    with_next += gain * gain * std::cos(2.0 * std::numbers::pi * hz / state_->rate_hz);
+  }
+  return with_next / power;
+}
 
 Eigen::Index ParallelFilter::first_of(Eigen::Index step) const { return state_->edge % step; }
 

@@ -24,10 +24,8 @@ Eigen::VectorXd zeros_of(Plant const& plant) {
   return zeros;
 }
 
-// at the law's joint; a tilted base and a zero that is off act on several: where most is left
 double snr_of(Law const& law, Left const& left) {
-  bool const several = law.kind == LawKind::tilted_base || law.kind == LawKind::joint_zero;
-  return several ? left.largest_snr() : left.snr(law.joint);
+  return law.is_of_several_joints() ? left.largest_snr() : left.snr(law.joint);
 }
 
 // The law's size that leaves the wanted SNR in the training motion: the SNR is nearly proportional to it
@@ -40,7 +38,7 @@ void find_size(ArmCase& one, ArmMotion const& motion) {
     tried.plant = sized(one.plant, size);
     double const snr = snr_of(law, left_of(tried, run_loop(tried.plant, motion)));
     if (std::abs(snr / one.wanted_snr - 1.0) < 0.02) break;
-    size = std::min(law.largest, size * std::min(20.0, one.wanted_snr / std::max(snr, 1e-6)));
+    size = std::clamp(size * std::min(20.0, one.wanted_snr / std::max(snr, 1e-6)), law.smallest, law.largest);
   }
   one.plant = sized(one.plant, size);
 }
@@ -74,9 +72,24 @@ ArmRecording recorded(ArmCase const& one, std::string const& stream) {
   return made;
 }
 
+// The drive of an elastic joint trembles within a tick, which one instant of its acceleration shows and a log does not:
+// speed, acceleration and torque about each row in place of those at it
+ArmRun about_rows(ArmRun run, int joint) {
+  double const h = log_every * control_s;
+  auto const n = run.q.cols();
+  auto const q = run.q.row(joint);
+  auto const before = q.head(n - 2), at = q.segment(1, n - 2), after = q.tail(n - 2);
+  run.v.row(joint).segment(1, n - 2) = (after - before) / (2.0 * h);
+  run.a.row(joint).segment(1, n - 2) = (after - 2.0 * at + before) / (h * h);
+  run.applied.row(joint) = run.averaged.row(joint);
+  return run;
+}
+
 }  // namespace
 
-Left left_of(ArmCase const& one_case, ArmRun const& run) {
+Left left_of(ArmCase const& one_case, ArmRun const& as_run) {
+  auto const& law = one_case.plant.law;
+  ArmRun const run = law && law->kind == LawKind::elastic_joint ? about_rows(as_run, law->joint) : as_run;
   return left_after_fit(one_case.plant.arm, run, shown_torque(one_case, run.applied), zeros_of(one_case.plant));
 }
 

@@ -131,6 +131,33 @@ TEST(ArmPlant, AFinerStepIsTheSameRecording) {
   }
 }
 
+// what spring and damper carry is what the links need where they are, and what the drive does not keep for itself
+TEST(ArmPlant, AnElasticJointKeepsTheEnergyOfAnArmThatFalls) {
+  Plant plant = passive(bare(nominal_arm("crs")));
+  concealed::Random random(5, "law");
+  plant.law = drawn_law(LawKind::elastic_joint, plant.arm, 1, {1.0, 1.0, 2.0}, random);
+  plant.law->size = plant.law->largest;
+  plant.law->shape = 0.0;  // no damper
+  ArmMotion motion = drawn_motion(MotionKind::sines, plant.arm, 5, "train");
+  for (auto* part : {&motion.q, &motion.v, &motion.a}) *part = part->leftCols(1000).eval();  // a second
+  ArmRun const run = run_loop(plant, motion, 8);
+  MujocoArm arm(plant.arm, upright);
+  double const drive = plant.arm.links[1].drive_inertia;
+  auto const energy = [&](Eigen::Index row) {
+    Eigen::VectorXd const q = run.links_q.col(row), v = run.links_v.col(row);
+    double const wound = run.q(1, row) - q[1];
+    return arm.energy(q, v) + 0.5 * drive * (run.v(1, row) * run.v(1, row) - v[1] * v[1]) +
+           0.5 * wound * wound / plant.law->size;
+  };
+  double worst = 0.0, most = 0.0;
+  for (Eigen::Index row = 1; row < run.q.cols(); ++row) {
+    worst = std::max(worst, std::abs(energy(row) - energy(1)));
+    most = std::max(most, std::abs(run.q(1, row) - run.links_q(1, row)));
+  }
+  EXPECT_LT(worst, 1e-2);  // J, of tens that go from weight to speed
+  EXPECT_GT(most, 1e-3);   // rad: it winds up
+}
+
 TEST(ArmCases, TheSameNameIsTheSameBits) {
   auto const one = make_case(parse_case("A1:3")), again = make_case(parse_case(spelled_out("A1:3")));
   EXPECT_EQ(one.of.folder, again.of.folder);

@@ -2,6 +2,8 @@
 // An arm in closed loop: joint controllers with weight fed forward, encoders, dry friction that is set-valued at rest.
 //
 // Equation   M(q) a + c(q, v) + viscous v + offset + smooth law = u - f,  f in level * Sgn(v), level >= 0
+// Elastic    of an elastic joint q is its link's; drive, friction and encoder turn by another angle behind a spring and
+//            a damper (Spong 1987, doi:10.1115/1.3143860)
 // Steps      0.25 ms: staggered (leapfrog), v in the middle of two positions; second order but where a joint reverses.
 //            Friction: complementarity solved exactly by sweeps over the joints (Moreau 1988; Stewart, Trinkle 1996)
 // Control    1 kHz, held: PD or PID on the encoder's position, speed by a filtered difference, weight at the reference
@@ -31,11 +33,12 @@ struct Plant {
 };
 
 struct ArmRun {
-  Eigen::MatrixXd reference;  // at the rows
-  Eigen::MatrixXd q, v, a;    // true
-  Eigen::MatrixXd seen;       // by the encoders, zero errors included
-  Eigen::MatrixXd applied;    // torque in force from the row on
-  Eigen::MatrixXd averaged;   // mean of the torques in force before and from the row on
+  Eigen::MatrixXd reference;         // at the rows
+  Eigen::MatrixXd q, v, a;           // true, of an elastic joint at its drive
+  Eigen::MatrixXd links_q, links_v;  // true, of the links
+  Eigen::MatrixXd seen;              // by the encoders, zero errors included
+  Eigen::MatrixXd applied;           // torque in force from the row on
+  Eigen::MatrixXd averaged;          // mean of the torques in force before and from the row on
 };
 
 // steps_a_tick: 4 for cases; more shows what the step costs

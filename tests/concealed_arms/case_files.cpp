@@ -121,8 +121,7 @@ std::string truth_text(MadeCase const& made) {
   double snr = made.left.largest_snr();
   if (one.plant.law) {
     describe_law(truth, *one.plant.law);
-    bool const several = one.plant.law->kind == LawKind::tilted_base || one.plant.law->kind == LawKind::joint_zero;
-    if (!several) snr = made.left.snr(one.plant.law->joint);
+    if (!one.plant.law->is_of_several_joints()) snr = made.left.snr(one.plant.law->joint);
   }
   if (one.kind == CaseKind::decoy) describe_decoy(truth, one.decoy);
   truth["wanted_snr"] = one.wanted_snr;

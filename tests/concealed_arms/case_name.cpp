@@ -46,7 +46,8 @@ std::string drawn_law_name(std::uint64_t number, std::string const& seed, concea
   std::string const arm = number % 6 == 0 ? "seven" : "crs";
   LawWords const& words = law_words()[(number - 1) % law_words().size()];
   auto joints = possible_joints(words.kind, nominal_arm(arm));
-  if (words.kind == LawKind::load_friction) joints.resize(joints.size() / 2 + 1);  // a wrist carries next to nothing
+  bool const needs_load = words.kind == LawKind::load_friction || words.kind == LawKind::elastic_joint;
+  if (needs_load) joints.resize(joints.size() / 2 + 1);  // a wrist carries next to nothing
   int const joint = joints[random.index(joints.size())] + 1;
   return "law:" + arm + ":" + std::to_string(joint) + ":" + words.name + ":" +
          std::to_string(sizes[(number - 1) % sizes.size()]) + ":" + seed;
@@ -82,13 +83,30 @@ ArmCase drawn_case(std::string const& name, std::string const& arm, std::uint64_
   return one;
 }
 
+double mean_inertia_of_links(Arm const& arm, int joint, ArmMotion const& motion) {
+  MujocoArm still(arm, upright);
+  Eigen::VectorXd const rest = Eigen::VectorXd::Zero(arm.joints());
+  constexpr Eigen::Index poses = 50;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < poses; ++i) {
+    still.update(motion.q.col(i * (motion.q.cols() - 1) / (poses - 1)), rest);
+    sum += still.mass()(joint, joint);
+  }
+  return sum / poses - arm.links[static_cast<std::size_t>(joint)].drive_inertia;
+}
+
 void conceal(ArmCase& one, LawKind kind, std::uint64_t joint) {
   concealed::Random random(one.seed, "law");
   int const joints = one.plant.arm.joints();
   if (joint < 1 || joint > static_cast<std::uint64_t>(joints)) refuse(one.name);
   auto const j = static_cast<int>(joint) - 1;
   ArmMotion const motion = drawn_motion(one.motion, one.plant.arm, one.seed, "train");
-  one.plant.law = drawn_law(kind, one.plant.arm, j, motion.travel()[j], motion.fastest()[j], random);
+  one.plant.law =
+      drawn_law(kind, one.plant.arm, j,
+                {motion.travel()[j], motion.fastest()[j], mean_inertia_of_links(one.plant.arm, j, motion)}, random);
+  // a loop that is tuned to the whole joint makes a drive that is much lighter tremble behind its spring
+  double& drive = one.plant.arm.links[static_cast<std::size_t>(j)].drive_inertia;
+  if (kind == LawKind::elastic_joint) drive = std::max(drive, 0.3 * one.plant.law->second);
 }
 
 }  // namespace

@@ -5,6 +5,11 @@
 #include <stdexcept>
 
 namespace concealed_arms {
+namespace {
+
+constexpr double lowest_resonance_hz = 8.0;  // of the links with the motor held: softer gears no arm has
+
+}  // namespace
 
 double Law::dry(Instant const& now) const {
   double const speed = std::abs(now.v);
@@ -38,6 +43,10 @@ double Law::smooth(Instant const& now) const {
   }
 }
 
+bool Law::is_of_several_joints() const {
+  return kind == LawKind::tilted_base || kind == LawKind::joint_zero || kind == LawKind::elastic_joint;
+}
+
 int Law::neighbour(int joints) const {
   if (kind == LawKind::friction_of_previous) return joint - 1;
   if (kind == LawKind::friction_of_next && joint + 1 < joints) return joint + 1;
@@ -56,7 +65,8 @@ std::vector<LawWords> const& law_words() {
       {LawKind::friction_of_previous, "friction_of_previous_joint", {"outside"}},
       {LawKind::tilted_base, "gravity_direction", {"static_position"}},
       {LawKind::friction_of_next, "friction_of_next_joint", {"outside"}},
-      {LawKind::joint_zero, "joint_zero", {"static_position"}}};
+      {LawKind::joint_zero, "joint_zero", {"static_position"}},
+      {LawKind::elastic_joint, "joint_compliance", {"acceleration"}}};
   return words;
 }
 
@@ -82,7 +92,7 @@ std::vector<int> possible_joints(LawKind kind, Arm const& arm) {
   return joints;
 }
 
-Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fastest, concealed::Random& random) {
+Law drawn_law(LawKind kind, Arm const& arm, int joint, JointMoves const& moves, concealed::Random& random) {
   auto const joints = possible_joints(kind, arm);
   if (std::find(joints.begin(), joints.end(), joint) == joints.end())
     throw std::invalid_argument(std::string("joint ") + std::to_string(joint + 1) + " of " + arm.name + " has no " +
@@ -96,7 +106,7 @@ Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fas
       break;
     case LawKind::stribeck:
       law.largest = 2.0 * link.coulomb;
-      law.shape = fastest * random.between(0.04, 0.15);
+      law.shape = moves.fastest * random.between(0.04, 0.15);
       law.second = random.between(1.0, 2.0);
       break;
     case LawKind::power_viscous:
@@ -108,23 +118,23 @@ Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fas
       break;
     case LawKind::spring:
       law.largest = 20.0 * link.coulomb;
-      law.shape = random.uniform() < 0.5 ? 0.0 : random.between(0.0, 1.0) / (travel * travel);
-      law.second = random.between(-0.2, 0.2) * travel;
+      law.shape = random.uniform() < 0.5 ? 0.0 : random.between(0.0, 1.0) / (moves.travel * moves.travel);
+      law.second = random.between(-0.2, 0.2) * moves.travel;
       break;
     case LawKind::position_friction:
       law.largest = 0.6 * link.coulomb;  // beyond its level, friction would push
-      law.shape = full_turn * random.between(0.7, 3.0) / travel;
+      law.shape = full_turn * random.between(0.7, 3.0) / moves.travel;
       law.second = phase;
       break;
     case LawKind::cogging:
       law.largest = link.coulomb;
-      law.shape = full_turn * random.between(3.0, 10.0) / travel;
+      law.shape = full_turn * random.between(3.0, 10.0) / moves.travel;
       law.second = phase;
       break;
     case LawKind::friction_of_previous:
     case LawKind::friction_of_next:
       law.largest = link.viscous;
-      law.shape = fastest * random.between(0.2, 1.0);  // dry part, as speed
+      law.shape = moves.fastest * random.between(0.2, 1.0);  // dry part, as speed
       break;
     case LawKind::tilted_base:
       law.largest = 0.3;
@@ -132,6 +142,12 @@ Law drawn_law(LawKind kind, Arm const& arm, int joint, double travel, double fas
       break;
     case LawKind::joint_zero:
       law.largest = 0.3;
+      break;
+    case LawKind::elastic_joint:
+      law.second = moves.inertia;
+      law.largest = 1.0 / (law.second * std::pow(full_turn * lowest_resonance_hz, 2));
+      law.smallest = law.largest / 25.0;      // at five times that resonance there is nothing to see
+      law.shape = random.between(0.02, 0.1);  // damping ratio of the links with the motor held
       break;
   }
   return law;

@@ -6,7 +6,7 @@ OUT is a folder of run_arm_suite.py; several are the shards of one suite. FOLDER
 arms_board.json. A verdict that is missing counts as a failure and as a false name.
 
     right joint     a name at the concealed joint, and at no other. Names of the whole arm count as of joint 0; of a
-                    law that the whole arm has (gravity_direction, joint_zero) it is a name there, and at no joint
+                    law that the whole arm has (LAWS_OF_THE_ARM) it is a name there, and at no joint
     right family    the first name there is of a family the law may answer to, or a class with the law
     exact or class  the law itself, or a class with it
     false name      at a joint that has nothing, or a law of no family that answers (of a decoy: any name but those of
@@ -39,7 +39,7 @@ def seal(out, folder):
 
 
 WHOLE_ARM = 0
-LAWS_OF_THE_ARM = ("gravity_direction", "joint_zero")
+LAWS_OF_THE_ARM = ("gravity_direction", "joint_zero", "joint_compliance")
 
 
 def named_at(verdict):

@@ -169,6 +169,73 @@ TEST_F(ArmLaws, SayWhatATiltedBaseDoes) {
   EXPECT_GT(weighed, 0);
 }
 
+// links that move as told, and what they need
+struct LinksOnTheWay {
+  std::vector<Motion> motion{};
+  Eigen::MatrixXd load{};  // n x N
+};
+
+Eigen::VectorXd torque_of(SerialChain const& chain, Eigen::VectorXd const& parameters,
+                          std::vector<Motion> const& motion, Eigen::Index sample) {
+  Eigen::MatrixXd at(static_cast<Eigen::Index>(motion.size()), 3);
+  for (std::size_t j = 0; j < motion.size(); ++j)
+    at.row(static_cast<Eigen::Index>(j)) << motion[j].q[sample], motion[j].dq[sample], motion[j].ddq[sample];
+  return inverse_dynamics(chain, parameters, at.col(0), at.col(1), at.col(2));
+}
+
+LinksOnTheWay links_on_the_way(SerialChain const& chain, Eigen::VectorXd const& standard, Eigen::Index n,
+                               double rate_hz) {
+  auto const joints = static_cast<Eigen::Index>(chain.joints.size());
+  LinksOnTheWay links;
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    double const w = 3.0 + static_cast<double>(j);
+    Eigen::ArrayXd const phase = w / rate_hz * Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) + 0.3;
+    Motion one;
+    one.rate_hz = rate_hz;
+    one.q = phase.sin();
+    one.dq = w * phase.cos();
+    one.ddq = -w * w * phase.sin();
+    links.motion.push_back(std::move(one));
+  }
+  links.load.resize(n, joints);
+  for (Eigen::Index i = 0; i < n; ++i)
+    links.load.row(i) = torque_of(chain, standard.head(numbers_per_link * joints), links.motion, i);
+  return links;
+}
+
+// one joint winds up: what all drives need, less what the arm of the file needs for the motion that encoders see
+TEST_F(ArmLaws, SayWhatAJointThatWindsUpDoes) {
+  constexpr double rate_hz = 2000.0, compliance = 1e-7;
+  constexpr Eigen::Index n = 400, edge = 5;
+  auto const joints = static_cast<Eigen::Index>(chain.joints.size());
+  LinksOnTheWay const links = links_on_the_way(chain, standard, n, rate_hz);
+  Eigen::VectorXd const drives = standard.tail(joints);
+  for (Eigen::Index whose = 0; whose < joints; ++whose) {
+    std::vector<Motion> seen = links.motion;
+    Motion& own = seen[static_cast<std::size_t>(whose)];
+    Eigen::VectorXd const wound = compliance * links.load.col(whose), speed = central_derivative(wound, rate_hz);
+    own.q += wound;
+    own.dq += speed;
+    own.ddq += central_derivative(speed, rate_hz);
+    Eigen::MatrixXd needed = links.load;
+    for (Eigen::Index i = 0; i < n; ++i) needed.row(i) -= torque_of(chain, standard, seen, i);
+    auto const laws = whole_arm_laws(model, model.base().from_standard(standard), seen, arm_law_choices());
+    auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
+      return one.effect->name() == "joint_compliance" && one.joint == static_cast<std::size_t>(whose);
+    });
+    ASSERT_NE(law, laws.end());
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      auto const& columns = law->columns[static_cast<std::size_t>(j)];
+      needed.col(j) += drives[j] * seen[static_cast<std::size_t>(j)].ddq;
+      double const drive = drives[whose];
+      Eigen::Vector3d const parameters = compliance * Eigen::Vector3d(1.0, drive, drive * drive);
+      Eigen::VectorXd const apart = needed.col(j) - columns * parameters.head(columns.cols());
+      auto const inside = [&](auto const& of) { return of.segment(edge, n - 2 * edge).norm(); };
+      EXPECT_LT(inside(apart), 1e-3 * inside(needed.col(j)) + 1e-12) << whose << ' ' << j;
+    }
+  }
+}
+
 TEST_F(ArmLaws, AreThoseOfTheCatalogue) {
   for (auto const* law : arm_law_choices()) {
     EXPECT_TRUE(law->is_given());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "engine/base/random_stream.hpp"
 #include "engine/data/spline_motion.hpp"
@@ -126,6 +127,22 @@ TEST(ParallelFilter, KeepsEveryManiethSampleBetweenTheEdges) {
   EXPECT_EQ(kept[1], 65);
   EXPECT_EQ(kept[176], 940);
   EXPECT_LT((filter.apply(index) - kept).cwiseAbs().maxCoeff(), 1e-3);  // a ramp passes
+}
+
+TEST(ParallelFilter, SaysHowNeighboursOfWhiteNoiseAreAlike) {
+  FilterOptions options;
+  options.parallel_cutoff_hz = 10;
+  options.decimate_to_hz = 50;
+  constexpr Eigen::Index n = 200000;
+  ParallelFilter const filter(options, 500, n, filter_section());
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd const noise = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
+  Eigen::VectorXd const kept = filter.apply(noise);
+  double const seen = kept.head(kept.size() - 1).dot(kept.tail(kept.size() - 1)) / kept.squaredNorm();
+  EXPECT_NEAR(filter.neighbour_correlation(), seen, 4.0 / std::sqrt(static_cast<double>(kept.size())));
+  EXPECT_GT(seen, 0.5);
+  EXPECT_EQ(ParallelFilter({}, 500, n, filter_section()).neighbour_correlation(), 0.0);
 }
 
 TEST(ParallelFilter, DefaultsFollowTheKeptRate) {

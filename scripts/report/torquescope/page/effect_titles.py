@@ -43,6 +43,7 @@ TITLES = {
     "inertia_of_next_joint": "inertia shared with the drive of the next joint",
     "inertia_of_previous_joint": "inertia shared with the drive of the previous joint",
     "gravity_direction": "a base that is tilted against the robot file's gravity",
+    "joint_compliance": "a transmission that winds up under its load, felt by all joints",
     "joint_zero": "an encoder's zero that differs from the robot file's",
     "payload_picked_up": "a payload of the last link, picked up or put down",
     "tip_contact": "a constant force on the last link for some time",
