@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "engine/arms/whole_arm_energies.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 #include "engine/statistics/scaled_solution.hpp"
 
@@ -15,43 +15,6 @@ Eigen::MatrixXd beside(Eigen::MatrixXd const& basis, Eigen::MatrixXd const& more
   Eigen::MatrixXd both(basis.rows(), basis.cols() + more.cols());
   both << basis, more;
   return both;
-}
-
-// energy of noise on the rows of a stretch of one joint after the other, from rows that follow each other
-double noise_energy(WholeArmRows const& rows, Eigen::VectorXd const& residual, ArmStretch const& stretch,
-                    std::size_t joints) {
-  RowBlock const& block = stretch.rows;
-  std::vector<Eigen::Index> last(joints, -1);
-  std::vector<double> squares(joints, 0.0), pairs(joints, 0.0), count(joints, 0.0);
-  for (Eigen::Index i = block.from; i < block.to; ++i) {
-    ArmRow const& row = rows.rows[static_cast<std::size_t>(i)];
-    count[row.joint] += 1.0;
-    Eigen::Index& before = last[row.joint];
-    if (before >= 0 && rows.rows[static_cast<std::size_t>(before)].instant + 1 == row.instant) {
-      double const step = residual[i] - residual[before];
-      squares[row.joint] += step * step;
-      pairs[row.joint] += 1.0;
-    }
-    before = i;
-  }
-  double energy = 0.0;
-  for (std::size_t j = 0; j < joints; ++j)
-    if (pairs[j] > 0.0) energy += count[j] * squares[j] / (2.0 * (1.0 - stretch.noise_correlation) * pairs[j]);
-  return energy;
-}
-
-// energy over all joints in their own units
-double plain_energy(WholeArmRows const& rows, Eigen::VectorXd const& noise, Eigen::VectorXd const& of, RowBlock block) {
-  double energy = 0.0;
-  for (Eigen::Index i = block.from; i < block.to; ++i) {
-    double const scale = noise[static_cast<Eigen::Index>(rows.rows[static_cast<std::size_t>(i)].joint)];
-    energy += scale * scale * of[i] * of[i];
-  }
-  return energy;
-}
-
-double energy_on(Eigen::VectorXd const& of, RowBlock const& block) {
-  return of.segment(block.from, block.size()).squaredNorm();
 }
 
 class WholeArmWork {
@@ -154,7 +117,8 @@ class WholeArmWork {
     found.after = std::sqrt(plain_after / plain_torque);
     look_at_unseen(found);
     Blocks const which = found.time ? Blocks::where_it_acts : Blocks::alike;
-    found.reason = reason_of(found, gain_of(stretches, left, one.left, which), std::sqrt(after / before));
+    found.reason = reason_of(found, gain_of(stretches, left, one.left, which),
+                             least_left_share(rows_, left, one.left, stretches, question_.model.joints()));
     return one;
   }
 

@@ -1,11 +1,11 @@
 #pragma once
 // Which laws of the whole arm its model lacks: one after the other, judged on the rows of all joints at once.
 //
-// Accepted   as WholeArmReason says; the error on rows left out must fall clearly (held_out_gain.hpp), and more of the
-//            mismatch be explained than is left (decision_levels.hpp)
-// Mismatch   energy left on rows left out, less that of noise: half the mean square of the difference of neighbouring
-//            rows (von Neumann 1941, doi:10.1214/aoms/1177731677), over one less the correlation that the parallel
-//            filter leaves between them. Of a law with instants: in its recording
+// Accepted   as WholeArmReason says; the error on rows left out must fall clearly (held_out_gain.hpp), at one joint at
+//            least by as much as a joint's own name asks for, and more of the mismatch be explained than is left
+//            (decision_levels.hpp)
+// Mismatch   energy left on rows left out, less that of noise (whole_arm_energies.hpp). Of a law with instants: in its
+//            recording
 // Alike      other laws beyond chance that leave not clearly more on rows left out
 // Unseen     a law with instants acts there from the beginning or not at all, as the first stretch tells
 // Errors     those of the filters
@@ -27,7 +27,7 @@ enum class WholeArmReason {
   chance,         // over all laws and windows more than alpha (whole_arm_scan.hpp)
   out_of_bounds,  // of a parameter
   not_held_out,   // the error on rows left out is not clearly lower
-  too_small,      // it falls by less than least_fall
+  too_small,      // it falls by less than least_fall at every joint
   most_is_left,   // of the mismatch
   unseen          // unseen recordings that it acts in are predicted worse
 };

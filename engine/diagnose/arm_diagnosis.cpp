@@ -46,7 +46,15 @@ JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
 }
 
 // of each joint that has laws which the rigid arm is fitted beside: their torque in each training recording
-using LawsOfJoints = std::vector<std::vector<Eigen::VectorXd>>;
+using LawsOfJoints = std::vector<LawTorques>;
+
+// of the first so many laws
+LawTorques sum_of(std::vector<LawTorques> const& laws, std::size_t count) {
+  LawTorques sum = laws.front();
+  for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += laws[i][k];
+  return sum;
+}
 
 // the rigid arm beside laws, and every joint's recordings without it
 struct ArmBesideLaws {
@@ -80,6 +88,7 @@ class ArmWork {
     for (std::size_t j = 0; j < n; ++j) alone_.push_back(searched(j, RigidArm::shared));
     outcomes_ = alone_;
     searched_on_.resize(n);
+    taken_.assign(n, 0);
     for (std::size_t j = 0; j < n; ++j) searched_on_[j] = arm_.train.front()[j].gear_load;
     take_laws_in_turn();
     for (std::size_t j = 0; j < n; ++j)
@@ -159,7 +168,7 @@ class ArmWork {
 
   // The laws of a joint beside those of the others, as large as a fit of them and the arm together has them: beside an
   // arm that was fitted without them they come out too small
-  LawsOfJoints with_laws(std::size_t j, std::vector<Eigen::VectorXd> const& found) const {
+  LawsOfJoints with_laws(std::size_t j, LawTorques const& found) const {
     LawsOfJoints laws = arm_.laws;
     Eigen::VectorXd const& noise = arm_.fitted.noise;
     auto const left_beside = [&](double size) {
@@ -193,10 +202,13 @@ class ArmWork {
     return arm;
   }
 
-  // the laws of one joint after the other, the strongest first, until none is new to the fit of the arm
+  // One law after the other, the strongest first, until none is new to the fit of the arm. Of a joint with several the
+  // first alone: beside an arm that lacks it, the next may be no more than what the arm was bent by it
   void take_laws_in_turn() {
     for (auto strongest = strongest_new(); strongest; strongest = strongest_new()) {
-      arm_ = beside(with_laws(*strongest, outcomes_[*strongest].laws));
+      std::size_t& taken = taken_[*strongest];
+      ++taken;
+      arm_ = beside(with_laws(*strongest, sum_of(outcomes_[*strongest].laws, taken)));
       search_those_that_moved();
     }
   }
@@ -230,7 +242,7 @@ class ArmWork {
     JointOutcome const pilot = searched(j, RigidArm::corrected);
     if (pilot.tried.empty()) return false;
     ArmBesideLaws before = arm_;
-    arm_ = beside(with_laws(j, pilot.tried));
+    arm_ = beside(with_laws(j, sum_of(pilot.tried, pilot.tried.size())));
     JointOutcome again = searched_beside_laws(j);
     if (again.laws.empty() || !names_physics(again.diagnosis.verdict)) {
       arm_ = std::move(before);
@@ -239,6 +251,7 @@ class ArmWork {
     outcomes_[j] = std::move(again);
     searched_on_[j] = arm_.train.front()[j].gear_load;
     arm_.laws[j].clear();  // to be taken as they were found last
+    taken_[j] = 0;
     return true;
   }
 
@@ -251,15 +264,16 @@ class ArmWork {
     return moved > tenth * arm_.fitted.noise[static_cast<Eigen::Index>(j)];
   }
 
-  // Of joints whose laws are not yet taken out of the fit, the one whose laws are largest relative to its noise: these
-  // bias the shared parameters most
+  // Of joints with a law that is not yet taken out of the fit, the one whose laws are largest relative to its noise:
+  // these bias the shared parameters most
   std::optional<std::size_t> strongest_new() const {
     std::optional<std::size_t> strongest;
     double most = 0.0;
     for (std::size_t j = 0; j < outcomes_.size(); ++j) {
-      if (!arm_.laws[j].empty() || outcomes_[j].laws.empty()) continue;
+      auto const& laws = outcomes_[j].laws;
+      if (laws.size() <= taken_[j]) continue;
       double const noise = arm_.fitted.noise[static_cast<Eigen::Index>(j)];
-      double const size = outcomes_[j].laws.front().squaredNorm() / (noise * noise);
+      double const size = sum_of(laws, taken_[j] + 1).front().squaredNorm() / (noise * noise);
       if (size <= most) continue;
       most = size;
       strongest = j;
@@ -326,6 +340,7 @@ class ArmWork {
   ArmBesideLaws arm_{};
   std::vector<JointOutcome> alone_{}, outcomes_{};  // [N] beside the arm without laws; as it is told
   std::vector<Eigen::VectorXd> searched_on_{};      // [N] rigid torque of the last search
+  std::vector<std::size_t> taken_{};                // [N] laws that the arm is fitted beside
 };
 
 }  // namespace

@@ -217,19 +217,28 @@ class JointWork {
                         after.torque - after.columns * transferable(final_stage(), unsaid));
   }
 
-  std::vector<Eigen::VectorXd> law_torques() const {
-    StageSetting const& setting = found_.search->setting;
-    auto const torque_in = [&](Recording const& recording, Eigen::VectorXd const& parameters) -> Eigen::VectorXd {
-      RecordPipeline const pipeline = pipeline_for(setting, recording, final_stage());
-      ProcessedRecord const record = pipeline.prepare(recording);
-      auto const laws = parameters.size() - static_cast<Eigen::Index>(final_stage().model().regressor().size());
-      return pipeline.model().columns(record.motion, record.drive).rightCols(laws) * parameters.tail(laws);
-    };
+  // of each name; waves of one kind share theirs
+  std::vector<LawTorques> law_torques() const {
+    std::vector<LawTorques> laws(*std::max_element(place_.begin(), place_.end()) + 1);
     std::vector<std::string> unsaid;
     Eigen::VectorXd const elsewhere = transferable(final_stage(), unsaid);
-    std::vector<Eigen::VectorXd> torques{torque_in(setting.recording, final_stage().estimate())};
-    for (auto const& recording : found_.others.all) torques.push_back(torque_in(recording, elsewhere));
-    return torques;
+    add_law_torques(laws, found_.search->setting.recording, final_stage().estimate());
+    for (auto const& recording : found_.others.all) add_law_torques(laws, recording, elsewhere);
+    return laws;
+  }
+
+  void add_law_torques(std::vector<LawTorques>& laws, Recording const& recording,
+                       Eigen::VectorXd const& parameters) const {
+    RecordPipeline const pipeline = pipeline_for(found_.search->setting, recording, final_stage());
+    ProcessedRecord const record = pipeline.prepare(recording);
+    Eigen::MatrixXd const columns = pipeline.model().columns(record.motion, record.drive);
+    for (auto& law : laws) law.push_back(Eigen::VectorXd::Zero(columns.rows()));
+    auto first = static_cast<Eigen::Index>(final_stage().model().regressor().size());
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      auto const count = static_cast<Eigen::Index>(final_stage().model().effects()[i].effect->n_linear());
+      laws[place_[i]].back() += columns.middleCols(first, count) * parameters.segment(first, count);
+      first += count;
+    }
   }
 
   // of the final model, on the rows of the baseline: NaN where it keeps none
@@ -363,7 +372,7 @@ class JointWork {
   Diagnosis diagnosis_;
   JointDiagnosis joint_;
   Selection selection_;
-  std::vector<Eigen::VectorXd> laws_, tried_;
+  std::vector<LawTorques> laws_, tried_;
   std::vector<LevelChange> level_changes_{};
   std::vector<std::size_t> place_;  // of each accepted effect among the named ones
   bool has_reference_ = false;      // one that tells a loop

@@ -37,12 +37,13 @@ struct DiagnosisInput {
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 
+// torque of a law, per sample: of the first training recording, then of each other
+using LawTorques = std::vector<Eigen::VectorXd>;
+
 struct JointOutcome {
   Diagnosis diagnosis;
-  // torque of what was named, per sample: of the first training recording, then of each other; empty: no name
-  std::vector<Eigen::VectorXd> laws{};
-  // the same of all laws of the search, whether or not the verdict keeps them
-  std::vector<Eigen::VectorXd> tried{};
+  std::vector<LawTorques> laws{};   // of each name, in the order of acceptance
+  std::vector<LawTorques> tried{};  // the same of the search, whether or not the verdict keeps names
 };
 
 JointOutcome diagnose_joint(DiagnosisInput const& input, StageSink const& progress);
