@@ -1,7 +1,7 @@
 // A joint whose link turns by load / stiffness against its encoder: the lag of one link is felt by all joints.
 //
-// Equation   tau = - c d(tau_links)(l, l', l''), of joint i: l what its spring carries, c its compliance, d() the change
-//            of the rigid torque of all joints where joint i is moved along position, speed and acceleration. First
+// Equation   tau = - c d(tau_links)(l, l', l''), of joint i: l what its spring carries, c its compliance, d() how the
+//            rigid torque of all joints changes where joint i is moved along position, speed and acceleration. First
 //            order in c: for motions well below the resonance
 //            A model that has the drive's inertia J in a link's: l - J ddq in place of l, and its own lag taken back,
 //            with parameters c J and c J^2
