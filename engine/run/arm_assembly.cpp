@@ -86,7 +86,7 @@ void bring_files_to_one_rate(Files& train, Files& unseen) {
   for (auto const& file : unseen) first_of_unseen.push_back(file.joints.front());
   double const rate_hz = rate_of_job(first_of_train, first_of_unseen);
   for (auto* files : {&train, &unseen})
-    for (auto& file : *files) bring_to_rate(file.joints, rate_hz);
+    for (auto& file : *files) bring_joints_to_rate(file.joints, rate_hz);
 }
 
 // an arm of which no joint moves tells nothing; one joint that stands still is worth a warning

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/data/change_of_rate.hpp"
@@ -28,14 +29,27 @@ double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> c
   return highest <= (1.0 + about_the_same) * lowest ? first : lowest;
 }
 
+namespace {
+
+// a warning where anything had to change
+std::optional<DataWarning> brought_to_rate(Recording& recording, double rate_hz) {
+  double const own = recording.rate_hz;
+  if (std::fabs(own - rate_hz) <= 1e-6 * rate_hz) return std::nullopt;
+  recording = at_rate(std::move(recording), rate_hz);
+  return DataWarning{"rate", fmt::format("sampled at {:.6g} Hz, resampled to the {:.6g} Hz of the job", own, rate_hz)};
+}
+
+}  // namespace
+
 void bring_to_rate(std::vector<Recording>& recordings, double rate_hz) {
-  for (auto& recording : recordings) {
-    double const own = recording.rate_hz;
-    if (std::fabs(own - rate_hz) <= 1e-6 * rate_hz) continue;
-    recording = at_rate(std::move(recording), rate_hz);
-    recording.warnings.push_back(
-        {"rate", fmt::format("sampled at {:.6g} Hz, resampled to the {:.6g} Hz of the job", own, rate_hz)});
-  }
+  for (auto& recording : recordings)
+    if (auto const warning = brought_to_rate(recording, rate_hz)) recording.warnings.push_back(*warning);
+}
+
+void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz) {
+  std::optional<DataWarning> warning;
+  for (auto& joint : joints) warning = brought_to_rate(joint, rate_hz);
+  if (warning) joints.front().warnings.push_back(*warning);
 }
 
 void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share) {

@@ -19,6 +19,8 @@ RawTable table_of_job(Job const& job, std::string const& name, Section const& se
 double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate);
 // what is resampled says so in its warnings
 void bring_to_rate(std::vector<Recording>& recordings, double rate_hz);
+// of one file: they have one clock, so that the first alone says it
+void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz);
 
 // keeps the first `share` of every training recording; the rest stands behind `unseen`. A share of 1 changes nothing
 void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share);

@@ -2,6 +2,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/recordings_of_job.hpp"
 #include "support/simulated_job.hpp"
 
 namespace torquescope {
@@ -74,6 +75,26 @@ TEST(LoadExperiment, KnowsRecordingsInMemoryByTheirNumbers) {
   };
   EXPECT_EQ(digest("x", rising), digest("y", rising));
   EXPECT_NE(digest("x", rising), digest("x", falling));
+}
+
+// one clock, one warning
+TEST(BringToRate, SaysOnceForAllJointsOfAFileThatTheyWereResampled) {
+  Recording joint;
+  joint.rate_hz = 100.0;
+  joint.time_s = Eigen::VectorXd::LinSpaced(200, 0.0, 1.99);
+  joint.position = joint.time_s.array().sin();
+  joint.torque = joint.time_s.array().cos();
+  std::vector<Recording> joints(3, joint), alone(3, joint), same(3, joint);
+  bring_joints_to_rate(joints, 101.0);
+  bring_to_rate(alone, 101.0);
+  bring_joints_to_rate(same, 100.0);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    EXPECT_EQ(joints[j].rate_hz, 101.0);
+    EXPECT_EQ(joints[j].position, alone[j].position);
+    EXPECT_EQ(joints[j].warnings.size(), j == 0 ? 1U : 0U);
+    EXPECT_EQ(alone[j].warnings.size(), 1U);
+    EXPECT_TRUE(same[j].warnings.empty());
+  }
 }
 
 }  // namespace assemble_test
