@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/base/parallel.hpp"
 #include "engine/robot/inverse_dynamics.hpp"
 #include "engine/robot/link_inertia.hpp"
 #include "engine/robot/vector3.hpp"
@@ -236,16 +237,22 @@ std::vector<GivenSignals> arm_law_signals(ArmModel const& model, std::vector<Mot
 }
 
 std::vector<WholeArmLaw> whole_arm_laws(ArmModel const& model, Eigen::VectorXd const& parameters,
-                                        std::vector<Motion> const& motion, std::span<Effect const* const> wanted) {
+                                        std::vector<Motion> const& motion, std::span<Effect const* const> wanted,
+                                        int threads) {
   MovingArm const arm = moving(model, parameters, motion);
   std::vector<WholeArmLaw> laws;
+  std::vector<ArmLaw> how;
   for (ArmLaw const& law : of_the_arm) {
     auto const effect =
         std::find_if(wanted.begin(), wanted.end(), [&](Effect const* one) { return one->name() == law.name; });
     if (effect == wanted.end()) continue;
-    if (law.columns) laws.push_back({*effect, {}, law.columns(arm)});
-    for (std::size_t j = 0; law.of_each && j < motion.size(); ++j) laws.push_back({*effect, j, law.of_each(arm, j)});
+    if (law.columns) laws.push_back({*effect, {}, {}});
+    for (std::size_t j = 0; law.of_each && j < motion.size(); ++j) laws.push_back({*effect, j, {}});
+    how.resize(laws.size(), law);
   }
+  parallel_for(laws.size(), threads, [&](std::size_t i, int) {
+    laws[i].columns = laws[i].joint ? how[i].of_each(arm, *laws[i].joint) : how[i].columns(arm);
+  });
   return laws;
 }
 

@@ -30,8 +30,9 @@ struct WholeArmLaw {
 };
 
 // those of the wanted effects that are of the whole arm, in the same order for every recording.
-// parameters: [R] of the model, at which the robot file is varied
+// parameters: [R] of the model, at which the robot file is varied. Spreads laws over `threads`; same bits for any number
 std::vector<WholeArmLaw> whole_arm_laws(ArmModel const& model, Eigen::VectorXd const& parameters,
-                                        std::vector<Motion> const& motion, std::span<Effect const* const> wanted);
+                                        std::vector<Motion> const& motion, std::span<Effect const* const> wanted,
+                                        int threads = 1);
 
 }  // namespace torquescope

@@ -74,7 +74,7 @@ void add_stretches(WholeArmRows& all, std::size_t recording, RowBlock const& row
 
 WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parameters, Eigen::VectorXd const& noise,
                             std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                            std::span<Effect const* const> wanted) {
+                            std::span<Effect const* const> wanted, int threads) {
   std::vector<RecordedRows> rows;
   std::vector<std::vector<WholeArmLaw>> laws;
   std::vector<RowBlock> of_recording;
@@ -82,7 +82,7 @@ WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parame
   for (auto const& recording : recordings) {
     auto const motion = motion_of(recording, filter);
     rows.push_back(rows_of(model, recording, motion, filter));
-    laws.push_back(whole_arm_laws(model, parameters, motion, wanted));
+    laws.push_back(whole_arm_laws(model, parameters, motion, wanted, threads));
     of_recording.push_back({n, n + moving_rows(rows.back())});
     n = of_recording.back().to;
   }

@@ -49,9 +49,9 @@ struct WholeArmRows {
 
 inline constexpr Eigen::Index stretches_per_recording = 2 * n_folds;
 
-// parameters: [R], at which laws are made; noise: [N]
+// parameters: [R], at which laws are made; noise: [N]. Spreads laws over `threads`; same bits for any number
 WholeArmRows whole_arm_rows(ArmModel const& model, Eigen::VectorXd const& parameters, Eigen::VectorXd const& noise,
                             std::span<RecordedArm const> recordings, ArmFilter const& filter,
-                            std::span<Effect const* const> wanted);
+                            std::span<Effect const* const> wanted, int threads = 1);
 
 }  // namespace torquescope

@@ -22,11 +22,12 @@ class WholeArmWork {
   explicit WholeArmWork(WholeArmQuestion const& question) : question_(question) {
     PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
     noise_ = fit.noise;
-    rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted);
+    rows_ = whole_arm_rows(question.model, fit.parameters, noise_, question.train, question.filter, question.wanted,
+                           question.threads);
     if (rows_.stretches.empty()) return;  // no joint moves
     for (auto const& recording : question.unseen)
       unseen_.push_back(whole_arm_rows(question.model, fit.parameters, noise_, std::span(&recording, 1),
-                                       question.filter, question.wanted));
+                                       question.filter, question.wanted, question.threads));
     basis_ = orthonormal_basis(rows_.model);
     residual_ = left_by(basis_);
   }
@@ -232,7 +233,7 @@ std::vector<Eigen::VectorXd> whole_arm_torques(WholeArmQuestion const& question,
                                                std::vector<FoundWholeArmLaw> const& accepted, OneRecording const& of) {
   PlainArmFit const fit = fit_parameters(question.model, question.train, question.filter);
   auto const motion = motion_of(of.recording, question.filter);
-  auto const laws = whole_arm_laws(question.model, fit.parameters, motion, question.wanted);
+  auto const laws = whole_arm_laws(question.model, fit.parameters, motion, question.wanted, question.threads);
   std::vector<Eigen::VectorXd> torques(motion.size(), Eigen::VectorXd::Zero(motion.front().q.size()));
   for (FoundWholeArmLaw const& found : accepted) {
     auto const law = std::find_if(laws.begin(), laws.end(), [&](WholeArmLaw const& one) {
