@@ -1,25 +1,23 @@
 #include "support/decompositions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "engine/base/dense_solvers.hpp"
 
 namespace torquescope::test {
 
 Eigen::VectorXd least_squares(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y) {
-  return columns.colPivHouseholderQr().solve(y);
+  return solve_pivoted(columns, y);
 }
 
 Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y) {
   return y - columns * least_squares(columns, y);
 }
 
-Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+Eigen::MatrixXd inverse(Eigen::MatrixXd const& positive) {
+  return solve_positive(positive, Eigen::MatrixXd(Eigen::MatrixXd::Identity(positive.rows(), positive.cols())));
 }
 
-Eigen::VectorXd singular_values(Eigen::MatrixXd const& matrix) {
-  return Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
-}
+Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) { return symmetric_eigenvalues(symmetric); }
+
+Eigen::VectorXd singular_values(Eigen::MatrixXd const& matrix) { return torquescope::singular_values(matrix); }
 
 }  // namespace torquescope::test

@@ -1,6 +1,6 @@
 #pragma once
-// Eigen's decompositions as tests use them to check the engine, compiled once: each file that names one itself takes
-// four seconds longer.
+// Eigen's decompositions as tests use them to check the engine: those of engine/base/dense_solvers.hpp, whose own laws
+// are in tests/unit/base/dense_solvers.cpp. Each file that names one of Eigen's itself takes four seconds longer.
 
 #include <Eigen/Core>
 
@@ -11,6 +11,9 @@ Eigen::VectorXd least_squares(Eigen::MatrixXd const& columns, Eigen::VectorXd co
 
 // what such a fit leaves of y
 Eigen::VectorXd left_beside(Eigen::MatrixXd const& columns, Eigen::VectorXd const& y);
+
+// of a positive definite matrix
+Eigen::MatrixXd inverse(Eigen::MatrixXd const& positive);
 
 // of a symmetric matrix, ascending
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric);

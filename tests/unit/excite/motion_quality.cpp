@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/excite/motion_space.hpp"
+#include "support/decompositions.hpp"
 #include "unit/excite/arm_rows.hpp"
 
 namespace torquescope {
@@ -33,10 +33,11 @@ TEST(MotionQuality, IsThatOfTheStackedRows) {
       stacked.block(80 * static_cast<Index>(j), model.own[j][c], 80, 1) =
           rows[j].col(static_cast<Index>(c)) / model.noise[static_cast<Index>(j)];
   auto const quality = motion_quality(model, samples);
-  Eigen::MatrixXd const gram = stacked.transpose() * stacked;
-  EXPECT_NEAR(quality.log_determinant, std::log(gram.determinant()) / static_cast<double>(model.size), 1e-9);
+  // of the Gram: twice that of the triangle of QR
+  double const log_determinant = 2.0 * triangle_of(stacked).diagonal().array().abs().log().sum();
+  EXPECT_NEAR(quality.log_determinant, log_determinant / static_cast<double>(model.size), 1e-9);
   stacked.colwise().normalize();
-  auto const values = Eigen::JacobiSVD<Eigen::MatrixXd>(stacked).singularValues();
+  Eigen::VectorXd const values = test::singular_values(stacked);
   EXPECT_NEAR(quality.condition, values[0] / values[model.size - 1], 1e-8 * quality.condition);
 }
 
@@ -56,16 +57,13 @@ TEST(MotionQuality, TheAngleIsThatOfTheColumnsBesideAllOthers) {
   std::vector<Index> rest;
   for (Index k = 1; k < model.size; ++k)
     if (k != model.size - 4 && k < model.size - 2) rest.push_back(k);
-  auto const range = [](Eigen::MatrixXd const& columns) {
-    return Eigen::MatrixXd(Eigen::JacobiSVD<Eigen::MatrixXd>(columns, Eigen::ComputeThinU).matrixU());
-  };
-  Eigen::MatrixXd const others = range(stacked(Eigen::all, rest));
+  Eigen::MatrixXd const others = basis_of(stacked(Eigen::all, rest));
   auto const beside = [&](std::vector<Index> const& which) {
     Eigen::MatrixXd const columns = stacked(Eigen::all, which);
-    return range(columns - others * (others.transpose() * columns));
+    return basis_of(columns - others * (others.transpose() * columns));
   };
   Eigen::MatrixXd const cosines = beside(model.one).transpose() * beside(model.other);
-  double const expected = std::acos(Eigen::JacobiSVD<Eigen::MatrixXd>(cosines).singularValues()[0]);
+  double const expected = std::acos(test::singular_values(cosines)[0]);
   EXPECT_NEAR(motion_quality(model, samples).angle, expected, 1e-6);
   EXPECT_GT(expected, 0.1);
 }

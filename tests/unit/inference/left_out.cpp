@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <random>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/inference/left_out_gains.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 
@@ -49,9 +49,8 @@ Eigen::MatrixXd made_anew(std::vector<Fold> const& folds, Problem const& of) {
     std::vector<Eigen::Index> seen;
     for (Eigen::Index i = 0; i < of.columns.rows(); ++i)
       if (is_seen[static_cast<std::size_t>(i)]) seen.push_back(i);
-    Eigen::MatrixXd const fit = Eigen::MatrixXd(of.columns(seen, Eigen::all))
-                                    .colPivHouseholderQr()
-                                    .solve(Eigen::MatrixXd(of.signals(seen, Eigen::all)));
+    Eigen::MatrixXd const fit =
+        solve_shortest(of.columns(seen, Eigen::all), Eigen::MatrixXd(of.signals(seen, Eigen::all)));
     left.row(static_cast<Eigen::Index>(f)) =
         (of.signals(inside, Eigen::all) - of.columns(inside, Eigen::all) * fit).colwise().squaredNorm();
   }

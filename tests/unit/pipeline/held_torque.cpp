@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "engine/base/random_stream.hpp"
+#include "support/decompositions.hpp"
 
 using namespace torquescope;
 
@@ -57,7 +57,7 @@ TEST(HeldTorque, IsWhatAMassNeedsAtTheInstantOfASample) {
     Eigen::MatrixXd waves(n, 4);
     waves << Eigen::VectorXd::Ones(n), Eigen::VectorXd::LinSpaced(n, -1.0, 1.0),
         sampled([&](double t) { return std::sin(omega * t); }), sampled([&](double t) { return std::cos(omega * t); });
-    Eigen::VectorXd const found = waves.colPivHouseholderQr().solve(position);
+    Eigen::VectorXd const found = test::least_squares(waves, position);
     ASSERT_LT((waves * found - position).norm(), 1e-9 * position.norm()) << "nothing but a wave and a drift";
     Eigen::VectorXd const needed = -omega * omega * waves.rightCols(2) * found.tail(2);
     double const as_read = inner(held - needed).norm(), acting = inner(acting_torque(held) - needed).norm();

@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
 #include <cmath>
 
 #include "engine/pipeline/held_torque.hpp"
+#include "support/decompositions.hpp"
 #include "unit/twin/clean_records.hpp"
 
 using namespace torquescope;
@@ -62,7 +61,7 @@ TEST(SimulatorGap, LeavesTheResidualOfTheDifferenceAndTheParametersOfTheJoint) {
   auto const of_gap = pipeline.process(gap.recording);
   // what two joints differ by is none itself: its parameters have no bounds
   auto const of_difference = pipeline.prepare(difference);
-  Eigen::VectorXd const errors = of_difference.columns.householderQr().solve(of_difference.torque);
+  Eigen::VectorXd const errors = test::least_squares(of_difference.columns, of_difference.torque);
   Eigen::VectorXd const left = of_difference.torque - of_difference.columns * errors;
   // what the filter carries over from bridged reversals: below a thousandth of the Coulomb friction that turns round
   // there

@@ -4,14 +4,13 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <set>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/problem/statistics_objective.hpp"
 #include "kernels/dispatch.hpp"
 #include "unit/problem/joint_data.hpp"
@@ -82,13 +81,10 @@ std::vector<Eigen::VectorXd> candidates(Rows const& rows, SufficientStatistics c
       found.push_back(v);
     }
   }
-  Eigen::HouseholderQR<Eigen::MatrixXd> const qr(rows.phi);
-  Eigen::MatrixXd const root = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> const svd(root, Eigen::ComputeFullV);
+  auto const svd = right_singular(triangle_of(rows.phi));
   double const noise = std::sqrt(statistics.form().constant);
   for (double const share : {0.1, 1.0, 10.0})
-    found.push_back(statistics.centre() +
-                    share * noise / svd.singularValues()[columns - 1] * svd.matrixV().col(columns - 1));
+    found.push_back(statistics.centre() + share * noise / svd.values[columns - 1] * svd.vectors.col(columns - 1));
   return found;
 }
 

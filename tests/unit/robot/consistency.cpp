@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <random>
 
 #include "engine/robot/inverse_dynamics.hpp"
@@ -33,7 +32,7 @@ Estimate estimate_of(std::uint32_t number, DriveInertias drives, double noise) {
     auto const draw = [&] { return Eigen::VectorXd::NullaryExpr(n, [&](Index) { return uniform(bits); }).eval(); };
     rows.middleRows(n * sample, n) = base.pick(arm_regressor(arm.chain, draw(), draw(), draw(), drives));
   }
-  Eigen::MatrixXd const covariance = noise * noise * (rows.transpose() * rows).inverse();
+  Eigen::MatrixXd const covariance = noise * noise * test::inverse(rows.transpose() * rows);
   return {arm, base, {base.from_standard(standard_parameters(arm.chain, drives)), information_root(covariance)}};
 }
 

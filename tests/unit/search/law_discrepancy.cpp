@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "engine/base/dense_solvers.hpp"
+#include "support/decompositions.hpp"
 
 using namespace torquescope;
 
@@ -55,9 +57,9 @@ TEST(LawDiscrepancy, IsTheMostThatAnySignalOfThatEnergyMovesACoefficient) {
     columns.col(1) += 5.0 * columns.col(0);  // far from orthogonal
     columns.col(2) *= 1e-6;                  // in units of its own
     Eigen::VectorXd const shifts = discrepancy_shifts(left(excess, z), columns, everywhere());
-    Eigen::MatrixXd const inverse = (columns.transpose() * columns).inverse();
+    Eigen::MatrixXd const inverse = test::inverse(columns.transpose() * columns);
     double const length = std::sqrt(0.9 * excess);
-    Eigen::MatrixXd const span = Eigen::MatrixXd(columns.householderQr().householderQ()).leftCols(k);
+    Eigen::MatrixXd const span = basis_of(columns);
     Eigen::MatrixXd signals = span * normal_numbers(k, 2000, seed + 100);
     signals.colwise().normalize();
     Eigen::MatrixXd const moved = inverse * columns.transpose() * signals * length;
@@ -88,10 +90,10 @@ TEST(LawDiscrepancy, KnowsWhatTheBoundsOfAnotherLeave) {
   for (double const room_of_other : {0.0, 0.3, 2.0, 1e3}) {
     CoefficientBounds room{Eigen::Vector2d(-1e9, -room_of_other), Eigen::Vector2d(1e9, room_of_other)};
     double most = 0.0;
+    Eigen::Matrix2d const inverse = Eigen::Matrix2d(columns.topRows(2)).inverse();
     for (int i = 0; i < 200000; ++i) {
       double const angle = 2e-5 * std::acos(-1.0) * 0.5 * i;
-      Eigen::Vector2d const x =
-          columns.topRows(2).inverse() * Eigen::Vector2d(std::cos(angle), std::sin(angle)) * std::sqrt(energy);
+      Eigen::Vector2d const x = inverse * Eigen::Vector2d(std::cos(angle), std::sin(angle)) * std::sqrt(energy);
       if (std::abs(x[1]) <= room_of_other) most = std::max(most, std::abs(x[0]));
     }
     // without room for the other the points within are none but two

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "engine/base/random_stream.hpp"
+#include "support/decompositions.hpp"
 
 namespace torquescope {
 namespace stick_slip_test {
@@ -43,7 +43,7 @@ bool is_solution(Example const& example, std::vector<int> const& contacts, Eigen
       right[j] = example.push[j] - (contacts[at] > 0 ? example.dry[at].forward : example.dry[at].backward);
     }
   }
-  acceleration = equations.inverse() * right;
+  acceleration = test::least_squares(equations, right);
   Eigen::VectorXd const friction = example.push - example.mass * acceleration;
   for (Index j = 0; j < n; ++j) {
     auto const at = static_cast<std::size_t>(j);

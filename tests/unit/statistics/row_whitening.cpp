@@ -8,7 +8,10 @@
 #include <random>
 #include <vector>
 
+#include "engine/base/dense_solvers.hpp"
+
 using torquescope::RowWhitening;
+using torquescope::solve_positive;
 using torquescope::whitening_of;
 
 namespace row_whitening_test {
@@ -90,7 +93,7 @@ TEST(RowWhitening, MakesLeastSquaresAsSureAsTheNoiseAllows) {
   Eigen::VectorXd signal(noise.rows());
   for (std::size_t k = 0; k < rows.size(); ++k)
     signal[static_cast<Eigen::Index>(k)] = std::sin(0.3 * static_cast<double>(rows[k]));
-  double const least = std::sqrt(static_cast<double>(draws) / signal.dot(covariance.ldlt().solve(signal)));
+  double const least = std::sqrt(static_cast<double>(draws) / signal.dot(solve_positive(covariance, signal)));
   auto const scatter = [](Eigen::MatrixXd const& y, Eigen::VectorXd const& x) {
     return ((x.transpose() * y) / x.squaredNorm()).norm();
   };
