@@ -11,11 +11,6 @@ namespace torquescope {
 
 namespace {
 
-Section written_or_empty(Section const* section, Section const* simulate, std::string const& name) {
-  if (section) return *section;
-  return {name, simulate ? simulate->place : SourcePlace{}, {}};
-}
-
 // a table's options of every joint
 template <class Options>
 std::vector<Options> options_of_joints(Section const& section, std::size_t joints, std::vector<Problem>& problems) {

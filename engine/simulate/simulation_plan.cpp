@@ -13,12 +13,6 @@ namespace {
 
 constexpr double most_samples = 1e8;
 
-// a section that was not written: its problems point to [simulate]
-Section written_or_empty(Section const* section, Section const* simulate, std::string const& name) {
-  if (section) return *section;
-  return {name, simulate ? simulate->place : SourcePlace{}, {}};
-}
-
 void check_mode(SimulationPlan const& plan, SimulationSections const& sections, std::vector<Problem>& problems) {
   if (plan.simulation.mode == "inverse_dynamics") {
     refuse_loop_sections(sections, problems);
@@ -75,6 +69,11 @@ void check_samples(SimulationOptions const& simulation, std::size_t unknowns, Se
   if (samples > most_samples)
     problems.push_back(problem_at(simulate, "duration_s", fmt::format("{:.3g} samples are too many", samples),
                                   fmt::format("stay below {:.0e} samples", most_samples)));
+}
+
+Section written_or_empty(Section const* section, Section const* simulate, std::string const& name) {
+  if (section) return *section;
+  return {name, simulate ? simulate->place : SourcePlace{}, {}};
 }
 
 void refuse_loop_sections(SimulationSections const& sections, std::vector<Problem>& problems) {

@@ -48,6 +48,8 @@ struct SimulationSections {
   Section const* noise = nullptr;
 };
 
+// a section that was not written: its problems point to [simulate]
+Section written_or_empty(Section const* section, Section const* simulate, std::string const& name);
 // sections and keys that have no effect in mode "inverse_dynamics"
 void refuse_loop_sections(SimulationSections const& sections, std::vector<Problem>& problems);
 // too few samples for so many parameters, or more than memory has

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -11,8 +10,6 @@
 
 namespace torquescope {
 namespace {
-
-constexpr double not_kept = std::numeric_limits<double>::infinity();
 
 struct RowSpread {
   double squares = 0.0;  // about the mean of those that keep the row

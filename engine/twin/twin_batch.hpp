@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "engine/pipeline/record_pipeline.hpp"
@@ -27,6 +28,9 @@ struct VisitedTwin {
   bool ran_away = false;
   ProcessedRecord const& record;
 };
+
+// of a row, in matrices of one row per kept sample and a column per twin: the twin does not keep it
+inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 
 inline constexpr char const* twins_name = "twins of this recording";  // in messages
 

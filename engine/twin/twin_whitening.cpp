@@ -1,7 +1,6 @@
 #include "engine/twin/twin_whitening.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "engine/statistics/blocked_cv.hpp"
@@ -9,9 +8,6 @@
 
 namespace torquescope {
 namespace {
-
-// infinite: a row that this twin does not keep
-constexpr double not_kept = std::numeric_limits<double>::infinity();
 
 std::vector<Eigen::Index> common_rows(Eigen::MatrixXd const& residuals) {
   std::vector<Eigen::Index> rows;

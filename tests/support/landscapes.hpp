@@ -7,12 +7,13 @@
 // Source     after Hansen, Finck, Ros, Auger: Real-parameter black-box optimization benchmarking 2009, INRIA RR-6829;
 //            without their transformations of values and places, so not their numbers
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "engine/base/dense_solvers.hpp"
 #include "support/optimise.hpp"
 
 namespace torquescope::testing {
@@ -31,7 +32,7 @@ class Landscape {
     RandomStream random({46, instance, RandomDomain::test}, 0, 0);
     Eigen::MatrixXd normal(n_, n_);
     for (double& x : normal.reshaped()) x = random.normal();
-    turn_ = Eigen::HouseholderQR<Eigen::MatrixXd>(normal).householderQ();
+    turn_ = qr_factors(normal, Eigen::MatrixXd::Identity(n_, n_)).q_right.transpose();
     for (double& x : centre_) x = random.uniform(-4.0, 4.0);
     for (double& x : peaks_.reshaped()) x = random.uniform(-5.0, 5.0);
     // the first peak is the minimum
