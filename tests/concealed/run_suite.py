@@ -1,14 +1,14 @@
 """Makes concealed cases, lets the engine diagnose them, and has the scorer judge the verdicts.
 
     run_suite.py PROGRAM MAKE_CASE OUT [--cases NAME,NAME | --clean FROM..TO [--sticking LAW] | --drawn FILE_OR_NAMES]
-                 [--shard [I/N]] [--jobs N] [--threads N] [--all-right]
+                 [--shard [I/N]] [--jobs N] [--threads N] [--twins N] [--all-right]
 
 PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --out R.h5`). Without --cases, --clean or
 --drawn: every sealed case. Drawn cases are those of `make_case --list-drawn`, one name per line of a file or separated
 by commas; their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as
 long as the case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs
 a share of the cases (shard.py), without I/N the one Slurm says; each shard wants an OUT of its own, and score.py OUT...
-gathers them.
+gathers them. --twins asks for a smaller diagnosis than the case's own job does: for tests, not for boards.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
     OUT/open/NAME       the job and its recordings, the folder the program runs in
@@ -51,6 +51,7 @@ class Suite:
     make_case: pathlib.Path
     out: pathlib.Path
     threads: int = 0
+    twins: int = 0
 
     def __post_init__(self):
         for folder in ("sealed", "open", "verdicts", "results", "logs"):
@@ -82,6 +83,10 @@ class Suite:
         for file in OPEN:
             (folder / file).unlink(missing_ok=True)
             os.link(self.out / "sealed" / name / file, folder / file)
+        if self.twins:
+            text = (folder / "job.toml").read_text()
+            (folder / "job.toml").unlink()  # what is sealed stays as it is
+            (folder / "job.toml").write_text(re.sub(r"(?m)^twins = .*", f"twins = {self.twins}", text))
         self.note(name, plant=self.plant, seal=seal[0], made_s=round(time.monotonic() - began, 2))
         return seal[0]
 
@@ -160,6 +165,7 @@ def main(arguments):
     parser.add_argument("--shard", nargs="?", const="", help="I/N: the cases whose name is dealt to it (shard.py)")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time")
     parser.add_argument("--threads", type=int, default=0, help="threads of each diagnosis; 0: as it likes")
+    parser.add_argument("--twins", type=int, default=0, help="of each diagnosis; 0: as many as its job says")
     parser.add_argument("--all-right", action="store_true", help="exit code 1 unless every case is right")
     options = parser.parse_args(arguments)
     make_case = options.make_case.resolve()
@@ -178,7 +184,7 @@ def main(arguments):
         cases = {name: cases[name] for name in names}
         if not cases:
             return 0
-    suite = Suite(options.program.resolve(), make_case, options.out.resolve(), options.threads)
+    suite = Suite(options.program.resolve(), make_case, options.out.resolve(), options.threads, options.twins)
     try:
         with concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
             for done in [pool.submit(suite.run, *case) for case in cases.items()]:
