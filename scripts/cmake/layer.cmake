@@ -43,8 +43,8 @@ function(layer name)
   set_property(GLOBAL APPEND PROPERTY TORQUESCOPE_LAYERS ${name})
 endfunction()
 
-# seldom_run(TARGET), seldom_run_files(FILE...): orders work or reads and writes text, and its time is not felt; a third
-# less time to compile than at -O3
+# seldom_run(TARGET), seldom_run_files(FILE...): orders work, multiplies matrices by Eigen's own vector code, or reads
+# and writes text, and its time is not felt; a third less time to compile than at -O3
 function(seldom_run target)
   set_target_properties(${target} PROPERTIES TORQUESCOPE_SELDOM_RUN ON)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
