@@ -30,7 +30,7 @@ struct WholeArmLaw {
 };
 
 // those of the wanted effects that are of the whole arm, in the same order for every recording.
-// parameters: [R] of the model, at which the robot file is varied. Spreads laws over `threads`; same bits for any number
+// parameters: [R] of the model, at which the robot file is varied. Spreads laws over `threads`; same bits always
 std::vector<WholeArmLaw> whole_arm_laws(ArmModel const& model, Eigen::VectorXd const& parameters,
                                         std::vector<Motion> const& motion, std::span<Effect const* const> wanted,
                                         int threads = 1);
