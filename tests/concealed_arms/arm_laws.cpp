@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "concealed/noise.hpp"
 #include "concealed_arms/arm_case.hpp"
@@ -172,6 +174,15 @@ TEST(ArmCases, ALawIsAsLargeAsItsNameSaysAndACleanArmLeavesNothing) {
     EXPECT_NEAR(made.left.snr(made.of.plant.law->joint) / snr, 1.0, 0.1) << name;
   }
   EXPECT_LT(make_case(parse_case("clean:seven:23")).left.largest_snr(), 0.01);
+}
+
+TEST(ArmCases, EveryLawComesInEverySize) {
+  std::set<std::string> drawn;
+  for (std::size_t number = 1; number <= 4 * law_words().size(); ++number) {
+    ArmCase const one = parse_case("A1:" + std::to_string(number));
+    drawn.insert(std::to_string(static_cast<int>(one.plant.law->kind)) + " " + std::to_string(one.wanted_snr));
+  }
+  EXPECT_EQ(drawn.size(), 4 * law_words().size());
 }
 
 TEST(ArmCases, AZeroOfTheLastJointCannotBeTold) {

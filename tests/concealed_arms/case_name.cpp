@@ -40,7 +40,8 @@ double number(std::string const& word, std::string const& name) {
   return value;
 }
 
-// laws and sizes by turns, so that every stretch of numbers has all of them; the joint by chance
+// laws and sizes by turns, so that every stretch of numbers has all of them, and a law another size the next time; the
+// joint by chance
 std::string drawn_law_name(std::uint64_t number, std::string const& seed, concealed::Random& random) {
   constexpr std::array sizes = {1, 2, 4, 8};
   std::string const arm = number % 6 == 0 ? "seven" : "crs";
@@ -50,7 +51,7 @@ std::string drawn_law_name(std::uint64_t number, std::string const& seed, concea
   if (needs_load) joints.resize(joints.size() / 2 + 1);  // a wrist carries next to nothing
   int const joint = joints[random.index(joints.size())] + 1;
   return "law:" + arm + ":" + std::to_string(joint) + ":" + words.name + ":" +
-         std::to_string(sizes[(number - 1) % sizes.size()]) + ":" + seed;
+         std::to_string(sizes[(number - 1 + (number - 1) / law_words().size()) % sizes.size()]) + ":" + seed;
 }
 
 Decoy drawn_decoy(DecoyKind kind, int joints, std::uint64_t seed) {
