@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace torquescope {
 namespace {
@@ -64,45 +66,57 @@ double from_unit(ParameterRange const& range, double unit) {
   return range.lower + inside * (range.upper - range.lower);
 }
 
-std::size_t ShapeGrid::size() const {
-  std::size_t points = 1;
-  for (auto const& axis : axes) points *= axis.size();
-  return points;
-}
-
 std::vector<double> ShapeGrid::point(std::size_t index) const {
   std::vector<double> shape;
-  for (auto const& axis : axes) {
-    shape.push_back(axis[index % axis.size()]);
-    index /= axis.size();
-  }
+  for (std::size_t k = 0; k < axes.size(); ++k) shape.push_back(axes[k][places[index][k]]);
   return shape;
 }
 
 Bounds ShapeGrid::box(std::size_t index) const {
   Bounds bounds;
+  std::vector<double> const shape = point(index);
   for (std::size_t k = 0; k < axes.size(); ++k) {
     auto const points = static_cast<double>(axes[k].size());
-    double const centre = to_unit(ranges[k], axes[k][index % axes[k].size()]);
+    double const centre = to_unit(ranges[k], shape[k]);
     double const step = points > 1.0 ? 1.0 / (points - 1.0) : 1.0;
     bounds.lower.push_back(std::max(0.0, centre - step));
     bounds.upper.push_back(std::min(1.0, centre + step));
-    index /= axes[k].size();
   }
   return bounds;
+}
+
+ShapeGrid grid_over(std::vector<ParameterRange> ranges, std::vector<std::vector<double>> axes, GridPoints points) {
+  constexpr std::ptrdiff_t fewest_for_a_lattice = 3;
+  ShapeGrid grid{std::move(ranges), std::move(axes), {}};
+  bool const is_lattice = points == GridPoints::lattice &&
+                          std::count_if(grid.axes.begin(), grid.axes.end(),
+                                        [](auto const& axis) { return axis.size() > 1; }) >= fewest_for_a_lattice;
+  std::size_t combinations = 1;
+  for (auto const& axis : grid.axes) combinations *= axis.size();
+  for (std::size_t index = 0; index < combinations; ++index) {
+    std::vector<std::size_t> place;
+    std::size_t left = index, steps = 0;
+    for (auto const& axis : grid.axes) {
+      place.push_back(left % axis.size());
+      steps += place.back();
+      left /= axis.size();
+    }
+    if (!is_lattice || steps % 2 == 0) grid.places.push_back(std::move(place));
+  }
+  return grid;
 }
 
 namespace {
 
 // of an effect that rings, with this factor from one resonance to the next
-ShapeGrid grid_of(Effect const& effect, JointScales const& scales, double resonance_factor) {
+ShapeGrid grid_of(Effect const& effect, JointScales const& scales, double resonance_factor, GridPoints which) {
   constexpr std::size_t beside_a_resonance = 4;
   bool const is_ringing = rings(effect);
-  ShapeGrid grid;
-  grid.ranges = effect.shape_bounds(scales);
-  for (std::size_t k = 0; k < grid.ranges.size(); ++k) {
+  std::vector<ParameterRange> ranges = effect.shape_bounds(scales);
+  std::vector<std::vector<double>> axes;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
     auto const& parameter = effect.parameters()[effect.n_linear() + k];
-    auto const& range = grid.ranges[k] = affordable(grid.ranges[k], parameter, scales);
+    auto const& range = ranges[k] = affordable(ranges[k], parameter, scales);
     std::size_t points = 1;
     if (range.upper > range.lower)
       points = parameter.is_resonance ? points_apart(range, resonance_factor)
@@ -111,21 +125,21 @@ ShapeGrid grid_of(Effect const& effect, JointScales const& scales, double resona
     std::vector<double> axis(points);
     for (std::size_t i = 0; i < points; ++i)
       axis[i] = from_unit(range, points > 1 ? static_cast<double>(i) / static_cast<double>(points - 1) : 0.0);
-    grid.axes.push_back(std::move(axis));
+    axes.push_back(std::move(axis));
   }
-  return grid;
+  return grid_over(std::move(ranges), std::move(axes), which);
 }
 
 }  // namespace
 
 ShapeGrid shape_grid(Effect const& effect, JointScales const& scales) {
   constexpr double driven_factor = 1.2;  // a motor that does not ring itself drives the load over a wide band
-  return grid_of(effect, scales, driven_factor);
+  return grid_of(effect, scales, driven_factor, GridPoints::lattice);
 }
 
 std::optional<ShapeGrid> resonance_grid(Effect const& effect, JointScales const& scales) {
   constexpr double ringing_factor = 1.02;
-  return rings(effect) ? std::optional(grid_of(effect, scales, ringing_factor)) : std::nullopt;
+  return rings(effect) ? std::optional(grid_of(effect, scales, ringing_factor, GridPoints::all)) : std::nullopt;
 }
 
 }  // namespace torquescope

@@ -118,8 +118,10 @@ class OwnMotionOfAStiffeningGear : public OwnMotion {
 
 TEST_F(OwnMotionOfAStiffeningGear, IsSearchedEverywhere) {
   EffectScan scan = scan_of("joint_elasticity");
-  auto& frequencies = scan.grid.axes.front();
+  auto axes = scan.grid.axes;
+  auto& frequencies = axes.front();
   frequencies = {frequencies.front(), frequencies[frequencies.size() / 2], frequencies.back()};  // point nowhere
+  scan.grid = grid_over(scan.grid.ranges, axes, GridPoints::all);
   scan.best_point = 0;
   auto const near = refine_on_own_motion(columns.recording, scan, stage.mismatch(), search, 2);
   auto const own = refine_on_own_motion(columns.recording, scan, stage.mismatch(), {"de", 1, true}, 2);

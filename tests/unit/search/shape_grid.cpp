@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <ostream>
 #include <string>
@@ -69,12 +70,19 @@ TEST(ShapeGrid, IncludesBothBoundsOfEveryShape) {
   EXPECT_GT(with_shape, 10);
 }
 
-TEST(ShapeGrid, HasOnePointPerCombination) {
+TEST(ShapeGrid, HasEveryCombinationOfTwoShapesAndEveryOtherOfThree) {
+  int lattices = 0;
   for (Effect const* effect : effect_choices()) {
     ShapeGrid const grid = shape_grid(*effect, scales_of());
-    std::size_t expected = 1;
-    for (auto const& axis : grid.axes) expected *= axis.size();
-    ASSERT_EQ(grid.size(), expected) << effect->name();
+    std::size_t combinations = 1;
+    std::ptrdiff_t searched = 0;
+    for (auto const& axis : grid.axes) {
+      combinations *= axis.size();
+      searched += axis.size() > 1;
+    }
+    bool const is_lattice = searched >= 3;
+    lattices += is_lattice;
+    ASSERT_EQ(grid.size(), is_lattice ? (combinations + 1) / 2 : combinations) << effect->name();
     if (effect->n_shape() == 0) {
       EXPECT_EQ(grid.size(), 1U) << effect->name();
       EXPECT_TRUE(grid.point(0).empty()) << effect->name();
@@ -84,6 +92,36 @@ TEST(ShapeGrid, HasOnePointPerCombination) {
     for (std::size_t i = 0; i < grid.size(); ++i) points.push_back(grid.point(i));
     std::sort(points.begin(), points.end());
     EXPECT_EQ(std::adjacent_find(points.begin(), points.end()), points.end()) << effect->name();
+  }
+  EXPECT_GT(lattices, 2);
+}
+
+// in steps of the grid, over drawn shapes
+double furthest_from_a_point(ShapeGrid const& grid) {
+  RandomStream stream({62, 0, RandomDomain::test}, 0, 0);
+  double furthest = 0.0;
+  for (int draw = 0; draw < 2000; ++draw) {
+    std::vector<double> at;
+    for (auto const& axis : grid.axes) at.push_back(stream.uniform() * static_cast<double>(axis.size() - 1));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto const& place : grid.places) {
+      double square = 0.0;
+      for (std::size_t k = 0; k < at.size(); ++k) square += std::pow(at[k] - static_cast<double>(place[k]), 2);
+      nearest = std::min(nearest, square);
+    }
+    furthest = std::max(furthest, std::sqrt(nearest));
+  }
+  return furthest;
+}
+
+TEST(ShapeGrid, ALatticeLeavesNoShapeFurtherThanOneStep) {
+  std::vector<double> const axis{0.0, 0.25, 0.5, 0.75, 1.0};
+  ParameterRange const range{0.0, 1.0, Spacing::linear};
+  for (std::size_t shapes : {3U, 4U}) {
+    ShapeGrid const grid = grid_over({shapes, range}, {shapes, axis}, GridPoints::lattice);
+    double const furthest = furthest_from_a_point(grid);
+    EXPECT_LE(furthest, 1.0 + 1e-12) << shapes;
+    EXPECT_GT(furthest, 0.85) << shapes << ": or the draws are too few";
   }
 }
 
