@@ -7,6 +7,7 @@
 #include "engine/effects/carry_over.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/statistics/equal_blocks.hpp"
+#include "engine/statistics/hat_functions.hpp"
 
 namespace torquescope {
 namespace {
@@ -16,14 +17,6 @@ std::vector<bool> signs(Effect const& effect) {
   for (std::size_t k = 0; k < non_negative.size(); ++k)
     non_negative[k] = effect.parameters()[k].sign() == Sign::non_negative;
   return non_negative;
-}
-
-Eigen::MatrixXd side_by_side(std::vector<Eigen::MatrixXd> const& each) {
-  if (each.size() == 1) return each.front();
-  Eigen::MatrixXd all(each.front().rows(), each.front().cols() * static_cast<Eigen::Index>(each.size()));
-  for (std::size_t i = 0; i < each.size(); ++i)
-    all.middleCols(static_cast<Eigen::Index>(i) * each[i].cols(), each[i].cols()) = each[i];
-  return all;
 }
 
 // blocks of a recording's rows, as many as training has folds
@@ -38,11 +31,12 @@ Eigen::MatrixXd block_sums(Eigen::MatrixXd const& per_row) {
   return sums;
 }
 
-// linear parameters within what the joint could have
-bool are_plausible(Effect const& effect, Eigen::VectorXd const& parameters, JointScales const& scales) {
+// explains something with linear parameters within what the joint could have
+bool is_possible(Effect const& effect, BoundedGain const& found, JointScales const& scales) {
+  if (!(found.gain > 0.0)) return false;
   auto const bounds = effect.linear_bounds(scales);
   for (std::size_t k = 0; k < bounds.size(); ++k) {
-    double const value = parameters[static_cast<Eigen::Index>(k)];
+    double const value = found.parameters[static_cast<Eigen::Index>(k)];
     if (value < bounds[k].lower || value > bounds[k].upper) return false;
   }
   return true;
@@ -157,60 +151,66 @@ std::vector<LawGain> Evidence::gains(Effect const& effect, std::vector<std::vect
   std::vector<FoldProducts> own;
   for (auto const& group : groups) own.push_back(fold_products(beside.folds, group.q, group.q));
   std::vector<Eigen::MatrixXd> in_folds = beside.gains.of_each(all, own);
+  std::vector<Candidate> candidates;
   std::vector<LawGain> results;
   at = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Eigen::Index const rank = groups[i].rank();
-    results.push_back(gain_of({&effect, std::span(shapes).subspan(i, 1), &groups[i], &each[i],
-                               all.whole.block(at, training_.nuisances(), rank, training_.signals()), rate},
-                              std::move(in_folds[i])));
+    candidates.push_back(
+        {&effect, &groups[i], &each[i], all.whole.block(at, training_.nuisances(), rank, training_.signals())});
+    if (rank > 0) candidates.back().bounded = bounded_gain(groups[i], candidates.back().coefficients.col(0));
+    results.push_back(gain_in_training(candidates.back(), std::move(in_folds[i])));
     at += rank;
   }
+  for (Unseen const& there : unseen_)
+    add_unseen(candidates, columns_unseen(effect, shapes, rate, there.evidence), there, results);
+  // nothing with the signs that physics allows; replicates are not asked for theirs, which is on the safe side
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (results[i].is_testable && !is_possible(effect, candidates[i].bounded, columns().scales()))
+      results[i].train[0] = results[i].first[0] = results[i].unseen[0] = 0.0;
   return results;
 }
 
-LawGain Evidence::gain_of(Candidate const& candidate, Eigen::MatrixXd in_folds) const {
+LawGain Evidence::gain_in_training(Candidate const& candidate, Eigen::MatrixXd in_folds) const {
   OrthonormalGroup const& group = *candidate.group;
   LawGain result;
   result.train = result.first = result.unseen = Eigen::VectorXd::Zero(training_.signals());
   if (group.rank() == 0) return result;
   result.is_testable = true;
-  BoundedGain const bounded = bounded_gain(group, candidate.coefficients.col(0));
-  result.parameters = bounded.parameters;
+  result.parameters = candidate.bounded.parameters;
   drop_wrong_signs(group, candidate.coefficients, in_folds);
   result.train = in_folds.colwise().sum().transpose();
   result.first = in_folds.topRows(n_folds).colwise().sum().transpose();
-  add_unseen(candidate, result);
-  // nothing with the signs that physics allows; replicates are not asked for theirs, which is on the safe side
-  if (!(bounded.gain > 0.0) || !are_plausible(*candidate.effect, bounded.parameters, columns().scales()))
-    result.train[0] = result.first[0] = result.unseen[0] = 0.0;
   return result;
 }
 
-Evidence::UnseenStep Evidence::step_unseen(Candidate const& candidate, UnseenEvidence const& one) const {
+std::vector<Eigen::MatrixXd> Evidence::columns_unseen(Effect const& effect,
+                                                      std::vector<std::vector<double>> const& shapes, LawRate rate,
+                                                      UnseenEvidence const& there) {
+  if (carry_over(effect) == CarryOver::none) {
+    auto const width = static_cast<Eigen::Index>(effect.n_linear());
+    return std::vector<Eigen::MatrixXd>(shapes.size(), Eigen::MatrixXd::Zero(there.nuisance.rows(), width));
+  }
+  auto laws = there.columns->columns_of_each(effect, shapes, rate);
+  for (auto& law : laws) law = there.without_own(std::move(law));
+  return laws;
+}
+
+Evidence::UnseenStep Evidence::step_unseen(Candidate const& candidate, Eigen::MatrixXd const& law) const {
   OrthonormalGroup const& group = *candidate.group;
   // coefficients of the orthonormal columns are combinations of parameters: r parameters = coefficients
   Eigen::MatrixXd const to_parameters =
       group.r.transpose() * solve_semidefinite(group.r * group.r.transpose(),
                                                Eigen::MatrixXd(Eigen::MatrixXd::Identity(group.rank(), group.rank())));
-  CarryOver const over = carry_over(*candidate.effect);
-  UnseenStep step;
-  step.by_share = over == CarryOver::in_part;
-  step.nuisance = inner_products(training_.basis(), *candidate.columns) * to_parameters;
-  if (over == CarryOver::none)
-    step.law = Eigen::MatrixXd::Zero(one.nuisance.rows(), to_parameters.cols());
-  else
-    step.law = one.without_own(side_by_side(one.columns->columns_of_each(
-                   *candidate.effect, std::vector(candidate.shapes.begin(), candidate.shapes.end()), candidate.rate))) *
-               to_parameters;
-  return step;
+  return {inner_products(training_.basis(), *candidate.columns) * to_parameters, law * to_parameters,
+          carry_over(*candidate.effect) == CarryOver::in_part};
 }
 
-Evidence::UnseenProducts::UnseenProducts(UnseenStep const& step, Unseen const& unseen, Eigen::Index signals) {
-  Eigen::Index const k = step.nuisance.rows();
-  Eigen::MatrixXd const law = inner_products(step.law, unseen.nuisance_and_left);  // r x (k + 1 + M)
+Evidence::UnseenProducts::UnseenProducts(UnseenStep const& step, Unseen const& unseen,
+                                         Eigen::Ref<Eigen::MatrixXd const> const& law) {
+  Eigen::Index const k = step.nuisance.rows(), signals = law.cols() - k;
   model_left = -step.nuisance.transpose() * unseen.nuisance_left.leftCols(signals);
-  law_left = law.middleCols(k, signals);
+  law_left = law.rightCols(signals);
   model_model = step.nuisance.transpose() * unseen.nuisance_gram * step.nuisance;
   law_model = -law.leftCols(k) * step.nuisance;
   law_law = inner_products(step.law, step.law);
@@ -224,17 +224,31 @@ Eigen::RowVectorXd Evidence::UnseenProducts::shares(Eigen::MatrixXd const& coeff
   return wanted.binaryExpr(whole, [](double a, double b) { return b > 0.0 ? std::clamp(a / b, 0.0, 1.0) : 0.0; });
 }
 
-void Evidence::add_unseen(Candidate const& candidate, LawGain& gain) const {
-  Eigen::MatrixXd const& steps = candidate.coefficients;
-  for (Unseen const& one : unseen_) {
-    UnseenStep const step = step_unseen(candidate, one.evidence);
-    UnseenProducts const of(step, one, steps.cols());
-    Eigen::MatrixXd const own = step.by_share ? Eigen::MatrixXd(steps * of.shares(steps).asDiagonal()) : steps;
-    auto const by_model = steps.array() * (2.0 * of.model_left - of.model_model * steps).array();
-    auto const by_law = own.array() * (2.0 * (of.law_left - of.law_model * steps) - of.law_law * own).array();
-    Eigen::MatrixXd gains = (by_model + by_law).colwise().sum();
-    drop_wrong_signs(*candidate.group, steps, gains);
-    gain.unseen += gains.transpose();
+void Evidence::add_unseen(std::vector<Candidate> const& candidates, std::vector<Eigen::MatrixXd> const& laws,
+                          Unseen const& there, std::vector<LawGain>& gains) const {
+  std::vector<UnseenStep> steps(candidates.size());
+  std::vector<Eigen::MatrixXd> each;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!gains[i].is_testable) continue;
+    steps[i] = step_unseen(candidates[i], laws[i]);
+    each.push_back(steps[i].law);
+  }
+  if (each.empty()) return;
+  // of all at once: the signals are many, and are read once
+  Eigen::MatrixXd const products = inner_products(side_by_side(each), there.nuisance_and_left);
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!gains[i].is_testable) continue;
+    Eigen::MatrixXd const& of_signals = candidates[i].coefficients;
+    UnseenProducts const of(steps[i], there, products.middleRows(at, of_signals.rows()));
+    at += of_signals.rows();
+    Eigen::MatrixXd const own =
+        steps[i].by_share ? Eigen::MatrixXd(of_signals * of.shares(of_signals).asDiagonal()) : of_signals;
+    auto const by_model = of_signals.array() * (2.0 * of.model_left - of.model_model * of_signals).array();
+    auto const by_law = own.array() * (2.0 * (of.law_left - of.law_model * of_signals) - of.law_law * own).array();
+    Eigen::MatrixXd fall = (by_model + by_law).colwise().sum();
+    drop_wrong_signs(*candidates[i].group, of_signals, fall);
+    gains[i].unseen += fall.transpose();
   }
 }
 
@@ -273,11 +287,15 @@ RowsLeft Evidence::rows_left(Effect const& effect, std::vector<std::vector<doubl
   both << basis, group.q;
   RowsLeft left{of_recordings(left_on_rows(beside.folds, both, training_.basis_and_signals().col(k), gram,
                                            stacked(picked(beside.products, 0, k, 0, 1), products)))};
-  Candidate const candidate{&effect, shapes, &group, &law, products.whole};
+  Candidate const candidate{&effect, &group, &law, products.whole};
   for (Unseen const& one : unseen_) {
-    UnseenStep const step = step_unseen(candidate, one.evidence);
+    UnseenStep const step =
+        step_unseen(candidate, side_by_side(columns_unseen(effect, shapes, LawRate::full, one.evidence)));
     Eigen::VectorXd of_law = step.law * products.whole;
-    if (step.by_share) of_law *= UnseenProducts(step, one, 1).shares(products.whole)[0];
+    if (step.by_share) {
+      UnseenProducts const of(step, one, inner_products(step.law, one.nuisance_and_left.leftCols(k + 1)));
+      of_law *= of.shares(products.whole)[0];
+    }
     left.parts.push_back({one.left().col(0) + one.evidence.nuisance * (step.nuisance * products.whole) - of_law,
                           one.evidence.memory_rows});
   }

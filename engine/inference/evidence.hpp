@@ -107,15 +107,15 @@ class Evidence {
   void add_unseen(UnseenEvidence one);
   InFolds in_folds(FoldKind kind) const;
   InFolds const& folds_of(FoldKind kind) const { return kind == FoldKind::whole ? whole_ : interleaved_; }
+  // one shape of a law, or several times the law, as orthonormal columns beside the model
   struct Candidate {
     Effect const* effect;
-    std::span<std::vector<double> const> shapes;
     OrthonormalGroup const* group;
     Eigen::MatrixXd const* columns;
     Eigen::MatrixXd coefficients;  // of the group's columns, of each signal: r x (1 + M)
-    LawRate rate = LawRate::full;
+    BoundedGain bounded{};         // of the recording
   };
-  LawGain gain_of(Candidate const& candidate, Eigen::MatrixXd in_folds) const;
+  LawGain gain_in_training(Candidate const& candidate, Eigen::MatrixXd in_folds) const;
   // an unseen recording: training's nuisance columns there (n x k), and what their step leaves of its signals
   struct Unseen {
     UnseenEvidence evidence{};            // without its signals
@@ -129,14 +129,21 @@ class Evidence {
     Eigen::MatrixXd nuisance{}, law{};
     bool by_share = false;
   };
-  // inner products of the two changes, and with the first signals that are left there
+  // inner products of the two changes, and with the first signals that are left there. law: of the law's own change
+  // with nuisances and signals, r x (k + signals)
   struct UnseenProducts {
     Eigen::MatrixXd model_left{}, law_left{}, model_model{}, law_model{}, law_law{};
-    UnseenProducts(UnseenStep const& step, Unseen const& unseen, Eigen::Index signals);
+    UnseenProducts(UnseenStep const& step, Unseen const& unseen, Eigen::Ref<Eigen::MatrixXd const> const& law);
     Eigen::RowVectorXd shares(Eigen::MatrixXd const& coefficients) const;
   };
-  UnseenStep step_unseen(Candidate const& candidate, UnseenEvidence const& one) const;
-  void add_unseen(Candidate const& candidate, LawGain& gain) const;
+  // of each shape, on the rows of an unseen recording, less what is the recording's own
+  static std::vector<Eigen::MatrixXd> columns_unseen(Effect const& effect,
+                                                     std::vector<std::vector<double>> const& shapes, LawRate rate,
+                                                     UnseenEvidence const& there);
+  UnseenStep step_unseen(Candidate const& candidate, Eigen::MatrixXd const& law) const;
+  // laws: of each candidate, on the rows of that recording
+  void add_unseen(std::vector<Candidate> const& candidates, std::vector<Eigen::MatrixXd> const& laws,
+                  Unseen const& there, std::vector<LawGain>& gains) const;
   // what is left of training, one part for each of its recordings
   std::vector<RowsLeft::Part> of_recordings(Eigen::VectorXd const& left) const;
 

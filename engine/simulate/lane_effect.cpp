@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/effects/instant_code.hpp"
 #include "engine/effects/instant_effect.hpp"
 #include "engine/effects/memory_effect.hpp"
 #include "engine/simulate/lane_step.hpp"
@@ -40,6 +42,12 @@ bool asks_for_acceleration(InstantEffect const& law, std::vector<double> const& 
   return law.torque(speeds_up, parameters, scales) != law.torque(coasts, parameters, scales);
 }
 
+// its code names all that it reads; what depends on the time or the past has none
+bool is_of_speed_alone(InstantEffect const& law) {
+  auto const reads = [&](char const* word) { return has_word(law.code(), word); };
+  return !law.code().empty() && !reads("q") && !reads("ddq") && !reads("load");
+}
+
 class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
@@ -58,6 +66,7 @@ class CatalogueEffect final : public LaneEffect {
     if (acts_on_ == ActsOn::joint) law_ = dynamic_cast<InstantEffect const*>(&effect);
     if (law_ != nullptr) {
       asks_for_acceleration_ = asks_for_acceleration(*law_, parameters, scales);
+      if (is_of_speed_alone(*law_)) rest_ = Rest{at_rest(1.0), at_rest(-1.0)};
       return;
     }
     if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
@@ -168,14 +177,26 @@ class CatalogueEffect final : public LaneEffect {
     add_lanes(sliding(at, -1.0).data(), demand.backward);
   }
 
+  static constexpr double slowest = std::numeric_limits<double>::min();
+
   // the branch that moves in `direction`, continued to rest
   LaneTorques sliding(JointStates const& at, double direction) const {
+    if (rest_ && !(direction * at.dq > slowest).any())
+      return filled(direction > 0.0 ? rest_->forward : rest_->backward);
     LaneTorques dq;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      dq[lane] =
-          direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], std::numeric_limits<double>::min());
+      dq[lane] = direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], slowest);
     return torques({at.time_s, at.q, of_lanes(dq.data()), at.ddq, at.load_torque, at.motor_torque});
   }
+
+  double at_rest(double direction) const {
+    return law_->torque(JointState{.dq = direction * slowest}, parameters_, scales_);
+  }
+
+  // most often all lanes move one way: what the other branch begins with, of laws of the speed alone
+  struct Rest {
+    double forward, backward;
+  };
 
   ActsOn acts_on_;
   bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
@@ -187,6 +208,7 @@ class CatalogueEffect final : public LaneEffect {
   JointScales scales_;
   // all lanes at once: a law of the instant in the joint, or what each twin remembers
   InstantEffect const* law_ = nullptr;
+  std::optional<Rest> rest_{};
   std::unique_ptr<EffectMemory> memory_;
   std::span<double const> linear_{};                    // of parameters_
   std::vector<std::unique_ptr<EffectRunner>> runners_;  // otherwise one per lane
