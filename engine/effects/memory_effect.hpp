@@ -5,15 +5,17 @@
 //   void start(JointState const& state)
 //   void advance(JointState const& state, double step_s)                     step_s > 0
 //   std::array<double, L> row(JointState const& state) const                 torque per unit of each linear parameter
-// Optional, for a memory that fades by an exponential (lanes then compute all of theirs at once):
-//   double decay_exponent(JointState const& state) const                     until this state
+// Optional, for a memory that fades by an exponential of the way (many are computed at once):
+//   double decay_exponent(double way) const                                  of a step of this way, with its sign
 //   void advance(JointState const& state, double step_s, double decay)       decay = exp of it; replaces the other one
 //
 // Row        of the state last advanced to; a simulator may vary velocity and acceleration there, not place or time
 // Lanes      replicates of a group go side by side, each with its own state; the class is looked up once for all
 // Threads    an EffectMemory is used by one thread
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,7 +55,7 @@ class MemoryEffect : public Effect {
 // what a file in effects/ returns as memory(): `lanes` copies of a state that has not started
 template <typename State>
 std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
-  constexpr bool decays = requires(State state, JointState at) { state.decay_exponent(at); };
+  constexpr bool decays = requires(State state, double way) { state.decay_exponent(way); };
   class Lanes final : public EffectMemory {
    public:
     Lanes(State const& fresh, std::size_t lanes) : states_(lanes, fresh) {}
@@ -64,34 +66,42 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
-      if constexpr (decays) decays_.resize(states_.size());
-      for (Eigen::Index i = 0; i < input.size(); ++i) {
-        JointState const now = input.state(i);
-        double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
-        Eigen::Index column = 0;
-        if (i > 0) {
-          for (std::size_t lane = 0; lane < states_.size(); ++lane) look_ahead(lane, now);
-          fade();
-        }
-        for (std::size_t lane = 0; lane < states_.size(); ++lane) {
-          if (i == 0)
-            states_[lane].start(now);
-          else
-            go_on(lane, now, step_s);
-          for (double const value : states_[lane].row(now)) out(i, column++) = value;
+      constexpr Eigen::Index together = 64;
+      std::vector<double> left(decays ? states_.size() * together : 0);
+      for (Eigen::Index first = 0; first < input.size(); first += together) {
+        Eigen::Index const end = std::min(input.size(), first + together);
+        auto const count = static_cast<std::size_t>(end - first);
+        for (std::size_t lane = 0; decays && lane < states_.size(); ++lane)
+          put_left(lane, input.motion.q, {left.data() + lane * together, count}, first);
+        for (Eigen::Index i = first; i < end; ++i) {
+          JointState const now = input.state(i);
+          double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
+          Eigen::Index column = 0;
+          for (std::size_t lane = 0; lane < states_.size(); ++lane) {
+            if (i == 0)
+              states_[lane].start(now);
+            else
+              go_on(lane, now, step_s, decays ? left[lane * together + static_cast<std::size_t>(i - first)] : 1.0);
+            for (double const value : states_[lane].row(now)) out(i, column++) = value;
+          }
         }
       }
     }
 
     void advance(JointStates const& at, double step_s) override {
-      if (!std::exchange(has_started_, true)) {
-        if constexpr (decays) decays_.resize(states_.size());
+      if (std::exchange(has_started_, true)) {
+        if constexpr (decays) {
+          for (std::size_t lane = 0; lane < states_.size(); ++lane)
+            left_[lane] = states_[lane].decay_exponent(at.q[static_cast<Eigen::Index>(lane)] - q_[lane]);
+          kernels::exponential(left_.data(), left_.size(), left_.data());
+        }
+        for (std::size_t lane = 0; lane < states_.size(); ++lane)
+          go_on(lane, at.state(lane), step_s, decays ? left_[lane] : 1.0);
+      } else {
         for (std::size_t lane = 0; lane < states_.size(); ++lane) states_[lane].start(at.state(lane));
-        return;
+        if constexpr (decays) left_.resize(states_.size());
       }
-      for (std::size_t lane = 0; lane < states_.size(); ++lane) look_ahead(lane, at.state(lane));
-      fade();
-      for (std::size_t lane = 0; lane < states_.size(); ++lane) go_on(lane, at.state(lane), step_s);
+      if constexpr (decays) q_.assign(at.q.begin(), at.q.end());
     }
 
     void torques(JointStates const& at, std::span<double const> linear, std::span<double> out) const override {
@@ -107,24 +117,26 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
-    // of all lanes, then fade(), then go_on() of all lanes
-    void look_ahead([[maybe_unused]] std::size_t lane, [[maybe_unused]] JointState const& to) {
-      if constexpr (decays) decays_[lane] = states_[lane].decay_exponent(to);
+    // what the step to each sample leaves of a lane's memory; left: of the samples from `from` on
+    void put_left(std::size_t lane, Eigen::VectorXd const& q, std::span<double> left, Eigen::Index from) const {
+      if constexpr (decays) {
+        for (std::size_t k = 0; k < left.size(); ++k) {
+          Eigen::Index const i = from + static_cast<Eigen::Index>(k);
+          left[k] = i > 0 ? states_[lane].decay_exponent(q[i] - q[i - 1]) : 0.0;
+        }
+        kernels::exponential(left.data(), left.size(), left.data());
+      }
     }
 
-    void fade() {
-      if constexpr (decays) kernels::exponential(decays_.data(), decays_.size(), decays_.data());
-    }
-
-    void go_on(std::size_t lane, JointState const& to, double step_s) {
+    void go_on(std::size_t lane, JointState const& to, double step_s, [[maybe_unused]] double left) {
       if constexpr (decays)
-        states_[lane].advance(to, step_s, decays_[lane]);
+        states_[lane].advance(to, step_s, left);
       else
         states_[lane].advance(to, step_s);
     }
 
     std::vector<State> states_;
-    std::vector<double> decays_;  // of each lane, in the coming step
+    std::vector<double> q_, left_;  // of each lane: where it is, and what the coming step leaves of its memory
     bool has_started_ = false;
   };
   return std::make_unique<Lanes>(fresh, lanes);

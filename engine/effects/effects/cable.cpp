@@ -26,7 +26,7 @@ class CableLoop {
     z_ = 0.0;
   }
 
-  double decay_exponent(JointState const& state) const { return -std::abs(state.q - q_) / distance_; }
+  double decay_exponent(double way) const { return -std::abs(way) / distance_; }
   void advance(JointState const& state, double, double decay) {
     double const full = std::copysign(1.0, state.q - q_);
     q_ = state.q;

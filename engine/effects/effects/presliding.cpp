@@ -27,9 +27,9 @@ class DahlBristle {
   }
 
   // the stiffness 1 / distance is the same both ways, so the weaker direction is full sooner
-  double decay_exponent(JointState const& state) const {
-    double const step = state.q - q_, full = sign_(step);
-    return full == 0.0 ? 0.0 : -step / (distance_ * full);
+  double decay_exponent(double way) const {
+    double const full = sign_(way);
+    return full == 0.0 ? 0.0 : -way / (distance_ * full);
   }
   void advance(JointState const& state, double, double decay) {
     double const step = state.q - q_, full = sign_(step);
