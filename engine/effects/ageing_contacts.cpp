@@ -7,26 +7,34 @@
 namespace torquescope {
 namespace {
 
-// share of what it aged that is left at the end of the step: (1 - e^-x) / x
-double share_left(double renewed, double decay) {
+using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
+
+// share of what it aged that is left at the end of a step: (1 - e^-x) / x
+Block share_left(Block const& renewed, Block const& decay) {
   constexpr double thin = 1e-3;  // below it the difference loses digits, and the next term of the series is below 1e-14
-  if (renewed < thin) return 1.0 - renewed * (1.0 / 2.0 - renewed * (1.0 / 6.0 - renewed / 24.0));
-  return (1.0 - decay) / renewed;
+  Block const series = 1.0 - renewed * (1.0 / 2.0 - renewed * (1.0 / 6.0 - renewed / 24.0));
+  return (renewed < thin).select(series, (1.0 - decay) / renewed);
 }
 
-// after a step of this way; decay: e^-renewed. While it creeps the contact ages as far as it stands
-double aged_s(double age_s, double way, double step_s, double rest_speed, double renewed, double decay) {
-  double const rests = way / (step_s * rest_speed);
-  return age_s * decay + share_left(renewed, decay) * (step_s / (1.0 + rests * rests));
-}
+// steps of some ways: a contact is `decay` of its age older by `gained_s` after each
+struct AgeingSteps {
+  Block decay, gained_s;
+  // rest_speeds, renewal_distances: one each
+  AgeingSteps(Block const& ways, Block const& steps_s, Block const& rest_speeds, Block const& renewal_distances)
+      : decay(-ways / renewal_distances) {
+    Block const renewed = -decay;
+    exponential(decay);
+    // while it creeps the contact ages as far as it stands
+    Block const rests = ways / (steps_s * rest_speeds);
+    gained_s = share_left(renewed, decay) * (steps_s / (1.0 + rests * rests));
+  }
+};
 
 // friction after some age, without its sign
 struct Levels {
   double ended = 0.0;    // 1 - e^-(age / dwell)
   double endless = 0.0;  // ln(1 + age / dwell)
 };
-
-using Block = Eigen::Array<double, Eigen::Dynamic, 1, 0, states_at_once, 1>;
 
 // as arrays
 struct BlockLevels {
@@ -64,18 +72,17 @@ class AgeingContacts final : public EffectMemory {
 
   void advance(JointStates const& at, double step_s) override {
     if (q_.empty()) return start(at);
-    Block decay(at.size());
+    Block ways(at.size()), rest_speeds(at.size()), renewal_distances(at.size()), dwells(at.size());
     for (Eigen::Index lane = 0; lane < at.size(); ++lane) {
       auto const i = static_cast<std::size_t>(lane);
-      decay[lane] = -std::abs(at.q[lane] - q_[i]) / contacts_[i].renewal_distance;
+      ways[lane] = std::abs(at.q[lane] - q_[i]);
+      rest_speeds[lane] = contacts_[i].rest_speed;
+      renewal_distances[lane] = contacts_[i].renewal_distance;
     }
-    Block const renewed = -decay;
-    exponential(decay);
-    Block dwells(at.size());
+    AgeingSteps const steps(ways, Block::Constant(at.size(), step_s), rest_speeds, renewal_distances);
     for (Eigen::Index lane = 0; lane < at.size(); ++lane) {
       auto const i = static_cast<std::size_t>(lane);
-      double const way = std::abs(at.q[lane] - q_[i]);
-      ages_s_[i] = aged_s(ages_s_[i], way, step_s, contacts_[i].rest_speed, renewed[lane], decay[lane]);
+      ages_s_[i] = ages_s_[i] * steps.decay[lane] + steps.gained_s[lane];
       q_[i] = at.q[lane];
       dwells[lane] = ages_s_[i] / contacts_[i].dwell_s;
     }
@@ -100,7 +107,7 @@ class AgeingContacts final : public EffectMemory {
     levels_.assign(q_.size(), {});
   }
 
-  // of contacts that have the same age all the time
+  // of contacts that have the same age all the time, and of one joint
   void columns_of(std::vector<std::size_t> const& lanes, EffectInput const& input,
                   Eigen::Ref<Eigen::MatrixXd> out) const {
     Motion const& motion = input.motion;
@@ -109,10 +116,9 @@ class AgeingContacts final : public EffectMemory {
       Eigen::Index const count = std::min(states_at_once, input.size() - from);
       Block const ages_s = ages_after(age_s, contacts_[lanes.front()], motion, from, count);
       age_s = ages_s[count - 1];
+      Block const signs = motion.dq.segment(from, count).array().unaryExpr(contacts_[lanes.front()].sign);
       for (std::size_t const lane : lanes) {
-        AgeingContact const& contact = contacts_[lane];
-        BlockLevels const levels(ages_s / contact.dwell_s);
-        auto const signs = motion.dq.segment(from, count).array().unaryExpr(contact.sign);
+        BlockLevels const levels(ages_s / contacts_[lane].dwell_s);
         auto const column = static_cast<Eigen::Index>(2 * lane);
         out.col(column).segment(from, count).array() = signs * levels.ended;
         out.col(column + 1).segment(from, count).array() = signs * levels.endless;
@@ -122,18 +128,19 @@ class AgeingContacts final : public EffectMemory {
 
   static Block ages_after(double age_s, AgeingContact const& contact, Motion const& motion, Eigen::Index from,
                           Eigen::Index count) {
-    Block ways(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      ways[i] = from + i > 0 ? std::abs(motion.q[from + i] - motion.q[from + i - 1]) : 0.0;
-    Block decay = -ways / contact.renewal_distance;
-    Block const renewed = -decay;
-    exponential(decay);
+    // the first sample is no step
+    Eigen::Index const before = from > 0 ? 1 : 0, first = from + 1 - before, steps = count - 1 + before;
     Block ages_s(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      if (from + i > 0)
-        age_s = aged_s(age_s, ways[i], motion.time_s[from + i] - motion.time_s[from + i - 1], contact.rest_speed,
-                       renewed[i], decay[i]);
-      ages_s[i] = age_s;
+    ages_s[0] = age_s;
+    if (steps == 0) return ages_s;
+    auto const change = [&](Eigen::VectorXd const& of) {
+      return Block(of.segment(first, steps) - of.segment(first - 1, steps));
+    };
+    AgeingSteps const each(change(motion.q).abs(), change(motion.time_s), Block::Constant(steps, contact.rest_speed),
+                           Block::Constant(steps, contact.renewal_distance));
+    for (Eigen::Index i = 0; i < steps; ++i) {
+      age_s = age_s * each.decay[i] + each.gained_s[i];
+      ages_s[i + 1 - before] = age_s;
     }
     return ages_s;
   }
