@@ -15,8 +15,8 @@
 
 #include "engine/inference/left_out.hpp"
 #include "engine/inference/left_out_gains.hpp"
+#include "engine/inference/rows_left.hpp"
 #include "engine/inference/training_rows.hpp"
-#include "engine/statistics/held_out_gain.hpp"
 
 namespace torquescope {
 
@@ -34,27 +34,6 @@ struct LawGain {
   bool is_testable = false;           // false: the model's own columns explain it
   Eigen::VectorXd total() const { return train + unseen; }
 };
-
-// of the recording: what is left on rows that were not fitted to, training first, then unseen recordings; whitened.
-// What paired tests compare, in blocks as long as the filter's memory
-struct RowsLeft {
-  struct Part {
-    Eigen::VectorXd left{};
-    Eigen::Index memory_rows = 1;
-  };
-  std::vector<Part> parts{};
-  double energy() const;
-};
-
-// whether `other` leaves clearly less than `one` (one-sided, level 5 %; held_out_gain.hpp)
-bool leaves_clearly_less(RowsLeft const& other, RowsLeft const& one);
-// whether a law leaves clearly more than the best where they differ, and by more than the form of a law may be off:
-// tolerance, a share of the torque that the best explains of what is left without any
-struct OfForm {
-  RowsLeft const& without_any;
-  double tolerance;
-};
-bool leaves_clearly_more(RowsLeft const& one, RowsLeft const& best, OfForm const& form);
 
 class Evidence {
  public:

@@ -5,7 +5,7 @@
 //            places: 24; else 10 for one parameter, 6 each for two, 4 each for three; logarithmic ones a factor of 2.5
 //            apart (3 to 10). Of four, one that is linear or absent at its lower bound stays at that bound
 // Resonance  a fifth from one to the next, four points of each other parameter; 2 % where the recorded motion rings
-// Lattice    of three or more parameters every other point, like the white fields of a chessboard: half as many, and the
+// Lattice    of three or more parameters every other point, like the white fields of a chessboard: half as many. The
 //            furthest shape is one step from the next point, not 0.87 (three parameters; as far of four). Not where the
 //            recorded motion rings: a sharp resonance is missed in one direction only
 // Box        one point to both sides, within the bounds
