@@ -23,18 +23,37 @@ ARM_S, WANTED_ARM_S = 89.0, 60.0
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 
 
-def job(effects, duration_s):
+def simulation(effects, duration_s, seed):
     return simulated_job.job(
         [{"name": "ols"}],
         replaced=("model.bounds",),
-        experiment={"name": "diagnosis", "seed": 11},
-        filter={"cutoff_hz": 30, "parallel_cutoff_hz": 15, "decimate_to_hz": 50},
-        diagnose={"effects": "all", "twins": 200},
-        simulate={"mode": "closed_loop", "rate_hz": 1000, "duration_s": duration_s, "validate": True},
+        experiment={"name": "recording", "seed": seed},
+        simulate={"mode": "closed_loop", "rate_hz": 1000, "duration_s": duration_s},
         simulate__plant={"inertia": 0.09, "viscous": 0.35, "coulomb": 0.6, **effects},
         simulate__reference={"kind": "multisine", "max_speed": 3.0},
         simulate__controller={"kind": "pd", "rate_hz": 1000},
         simulate__encoder={"counts_per_revolution": 131072})
+
+
+def recording(context, effects, duration_s, seed):
+    """A file, as a user has one."""
+    plan, path = context.folder / "simulation.toml", context.folder / f"recording_{seed}.csv"
+    plan.write_text(simulation(effects, duration_s, seed))
+    Run([context.program(context.build), "simulate", plan, "--out", path, "--quiet"])
+    return str(path)
+
+
+COLUMNS = '{time = "t_s", reference = "q_ref_rad", position = "q_rad", torque = "tau_Nm"}'
+
+
+def job(context, effects, duration_s):
+    train, unseen = (recording(context, effects, duration_s, seed) for seed in (11, 12))
+    return "\n".join([
+        simulated_job.section("[experiment]", {"name": "diagnosis", "seed": 11}),
+        simulated_job.section("[recording]", {"train": train, "validate": unseen}) + f"columns = {COLUMNS}\n",
+        simulated_job.section("[filter]", {"cutoff_hz": 30, "parallel_cutoff_hz": 15, "decimate_to_hz": 50}),
+        simulated_job.section("[model]", {"joint": "revolute", "terms": ["inertia", "viscous", "coulomb", "offset"]}),
+        simulated_job.section("[diagnose]", {"effects": "all", "twins": 200})])
 
 
 class Diagnosis:
@@ -64,6 +83,6 @@ def arm_job(recordings):
 
 def rows(context):
     for name, effects, duration_s, wanted_s in CASES:
-        yield from rows_of(name, job(effects, duration_s), context, duration_s, wanted_s)
+        yield from rows_of(name, job(context, effects, duration_s), context, duration_s, wanted_s)
     if (context.recordings / "ur10e").exists():
         yield from rows_of("six joints of UR10e, 89 s", arm_job(context.recordings), context, ARM_S, WANTED_ARM_S)

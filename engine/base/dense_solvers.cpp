@@ -81,6 +81,23 @@ MatrixXd triangle_of(MatrixXd const& columns) {
   return qr.matrixQR().topRows(std::min(columns.rows(), columns.cols())).triangularView<Eigen::Upper>();
 }
 
+QrFactors qr_factors_by_rows(MatrixXd const& columns, VectorXd const& right) {
+  constexpr Index at_once = 512;
+  Index const width = columns.cols();
+  // right is one more column: its part of the triangle is Q' right
+  MatrixXd triangle(0, width + 1);
+  for (Index first = 0; first < columns.rows(); first += at_once) {
+    Index const count = std::min(at_once, columns.rows() - first), above = triangle.rows();
+    MatrixXd stack(above + count, width + 1);
+    stack.topRows(above) = triangle;
+    stack.bottomLeftCorner(count, width) = columns.middleRows(first, count);
+    stack.bottomRightCorner(count, 1) = right.segment(first, count);
+    triangle = triangle_of(stack);
+  }
+  Index const k = std::min(triangle.rows(), width);
+  return {triangle.topLeftCorner(k, width), triangle.col(width).head(k)};
+}
+
 struct PivotedQr::Factors {
   Eigen::ColPivHouseholderQR<MatrixXd> qr;
 };

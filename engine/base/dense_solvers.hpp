@@ -50,6 +50,8 @@ struct QrFactors {
 };
 QrFactors qr_factors(Eigen::MatrixXd const& columns, Eigen::MatrixXd const& right);
 Eigen::MatrixXd triangle_of(Eigen::MatrixXd const& columns);
+// the same of many rows: a few hundred at a time, which stay in the cache, beside the triangle of those before
+QrFactors qr_factors_by_rows(Eigen::MatrixXd const& columns, Eigen::VectorXd const& right);
 
 // columns P = Q R with pivoting; what is below the threshold, of the largest pivot, is dependent
 class PivotedQr {

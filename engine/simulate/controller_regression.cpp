@@ -65,12 +65,13 @@ ControllerRegression regress_controller(LoopSignals const& s, ControllerColumns 
   Eigen::VectorXd const u = picked(s.torque, rows);
   Eigen::VectorXd length = x.colwise().norm();
   for (auto& one : length) one = one > 0.0 ? one : 1.0;
-  Eigen::MatrixXd const scaled = x * length.cwiseInverse().asDiagonal();
+  x.array().rowwise() /= length.transpose().array();
+  QrFactors const reduced = qr_factors_by_rows(x, u);
   // columns of no use (a reference that never accelerates) get 0, not a wild number
-  PivotedQr const qr(scaled, 1e-12);
+  PivotedQr const qr(reduced.r, 1e-12);
 
-  ControllerRegression result{columns, qr.solve(u), {}, {}, 0.0};
-  result.residual = u - scaled * result.coefficients;
+  ControllerRegression result{columns, qr.solve(reduced.q_right.col(0)), {}, {}, 0.0};
+  result.residual = u - x * result.coefficients;
   result.sse = result.residual.squaredNorm();
   Eigen::Index const rank = qr.rank();
   Eigen::MatrixXd const inverse = qr.inverse_triangle();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace torquescope {
@@ -92,6 +93,18 @@ TEST(DenseSolvers, TrianglesHoldTheProductsOfTheColumns) {
   auto const [r, q_right] = qr_factors(columns, right);
   EXPECT_EQ(r, triangle);
   EXPECT_LT((r.transpose() * q_right - columns.transpose() * right).norm(), 1e-12);
+}
+
+TEST(DenseSolvers, RowsAFewAtATimeGiveTheSameProducts) {
+  for (Eigen::Index rows : {3, 5, 512, 513, 1700}) {  // fewer than columns, one piece, several
+    MatrixXd const columns = scattered(rows, 4);
+    VectorXd const right = scattered(rows, 1).col(0);
+    auto const [r, q_right] = qr_factors_by_rows(columns, right);
+    ASSERT_EQ(r.rows(), std::min<Eigen::Index>(rows, 4));
+    EXPECT_TRUE(r.isUpperTriangular());
+    EXPECT_LT((r.transpose() * r - columns.transpose() * columns).norm(), 1e-12 * columns.squaredNorm()) << rows;
+    EXPECT_LT((r.transpose() * q_right - columns.transpose() * right).norm(), 1e-12 * columns.squaredNorm()) << rows;
+  }
 }
 
 TEST(DenseSolvers, PivotingFindsTheRankAndASpanOfIt) {
