@@ -1,4 +1,4 @@
-// The gains of a law's shapes: of many at once as of each alone, and what they say of unseen rows as what is left there.
+// The gains of a law's shapes: of many at once as of each alone, and of unseen rows what is left there with them.
 
 #include "engine/inference/evidence.hpp"
 
