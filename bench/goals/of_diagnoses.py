@@ -39,6 +39,7 @@ def recording(context, effects, duration_s, seed):
     """A file, as a user has one."""
     plan, path = context.folder / "simulation.toml", context.folder / f"recording_{seed}.csv"
     plan.write_text(simulation(effects, duration_s, seed))
+    path.unlink(missing_ok=True)
     Run([context.program(context.build), "simulate", plan, "--out", path, "--quiet"])
     return str(path)
 
