@@ -16,7 +16,7 @@ Block share_left(Block const& renewed, Block const& decay) {
   return (renewed < thin).select(series, (1.0 - decay) / renewed);
 }
 
-// steps of some ways: a contact is `decay` of its age older by `gained_s` after each
+// of each step, by the distance slid in it: the age becomes decay * age + gained_s
 struct AgeingSteps {
   Block decay, gained_s;
   // rest_speeds, renewal_distances: one each

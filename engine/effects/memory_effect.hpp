@@ -67,12 +67,12 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
 
     void columns(EffectInput const& input, Eigen::Ref<Eigen::MatrixXd> out) override {
       constexpr Eigen::Index together = 64;
-      std::vector<double> left(decays ? states_.size() * together : 0);
+      std::vector<double> remaining(decays ? states_.size() * together : 0);
       for (Eigen::Index first = 0; first < input.size(); first += together) {
         Eigen::Index const end = std::min(input.size(), first + together);
         auto const count = static_cast<std::size_t>(end - first);
         for (std::size_t lane = 0; decays && lane < states_.size(); ++lane)
-          put_left(lane, input.motion.q, {left.data() + lane * together, count}, first);
+          put_remaining(lane, input.motion.q, {remaining.data() + lane * together, count}, first);
         for (Eigen::Index i = first; i < end; ++i) {
           JointState const now = input.state(i);
           double const step_s = i == 0 ? 0.0 : input.motion.time_s[i] - input.motion.time_s[i - 1];
@@ -81,7 +81,7 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
             if (i == 0)
               states_[lane].start(now);
             else
-              go_on(lane, now, step_s, decays ? left[lane * together + static_cast<std::size_t>(i - first)] : 1.0);
+              go_on(lane, now, step_s, decays ? remaining[lane * together + static_cast<std::size_t>(i - first)] : 1.0);
             for (double const value : states_[lane].row(now)) out(i, column++) = value;
           }
         }
@@ -92,14 +92,14 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
       if (std::exchange(has_started_, true)) {
         if constexpr (decays) {
           for (std::size_t lane = 0; lane < states_.size(); ++lane)
-            left_[lane] = states_[lane].decay_exponent(at.q[static_cast<Eigen::Index>(lane)] - q_[lane]);
-          kernels::exponential(left_.data(), left_.size(), left_.data());
+            remaining_[lane] = states_[lane].decay_exponent(at.q[static_cast<Eigen::Index>(lane)] - q_[lane]);
+          kernels::exponential(remaining_.data(), remaining_.size(), remaining_.data());
         }
         for (std::size_t lane = 0; lane < states_.size(); ++lane)
-          go_on(lane, at.state(lane), step_s, decays ? left_[lane] : 1.0);
+          go_on(lane, at.state(lane), step_s, decays ? remaining_[lane] : 1.0);
       } else {
         for (std::size_t lane = 0; lane < states_.size(); ++lane) states_[lane].start(at.state(lane));
-        if constexpr (decays) left_.resize(states_.size());
+        if constexpr (decays) remaining_.resize(states_.size());
       }
       if constexpr (decays) q_.assign(at.q.begin(), at.q.end());
     }
@@ -117,26 +117,27 @@ std::unique_ptr<EffectMemory> memory_of(State const& fresh, std::size_t lanes) {
     }
 
    private:
-    // what the step to each sample leaves of a lane's memory; left: of the samples from `from` on
-    void put_left(std::size_t lane, Eigen::VectorXd const& q, std::span<double> left, Eigen::Index from) const {
+    // factor by which a lane's memory fades in the step to each sample; remaining: of the samples from `from` on
+    void put_remaining(std::size_t lane, Eigen::VectorXd const& q, std::span<double> remaining,
+                       Eigen::Index from) const {
       if constexpr (decays) {
-        for (std::size_t k = 0; k < left.size(); ++k) {
+        for (std::size_t k = 0; k < remaining.size(); ++k) {
           Eigen::Index const i = from + static_cast<Eigen::Index>(k);
-          left[k] = i > 0 ? states_[lane].decay_exponent(q[i] - q[i - 1]) : 0.0;
+          remaining[k] = i > 0 ? states_[lane].decay_exponent(q[i] - q[i - 1]) : 0.0;
         }
-        kernels::exponential(left.data(), left.size(), left.data());
+        kernels::exponential(remaining.data(), remaining.size(), remaining.data());
       }
     }
 
-    void go_on(std::size_t lane, JointState const& to, double step_s, [[maybe_unused]] double left) {
+    void go_on(std::size_t lane, JointState const& to, double step_s, [[maybe_unused]] double remaining) {
       if constexpr (decays)
-        states_[lane].advance(to, step_s, left);
+        states_[lane].advance(to, step_s, remaining);
       else
         states_[lane].advance(to, step_s);
     }
 
     std::vector<State> states_;
-    std::vector<double> q_, left_;  // of each lane: where it is, and what the coming step leaves of its memory
+    std::vector<double> q_, remaining_;  // of each lane: its position, and the factor of the coming step
     bool has_started_ = false;
   };
   return std::make_unique<Lanes>(fresh, lanes);
