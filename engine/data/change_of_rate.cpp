@@ -28,8 +28,11 @@ Recording at_rate(Recording recording, double rate_hz) {
   };
   double const first_s = recording.time_s.size() > 0 ? recording.time_s[0] : 0.0;
   for (auto* channel : {&recording.position, &recording.torque, &recording.reference, &recording.velocity,
-                        &recording.acceleration, &recording.simulated_torque})
+                        &recording.acceleration, &recording.simulated_torque, &recording.simulated_position,
+                        &recording.added_command, &recording.external_torque, &recording.enabled})
     *channel = changed(*channel);
+  constexpr double half = 0.5;
+  if (recording.enabled.size() > 0) recording.enabled = (recording.enabled.array() > half).cast<double>();
   Eigen::MatrixXd others(static_cast<Eigen::Index>(queries.size()), recording.other_positions.cols());
   for (Eigen::Index c = 0; c < others.cols(); ++c) others.col(c) = changed(recording.other_positions.col(c));
   recording.other_positions = std::move(others);

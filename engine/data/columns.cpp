@@ -14,8 +14,17 @@ namespace torquescope {
 namespace {
 
 std::vector<std::string> const& known_channels() {
-  static std::vector<std::string> const names{"time", "position", "torque", "reference", "velocity", "acceleration"};
+  static std::vector<std::string> const names = [] {
+    std::vector<std::string> all{"time", "position", "torque", "reference", "velocity", "acceleration"};
+    all.insert(all.end(), input_channels().begin(), input_channels().end());
+    return all;
+  }();
   return names;
+}
+
+bool is_input(std::string const& channel) {
+  auto const& inputs = input_channels();
+  return std::find(inputs.begin(), inputs.end(), channel) != inputs.end();
 }
 
 std::string listed(std::vector<std::string> const& names) {
@@ -39,8 +48,11 @@ class ColumnPicker {
     Channels channels;
     auto mapping = options_.columns;
     if (!options_.simulated_torque.empty()) mapping["simulated_torque"] = options_.simulated_torque;
+    if (!options_.simulated_position.empty()) mapping["simulated_position"] = options_.simulated_position;
     std::map<std::size_t, std::string> channel_of_column;
     for (auto const& [channel, column] : mapping) {
+      // pulses of one recording need not be columns of the others
+      if (is_input(channel) && !has_column(column)) continue;
       auto const index = find(channel, column);
       if (!index) continue;
       auto const [other, is_new] = channel_of_column.emplace(*index, channel);
@@ -92,6 +104,12 @@ class ColumnPicker {
     problems_.back().notes.push_back("the file has: " + listed(table_.names));
   }
 
+  bool has_column(std::string const& column) const {
+    auto const is_it = [&](std::string const& name) { return ends_in(name, column); };
+    return std::any_of(table_.names.begin(), table_.names.end(), is_it) ||
+           std::any_of(table_.unusable.begin(), table_.unusable.end(), [&](auto const& one) { return is_it(one.name); });
+  }
+
   std::optional<std::size_t> find(std::string const& channel, std::string const& column) {
     std::vector<std::size_t> same, ending;
     for (std::size_t c = 0; c < table_.names.size(); ++c) {
@@ -126,10 +144,9 @@ class ColumnPicker {
   }
 
   void add(ExitCode code, std::string what, std::string const& channel, std::string help) {
-    bool const is_option = channel == "simulated_torque";
-    Problem problem{code, std::move(what), section_.where(is_option ? "simulated_torque" : "columns")};
-    problem.key =
-        is_option ? "recording.simulated_torque" : "recording.columns" + (channel.empty() ? "" : "." + channel);
+    bool const is_option = channel.starts_with("simulated_");
+    Problem problem{code, std::move(what), section_.where(is_option ? channel : "columns")};
+    problem.key = is_option ? "recording." + channel : "recording.columns" + (channel.empty() ? "" : "." + channel);
     problem.help = std::move(help);
     problems_.push_back(std::move(problem));
   }
@@ -141,6 +158,11 @@ class ColumnPicker {
 };
 
 }  // namespace
+
+std::vector<std::string> const& input_channels() {
+  static std::vector<std::string> const names{"added_command", "external_torque", "enabled"};
+  return names;
+}
 
 std::string file_name(RawTable const& table) { return std::filesystem::path(table.path).filename().string(); }
 

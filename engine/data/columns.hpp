@@ -1,7 +1,8 @@
 #pragma once
 // Which column of a table serves as which channel, as recording.columns says. Nothing is guessed.
 //
-// Channels   time, position, torque, reference, velocity, acceleration, simulated_torque
+// Channels   time, position, torque, reference, velocity, acceleration, input_channels(), simulated_torque,
+//            simulated_position
 // Names      a column's whole name, or what stands behind its last '/' when no other column ends so
 // Errors     Error 78 with all problems at once: no columns, unknown channel, missing channel, no such column (the
 // file's

@@ -47,6 +47,10 @@ struct Recording {
   Eigen::VectorXd velocity{};          // optional: used instead of differentiating the position
   Eigen::VectorXd acceleration{};      // optional, only together with velocity
   Eigen::VectorXd simulated_torque{};  // optional: the user's own simulator on the same motion
+  // optional, for rollouts: that simulator's motion from the reference; what is added to the drive's command, in the
+  // column's own unit; torque from outside; whether the drive is on (1) or off (0)
+  Eigen::VectorXd simulated_position{};
+  Eigen::VectorXd added_command{}, external_torque{}, enabled{};
   // what passes the gear beside the terms of a model, as that simulator says; no channel: a diagnosis fills it
   Eigen::VectorXd gear_load{};
   // what is not known of it: n x k, independent errors of one standard deviation each; none

@@ -11,8 +11,9 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
        {"train_share", &Options::train_share, "1", 0.05, 1.0,
         "share of every training recording, from its start, that parameters are fitted to; the rest joins validate"},
        {"columns", &Options::columns,
-        "channel = \"column\"; channels: time, position, torque (required), reference, velocity, acceleration; of an "
-        "arm \"q{j}_rad\" is q1_rad, q2_rad, ..., and {name} the joint's name"},
+        "channel = \"column\"; channels: time, position, torque (required), reference, velocity, acceleration, and for "
+        "rollouts added_command (to the drive's command), external_torque, enabled (0: the drive is off); of an arm "
+        "\"q{j}_rad\" is q1_rad, q2_rad, ..., and {name} the joint's name"},
        {"torque_per_unit", &Options::torque_per_unit,
         "N m (or N) per unit of the torque column, e.g. N m per A; of an arm one number, or one for each joint"},
        {"position_per_unit", &Options::position_per_unit,
@@ -41,6 +42,9 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
         "column with the torque (N m or N) of your own simulator on the same motion, neither scaled nor delayed; "
         "diagnose "
         "then explains what is left of the recording beside it"},
+       {"simulated_position", &Options::simulated_position,
+        "column with the position that your own simulator reaches from the same reference; replay sets it beside the "
+        "recording"},
        {"payload_kg", &Options::payload_kg,
         "of an arm: mass that its last link carries, weighed, one number for each training recording; 0: none"},
        {"payload_first_moments_kgm", &Options::payload_first_moments_kgm,

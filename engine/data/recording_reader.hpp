@@ -20,7 +20,7 @@ struct RecordingOptions {
   std::vector<std::string> train{};
   std::vector<std::string> validate{};
   std::map<std::string, std::string>
-      columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration
+      columns{};  // channel -> column: time, position, torque, reference, velocity, acceleration, and input_channels()
   // N m per unit of the torque column (A, V, N): of the joint, or of each joint of an arm
   std::vector<double> torque_per_unit{1.0};
   double position_per_unit = 1.0;                 // rad per unit of position, reference, velocity, acceleration columns
@@ -33,6 +33,7 @@ struct RecordingOptions {
   double delay_s = 0.0;                           // added to the torque's time stamps
   std::string gaps = "fill";       // missing values: "error", or "fill" short ones and leave out longer ones
   std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
+  std::string simulated_position{};  // and of its position, from the reference, in the unit of the position column
   double train_share = 1.0;        // of every training recording, from its start; the rest judges
   // of an arm, kg: what its last link carries in each recording; none: nothing. First moments: three a recording
   std::vector<double> payload_kg{}, payload_first_moments_kgm{}, validate_payload_kg{};
@@ -49,6 +50,9 @@ struct UnusableColumn {
   std::string reason;     // continues the name: "holds text: \"off\" in line 12"
   std::int64_t line = 0;  // where, in text formats
 };
+
+// channels of columns{} that only a simulation of the recording uses; a file without such a column has none of it
+std::vector<std::string> const& input_channels();
 
 // what any reader makes of a file: named columns of equal length
 struct RawTable {

@@ -14,7 +14,8 @@ Recording part_of(Recording const& whole, Eigen::Index first, Eigen::Index count
   Recording part = whole;
   for (auto channel :
        {&Recording::time_s, &Recording::position, &Recording::torque, &Recording::reference, &Recording::velocity,
-        &Recording::acceleration, &Recording::simulated_torque, &Recording::gear_load})
+        &Recording::acceleration, &Recording::simulated_torque, &Recording::simulated_position,
+        &Recording::added_command, &Recording::external_torque, &Recording::enabled, &Recording::gear_load})
     if ((whole.*channel).size() > 0) part.*channel = (whole.*channel).segment(first, count).eval();
   if (whole.other_positions.size() > 0) part.other_positions = whole.other_positions.middleRows(first, count);
   double const from_s = static_cast<double>(first) / whole.rate_hz;

@@ -103,7 +103,8 @@ void check_moves(Channels const& channels, RawTable const& table) {
 
 double unit_of(std::string const& channel, RecordingOptions const& options) {
   if (channel == "torque") return options.torque_factor();
-  if (channel == "simulated_torque") return 1.0;
+  auto const& inputs = input_channels();
+  if (channel == "simulated_torque" || std::find(inputs.begin(), inputs.end(), channel) != inputs.end()) return 1.0;
   return channel == "velocity" ? options.velocity_factor() : options.position_per_unit;
 }
 
@@ -340,6 +341,11 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   take("velocity", recording.velocity, 0.0);
   take("acceleration", recording.acceleration, 0.0);
   take("simulated_torque", recording.simulated_torque, 0.0);
+  take("simulated_position", recording.simulated_position, 0.0);
+  take("added_command", recording.added_command, 0.0);
+  take("external_torque", recording.external_torque, 0.0);
+  take("enabled", recording.enabled, 0.0);
+  recording.enabled = (recording.enabled.array() != 0.0).cast<double>();
   if (others == OtherJoints::kept) take_other_joints(exam, sampling, sampled, grid, recording);
   recording.left_out = merged(std::move(recording.left_out));
   report_left_out(exam, recording.left_out);

@@ -19,13 +19,15 @@ FitnessChoice every_sample(ObjectiveOptions const& options, std::string const& w
 
 bool wants_statistics(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations) {
   if (options.precision == "float32") return true;  // they tell what noise the rounding hides in
-  if (options.fitness == "direct" || options.loss != "squares") return false;
+  if (options.fitness == "direct" || options.fitness == "rollout" || options.loss != "squares") return false;
   return options.fitness == "gram" || evaluations >= repaid_after(n_parameters);
 }
 
 FitnessChoice choose_fitness(ObjectiveOptions const& options, Eigen::Index n_parameters, std::int64_t evaluations,
                              SufficientStatistics const* statistics) {
   if (options.fitness == "direct") return every_sample(options, "as the job says");
+  if (options.fitness == "rollout")
+    return {false, false, "rollouts: every sample of the recordings, simulated in their loops", true};
   if (options.loss != "squares") return every_sample(options, options.loss + " is no sum of squares");
   if (!wants_statistics(options, n_parameters, evaluations))
     return every_sample(options, fmt::format("{} evaluations do not repay statistics, {} would", evaluations,

@@ -19,6 +19,7 @@ struct FitnessChoice {
   bool from_statistics = false;
   bool in_float32 = false;
   std::string words;  // "statistics (auto): ...", for the log and the result file
+  bool by_rollouts = false;
 };
 
 // whether statistics have to be made: decided before they are, which costs two sweeps; evaluations: at most, of all

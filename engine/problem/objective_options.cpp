@@ -29,8 +29,9 @@ OptionTable<ObjectiveOptions> const& ObjectiveOptions::table() {
         "residuals beyond it pull with constant force; 0: 1.345 times their robust scale, as irls"},
        {"fitness_scale", &ObjectiveOptions::fitness_scale, std::vector<std::string>{"mse", "sse"},
         "mean or sum over the samples (the seed's eq. 10 is the sum; it changes what FADE does)"},
-       {"fitness", &ObjectiveOptions::fitness, std::vector<std::string>{"auto", "direct", "gram"},
-        "from every sample (direct) or from sufficient statistics (gram: squares only, where it is exact to 1e-12)"},
+       {"fitness", &ObjectiveOptions::fitness, std::vector<std::string>{"auto", "direct", "gram", "rollout"},
+        "from every sample (direct), from sufficient statistics (gram: squares only, where it is exact to 1e-12), or "
+        "from simulations of the recordings in their loops (rollout: position and torque, each by its noise)"},
        {"precision", &ObjectiveOptions::precision, std::vector<std::string>{"float64", "float32"},
         "float32: every sample at up to twice the speed, squares only; refused where noise is below 1e-3 of the "
         "torque"}});
@@ -38,6 +39,9 @@ OptionTable<ObjectiveOptions> const& ObjectiveOptions::table() {
 }
 
 std::optional<Problem> contradiction(ObjectiveOptions const& options, Section const& section) {
+  if (options.fitness == "rollout" && (options.loss != "squares" || options.precision != "float64"))
+    return problem_at(section, "fitness", "fitness = \"rollout\" with a loss or a precision of its own",
+                      "rollouts sum squares in float64: remove loss and precision");
   if (options.precision != "float32") return {};
   if (options.loss != "squares")
     return problem_at(section, "precision", fmt::format("precision = \"float32\" with loss = \"{}\"", options.loss),

@@ -20,6 +20,7 @@
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/recordings_of_job.hpp"
+#include "engine/run/rollout_parts.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/simulated_arms.hpp"
@@ -40,7 +41,8 @@ Problem missing(Job const& job, std::string what, std::string help) {
 
 // a job must have something to do
 void check_work(Job const& job, Experiment::Purpose purpose, std::vector<Problem>& problems) {
-  if (purpose == Experiment::Purpose::diagnose || !job.all("estimator").empty()) return;
+  bool const needs_none = purpose == Experiment::Purpose::diagnose || purpose == Experiment::Purpose::replay;
+  if (needs_none || !job.all("estimator").empty()) return;
   bool const diagnoses = job.find("diagnose") != nullptr;
   if (purpose == Experiment::Purpose::check && diagnoses) return;
   std::string help = "write [[estimator]] with name = \"ols\"";
@@ -78,6 +80,26 @@ std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> 
     recordings.push_back(make_recording(table, options, section, others));
   }
   return recordings;
+}
+
+// of a column that only some recordings need, one has it: else its name is wrong
+void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
+                    std::vector<Recording> const& unseen) {
+  std::vector<Problem> problems;
+  auto const check = [&](char const* channel, Eigen::VectorXd Recording::* values) {
+    auto const column = options.columns.find(channel);
+    auto const has_it = [&](Recording const& one) { return (one.*values).size() > 0; };
+    if (column == options.columns.end() || std::any_of(train.begin(), train.end(), has_it) ||
+        std::any_of(unseen.begin(), unseen.end(), has_it))
+      return;
+    problems.push_back(problem_at(section_or_empty(job, "recording"), "columns",
+                                  fmt::format("no recording has the column \"{}\" ({})", column->second, channel),
+                                  "write its name as one of the files has it, or remove it"));
+  };
+  check("added_command", &Recording::added_command);
+  check("external_torque", &Recording::external_torque);
+  check("enabled", &Recording::enabled);
+  if (!problems.empty()) throw Error(std::move(problems));
 }
 
 // what cannot be fitted: a joint that stands still tells nothing, in training
@@ -128,6 +150,7 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options, Record
   parts.train.recordings = read_recordings(parts.job, options.train, options, section, tables, others);
   std::vector<Recording> unseen =
       read_recordings(parts.job, options.validate, options, section, tables, OtherJoints::ignored);
+  require_inputs(parts.job, options, parts.train.recordings, unseen);
   split_off_unseen(parts.train.recordings, unseen, options.train_share);
   double const rate_hz = rate_of_job(parts.train.recordings, unseen);
   bring_to_rate(parts.train.recordings, rate_hz);
@@ -138,7 +161,9 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options, Record
 
 void forget_channels(Recording& recording) {
   for (auto* channel : {&recording.time_s, &recording.position, &recording.torque, &recording.reference,
-                        &recording.velocity, &recording.acceleration, &recording.simulated_torque})
+                        &recording.velocity, &recording.acceleration, &recording.simulated_torque,
+                        &recording.simulated_position, &recording.added_command, &recording.external_torque,
+                        &recording.enabled})
     *channel = Eigen::VectorXd();
 }
 
@@ -255,6 +280,26 @@ void check_precision(Experiment::Parts& parts) {
   if (!problems.empty()) throw Error(std::move(problems));
 }
 
+// what is searched by rollouts, or replayed; sections that nobody uses are read all the same, for their mistakes
+void begin_rollouts_of(Experiment::Parts& parts, Experiment::Purpose purpose, std::vector<Problem>& problems) {
+  RolloutPlan plan = plan_rollouts(parts.job, *parts.regressor, problems);
+  auto const& plans = parts.estimators;
+  auto const rolls_out = [](EstimatorPlan const& one) { return one.rolls_out(); };
+  bool const any = std::any_of(plans.begin(), plans.end(), rolls_out);
+  if (!problems.empty() || (!any && purpose != Experiment::Purpose::replay)) return;
+  parts.rollout = begin_rollouts(std::move(plan), *parts.regressor);
+  bool const has_more = parts.parameters() > parts.row_parameters();
+  if (!any || !has_more || purpose == Experiment::Purpose::replay) return;
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < std::min(sections.size(), plans.size()); ++i)
+    if (!rolls_out(plans[i]))
+      problems.push_back(problem_at(*sections[i], "name",
+                                    fmt::format("{} fits rows, which know nothing of effects and loops that are searched "
+                                                "by rollouts",
+                                                plans[i].label),
+                                    "give it a job of its own, or write fitness = \"rollout\""));
+}
+
 }  // namespace
 
 Experiment::Experiment(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -303,6 +348,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     if (purpose == Purpose::diagnose)
       refuse_too_few_twins(parts->diagnose, parts->arm ? parts->arm->model.joints() : 1,
                            section_or_empty(job, "diagnose"), problems);
+    if (!is_arm) begin_rollouts_of(*parts, purpose, problems);
     parts->box = read_search_box(parts->parameter_names(), job.find("model.bounds"), problems);
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -319,7 +365,8 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
   // then the data
   auto const n = static_cast<Eigen::Index>(parts->parameters());
   parts->truth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
-  auto const channels = purpose == Purpose::diagnose ? Channels::kept : Channels::taken;
+  bool const keeps_channels = purpose == Purpose::diagnose || purpose == Purpose::replay;
+  auto const channels = keeps_channels ? Channels::kept : Channels::taken;
   if (is_arm && simulates) {
     use_arm_simulation(*parts, arm_plan);
   } else if (is_arm) {
@@ -330,8 +377,16 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     else
       use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
+    std::vector<Recording> train, validate;
+    if (parts->rollout) {
+      train = parts->train.recordings;
+      if (parts->validate) validate = parts->validate->recordings;
+    }
     prepare(parts->train, *parts, channels);
     if (parts->validate) prepare(*parts->validate, *parts, channels);
+    if (parts->rollout)
+      add_recordings(*parts->rollout, *parts->regressor, std::move(train), std::move(validate), parts->train.regression,
+                     parts->filter, section_or_empty(job, "filter"));
   }
   auto const& rows = parts->train.regression;
   if (!too_few_rows(rows)) parts->reductions = reductions_of(rows);
@@ -344,10 +399,10 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();
-    if (purpose == Purpose::identify) refuse_faults(*parts, job, recording);
+    if (purpose == Purpose::identify || purpose == Purpose::replay) refuse_faults(*parts, job, recording);
   }
   if (job.find("model.bounds") == nullptr && searches(*parts)) {
-    parts->box = box_from_recordings(*parts);
+    parts->box = parts->rollout ? rollout_box(*parts->rollout->model) : box_from_recordings(*parts);
     parts->box_is_default = true;
   }
   if (purpose != Purpose::diagnose) set_starts(*parts);

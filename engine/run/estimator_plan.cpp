@@ -72,6 +72,7 @@ Problem unknown_estimator(Section const& section, std::string const& name) {
   std::vector<std::string> names;
   append_names(estimator_choices(), names);
   append_names(optimiser_choices(), names);
+  names.emplace_back(lm_name);
   Problem problem =
       problem_at(section, "name",
                  name.empty() ? "an [[estimator]] has no name" : fmt::format("no estimator is called \"{}\"", name),
@@ -115,6 +116,14 @@ EstimatorPlan plan_closed_form(EstimatorChoice const& choice, Section const& sec
   return plan;
 }
 
+EstimatorPlan plan_lm(Section const& section, EstimatorPlan plan, std::vector<Problem>& problems) {
+  plan.title = lm_title;
+  plan.lm.emplace();
+  LmOptions::table().apply(section, *plan.lm, problems, keys_of(EstimatorOptions::table()));
+  append_options(LmOptions::table().describe(), section, plan);
+  return plan;
+}
+
 }  // namespace
 
 std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& sections,
@@ -135,7 +144,9 @@ std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& se
                                     fmt::format("two estimators are called \"{}\"", plan.label),
                                     fmt::format("give one of them a label of its own: label = \"{}_2\"", plan.label)));
     }
-    if (auto const* closed_form = find_estimator(options.name)) {
+    if (options.name == lm_name) {
+      plans.push_back(plan_lm(*section, std::move(plan), problems));
+    } else if (auto const* closed_form = find_estimator(options.name)) {
       plan.title = closed_form->title;
       plans.push_back(plan_closed_form(*closed_form, *section, std::move(plan), problems));
     } else if (auto const* method = find_optimiser(options.name)) {

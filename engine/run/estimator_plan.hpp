@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "engine/optim/stop_rules.hpp"
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/objective_options.hpp"
+#include "engine/rollout/rollout_fit.hpp"
 
 namespace torquescope {
 
@@ -54,8 +56,15 @@ struct EstimatorPlan {
   std::vector<double> start{};  // what that comes to (start_point.hpp): by parameter, NaN where unknown; else empty
   std::string start_words{};
 
-  bool is_closed_form() const { return static_cast<bool>(fit); }
+  std::optional<LmOptions> lm{};  // Levenberg-Marquardt on rollouts: one run, as a closed form
+
+  bool is_closed_form() const { return static_cast<bool>(fit) || lm; }
+  // it simulates the recordings
+  bool rolls_out() const { return lm || objective.fitness == "rollout"; }
 };
+
+// the estimator that fits simulations to recordings; it needs the recordings, not rows, so it is in no registry of those
+inline constexpr char lm_name[] = "lm", lm_title[] = "Levenberg-Marquardt on rollouts";
 
 // one plan per section, in their order
 std::vector<EstimatorPlan> plan_estimators(std::vector<Section const*> const& sections, std::vector<Problem>& problems);

@@ -64,6 +64,15 @@ std::string Experiment::Parts::torque_unit() const {
   return regressor->joint() == JointKind::revolute ? "N m" : "N";
 }
 
+bool Experiment::Parts::rolls_out() const {
+  return std::any_of(estimators.begin(), estimators.end(), [](EstimatorPlan const& one) { return one.rolls_out(); });
+}
+
+std::vector<std::string> Experiment::Parts::parameter_units() const {
+  if (rollout) return rollout->units;
+  return arm ? arm->model.units() : regressor->units();
+}
+
 void Experiment::forget_motion() {
   parts_->train.regression.forget_motion();
   if (parts_->validate) parts_->validate->regression.forget_motion();

@@ -28,6 +28,7 @@
 #include "engine/problem/sufficient_statistics.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
+#include "engine/run/rollout_parts.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
@@ -78,11 +79,18 @@ struct Experiment::Parts {
   std::optional<SinglePrecisionCheck> single_precision;  // when an estimator wants float32
   DiagnoseOptions diagnose;
   std::vector<Effect const*> effects;  // a diagnosis looks for
+  // where an estimator simulates the recordings, or a replay does
+  std::optional<RolloutParts> rollout{};
 
   std::size_t joints() const { return arm ? arm->model.joints() : 1; }
-  std::vector<std::string> parameter_names() const { return arm ? arm->model.names() : regressor->names(); }
-  std::vector<std::string> parameter_units() const { return arm ? arm->model.units() : regressor->units(); }
-  std::size_t parameters() const { return arm ? arm->model.size() : regressor->size(); }
+  std::vector<std::string> parameter_names() const { return rollout ? rollout->names : row_parameter_names(); }
+  std::vector<std::string> parameter_units() const;
+  std::size_t parameters() const { return rollout ? rollout->names.size() : row_parameters(); }
+  // those that the rows of the fit are linear in; rollouts may have more: of effects and of the loop
+  std::vector<std::string> row_parameter_names() const { return arm ? arm->model.names() : regressor->names(); }
+  std::size_t row_parameters() const { return arm ? arm->model.size() : regressor->size(); }
+  // an estimator searches by rollouts
+  bool rolls_out() const;
   // of a row: "1" of an arm, whose rows are divided by the noise of their joint
   std::string torque_unit() const;
 };

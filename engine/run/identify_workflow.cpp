@@ -14,6 +14,8 @@
 #include "engine/run/last_states.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/run/rollout_objective.hpp"
+#include "engine/run/rollout_stage.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/stage_progress.hpp"
 #include "engine/run/study_writer.hpp"
@@ -34,13 +36,17 @@ struct Study {
   bool merges = false;             // nothing runs: segments have it all, or what there is
 };
 
-void keep_run(Study const& study, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
+void keep_run(double gap, Eigen::VectorXd const& parameters, std::string stop_reason, std::int64_t evaluations,
               std::int64_t nonfinite, RunResults& results) {
-  results.gap.push_back(study.floor.gap({parameters.data(), static_cast<std::size_t>(parameters.size())}));
+  results.gap.push_back(gap);
   results.parameters.push_back(parameters);
   results.stop_reason.push_back(std::move(stop_reason));
   results.evaluations.push_back(evaluations);
   results.nonfinite.push_back(nonfinite);
+}
+
+double gap_to_floor(Study const& study, Eigen::VectorXd const& parameters) {
+  return study.floor.gap({parameters.data(), static_cast<std::size_t>(parameters.size())});
 }
 
 // NaN where no row is left: an unseen recording of an arm that stands still
@@ -64,11 +70,35 @@ void measure_runs(Study const& study, RunResults& results) {
   if (study.parts.validate) in_torque(study.parts.validate->regression, results.validate);
 }
 
+RunResults run_lm(Study const& study, EstimatorPlan const& plan) {
+  auto const& options = study.attempt.options;
+  StageProgress progress(study.progress, plan.label, 1, 1);
+  RolloutFit const fit = fit_by_rollouts(study.parts, *plan.lm, options.threads.count, options.stop_requested);
+  if (options.stop_requested && options.stop_requested())
+    throw Error(Problem{ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
+  RunResults results;
+  RolloutObjective const objective(*study.parts.rollout, study.parts.box);
+  keep_run(objective.fitness_of(fit.parameters), fit.parameters, fit.failed ? "diverged" : "converged", fit.evaluations,
+           0, results);
+  measure_rollouts(study.parts, options.threads.count, results);
+  write_rollout_fit(study.writer, plan.label, fit);
+  if (!fit.at_bounds.empty() && options.tell)
+    options.tell("warning", fmt::format("{} ends on the bound of {}: the recordings do not say what it is", plan.label,
+                                        fmt::join(fit.at_bounds, ", ")));
+  if (fit.failed && options.tell)
+    options.tell("warning", plan.label +
+                                ": the simulation diverges at its start; check [loop], or give [model.given] near values");
+  progress.count_evaluations(fit.evaluations);
+  progress.count_run();
+  return results;
+}
+
 RunResults run_closed_form(Study const& study, EstimatorPlan const& plan) {
+  if (plan.lm) return run_lm(study, plan);
   StageProgress progress(study.progress, plan.label, 1, 1);
   LeastSquaresFit const fit = plan.fit(study.parts.train.regression);
   RunResults results;
-  keep_run(study, fit.parameters, "closed form", 1, 0, results);
+  keep_run(gap_to_floor(study, fit.parameters), fit.parameters, "closed form", 1, 0, results);
   measure_runs(study, results);
   auto const form = study.parts.arm ? std::nullopt : joint_form(*study.parts.regressor);
   write_least_squares(study.writer, plan.label, fit, form ? &*form : nullptr);
@@ -98,7 +128,8 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
     write_history(study.writer, plan.label, run, history);
     Eigen::VectorXd const parameters =
         Eigen::Map<Eigen::VectorXd const>(history->parameters.data(), static_cast<Eigen::Index>(shape.parameters));
-    keep_run(study, parameters, history->stop_reason, history->evaluations.back(), history->nonfinite, results);
+    keep_run(plan.rolls_out() ? history->gap.back() : gap_to_floor(study, parameters), parameters, history->stop_reason,
+             history->evaluations.back(), history->nonfinite, results);
     last_states.push_back(history->last_state);
     PC.insert(PC.end(), history->PC.begin(), history->PC.end());
     FC.insert(FC.end(), history->FC.begin(), history->FC.end());
@@ -114,7 +145,10 @@ RunResults run_population_method(Study const& study, EstimatorPlan const& plan) 
       progress.count_run();
     }
   }
-  measure_runs(study, results);
+  if (plan.rolls_out())
+    measure_rollouts(parts, study.attempt.options.threads.count, results);
+  else
+    measure_runs(study, results);
   if (shape.members > 0) write_last_states(study.writer, plan.label, last_states);
   write_fitness_choice(study.writer, plan.label, choice);
   if (plan.controller) write_controller(study.writer, plan.label, *plan.controller, shape, PC, FC);
@@ -174,7 +208,7 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
     write_results(writer, plan, results, study.torque_unit, parts.parameter_names());
-    if (parts.regressor) write_model_code(writer, plan.label, *parts.regressor, results);
+    if (parts.regressor && parts.parameters() == parts.row_parameters()) write_model_code(writer, plan.label, *parts.regressor, results);
     if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     order.push_back(plan.label);

@@ -15,6 +15,7 @@
 #include "engine/run/optimise.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/run_scheduler.hpp"
+#include "engine/run/rollout_objective.hpp"
 #include "engine/run/search_identity.hpp"
 #include "engine/run/stage_progress.hpp"
 
@@ -26,6 +27,7 @@ using History = std::shared_ptr<RunHistory const>;
 
 std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, EstimatorPlan const& plan,
                                           FitnessChoice const& choice) {
+  if (choice.by_rollouts) return std::make_unique<RolloutObjective>(*parts.rollout, parts.box);
   auto const& rows = parts.train.regression;
   auto const scale = fitness_scale(plan.objective);
   if (choice.from_statistics)
@@ -33,6 +35,13 @@ std::unique_ptr<Objective> make_objective(Experiment::Parts const& parts, Estima
                                                  scale);
   if (choice.in_float32) return std::make_unique<SinglePrecisionObjective>(rows, parts.box, scale);
   return std::make_unique<ResidualObjective>(rows, parts.box, make_loss(plan.objective, rows), scale);
+}
+
+double fitness_of(Objective const& objective, std::span<double const> candidate) {
+  double fitness = 0.0;
+  Workspace workspace;
+  objective.evaluate({candidate.data(), 1, candidate.size()}, {&fitness, 1}, workspace);
+  return fitness;
 }
 
 SegmentOrigin origin_of(Experiment const& experiment, IdentifyOptions const& options) {
@@ -213,9 +222,13 @@ void run_population(PopulationStage const& stage, std::vector<std::size_t> const
   SearchSetting const setting{
       *objective,
       plan.stop_rules,
-      fitness_scale(plan.objective) == FitnessScale::mse ? 1.0
-                                                         : 1.0 / static_cast<double>(parts.train.regression.rows()),
-      [&](std::span<double const> candidate) { return stage.floor.gap(candidate); },
+      fitness_scale(plan.objective) == FitnessScale::mse || choice.by_rollouts
+          ? 1.0
+          : 1.0 / static_cast<double>(parts.train.regression.rows()),
+      // of rollouts nobody knows the floor: a gap is the fitness itself
+      [&](std::span<double const> candidate) {
+        return choice.by_rollouts ? fitness_of(*objective, candidate) : stage.floor.gap(candidate);
+      },
       [&](std::int64_t evaluations) { progress.count_evaluations(evaluations); },
       attempt.options.stop_requested,
       parts.output.populations,

@@ -118,7 +118,7 @@ void write_data_set(ResultWriter& writer, std::string const& group, DataSet cons
   if (parts.arm)
     write_arm_samples(writer, group, set, parts);
   else if (parts.output.samples)
-    write_samples(writer, group, set.regression, parts.regressor->joint(), parts.parameter_names());
+    write_samples(writer, group, set.regression, parts.regressor->joint(), parts.row_parameter_names());
   else
     writer.attribute(group, "samples", static_cast<std::int64_t>(set.regression.rows()));
   std::vector<std::string> warnings;
@@ -158,7 +158,7 @@ void write_study(ResultWriter& writer, Experiment const& experiment) {
   if (parts.arm) write_arm(writer, parts);
   write_data_set(writer, "/data/train", parts.train, parts);
   if (parts.validate) write_data_set(writer, "/data/validate", *parts.validate, parts);
-  write_health(writer, parts.health, parts.parameter_names());
+  write_health(writer, parts.health, parts.row_parameter_names());
 }
 
 }  // namespace torquescope

@@ -38,8 +38,8 @@ struct CheckLine {
 class Experiment {
  public:
   // what a job is loaded for decides what it must have: [[estimator]] to identify, nothing more to diagnose; to check
-  // it, [[estimator]] or [diagnose]
-  enum class Purpose { identify, diagnose, check };
+  // it, [[estimator]] or [diagnose]; to replay it, neither
+  enum class Purpose { identify, diagnose, check, replay };
   // Errors: 66, 65, 78 with everything that can be refused before starting
   static Experiment load(std::filesystem::path const& job_file, Purpose purpose = Purpose::identify);
   // of a text that need not be a file yet; a recording that it names is looked for in `tables` before any file is

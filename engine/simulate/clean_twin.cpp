@@ -7,8 +7,9 @@
 
 #include "engine/base/contract.hpp"
 #include "engine/base/random_stream.hpp"
+#include "engine/simulate/lane_controller.hpp"
 #include "engine/simulate/lane_noise.hpp"
-#include "engine/simulate/lane_step.hpp"
+#include "engine/simulate/lane_motion.hpp"
 #include "engine/simulate/sticking_lanes.hpp"
 
 namespace torquescope {
@@ -47,56 +48,10 @@ void read_as_recorded(TwinJoint const& joint, LaneInstant const& start, double* 
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) position[lane] -= read[lane] - position[lane];
 }
 
-// the law in all lanes: what it remembers, and its answer
-class LaneController {
- public:
-  LaneController(LoopLaw const& law, TwinTrack const& track) : law_(law), seen_(law.position.size() * twin_lanes) {
-    // before the start the joint came along at its first velocity
-    for (std::size_t lag = 0; lag < law.position.size(); ++lag)
-      std::fill_n(seen_.data() + lag * twin_lanes, twin_lanes,
-                  track.start_position - static_cast<double>(lag + 1) * track.start_velocity / track.rate_hz);
-  }
-
-  void command(double const* measured, double open, double wanted, double* torque) {
-    std::size_t const lags = law_.position.size();
-    newest_ = (newest_ == 0 ? lags : newest_) - 1;
-    std::copy_n(measured, twin_lanes, seen_.data() + newest_ * twin_lanes);
-    alignas(64) double sum[twin_lanes];
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      summed_error_[lane] += wanted - measured[lane];
-      sum[lane] = open + law_.integral * summed_error_[lane];
-    }
-    std::size_t place = newest_;
-    for (double const gain : law_.position) {
-      double const* const q = seen_.data() + place * twin_lanes;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) sum[lane] += gain * q[lane];
-      if (++place == lags) place = 0;
-    }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) torque[lane] = std::clamp(sum[lane], law_.least, law_.most);
-  }
-
- private:
-  LoopLaw const& law_;
-  std::vector<double> seen_;  // [lag][lanes], a ring
-  std::size_t newest_ = 0;
-  double summed_error_[twin_lanes] = {};
-};
-
 void read_encoder(double step, double const* phase, double* position) {
   if (step == 0.0) return;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane)
     position[lane] = step * std::floor((position[lane] + phase[lane]) / step + 0.5) - phase[lane];
-}
-
-LaneInstant instant_of(LaneState const& state, double time_s, double step_s, double const* motor_torque) {
-  LaneInstant at;
-  at.time_s = time_s;
-  at.step_s = step_s;
-  std::copy_n(state.q, twin_lanes, at.q);
-  std::copy_n(state.dq, twin_lanes, at.dq);
-  std::copy_n(state.ddq, twin_lanes, at.ddq);
-  std::copy_n(motor_torque, twin_lanes, at.motor_torque);
-  return at;
 }
 
 // The longest step between two changes of the torque. A law with a memory, or one of sticking, is as quick as the
@@ -162,9 +117,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   double encoder_phase[twin_lanes];
   draw_phases(address, group, loop_, encoder_phase);
   LaneFriction friction(address, group, loop_, 1.0 / track_.rate_hz);
-  LaneController controller(loop_.law, track_);
-  std::vector<std::unique_ptr<LaneEffect>> effects;
-  for (auto const& make : joint_.effects) effects.push_back(make());
+  LaneController controller(loop_.law, track_.start_position, track_.start_velocity, track_.rate_hz);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     out.position[lane].resize(samples());
     out.torque[lane].resize(samples());
@@ -174,46 +127,14 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
   LaneState state;
   draw_starts(address, group, loop_, track_, state.q);
   std::fill_n(state.dq, twin_lanes, track_.start_velocity);
-  LaneTorques torques;
+  LaneJoints const lanes = joint_.lanes;
   LaneSticking sticking;
-  if (loop_.sticking.is_any()) draw_sticking(address, group, loop_.sticking, track_.start_velocity, sticking);
-  auto const advance = [&](std::size_t steps) {
-    if (loop_.sticking.is_any()) return advance_sticking_lanes(joint_.lanes, torques, step_s_, steps, sticking, state);
-    advance_lanes(joint_.lanes, torques, step_s_, steps, state);
-  };
-  LaneDryFriction const dry{joint_.coulomb_forward, joint_.coulomb_backward};
-  LaneInstant at;  // in the middle of a step
-  at.step_s = step_s_;
-  bool const any_follows_steps =
-      std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return effect->follows_steps(); });
-  bool const any_is_held =
-      std::any_of(effects.begin(), effects.end(), [](auto const& effect) { return !effect->follows_steps(); });
-  std::size_t const held = any_is_held ? steps_held(joint_.lanes, step_s_, steps_per_tick_) : steps_per_tick_;
+  bool const sticks = loop_.sticking.is_any();
+  if (sticks) draw_sticking(address, group, loop_.sticking, track_.start_velocity, sticking);
+  LaneMotion motion({joint_.coulomb_forward, joint_.coulomb_backward}, joint_.effects,
+                    {step_s_, steps_per_tick_, steps_held(joint_.lanes, step_s_, steps_per_tick_)});
+  auto const& effects = motion.effects();
   alignas(64) double noise[twin_lanes], measured[twin_lanes], logged[twin_lanes], command[twin_lanes] = {};
-  // by the torque in `noise`; what has no memory is held for so many steps
-  auto const move_on = [&](double time_s, std::size_t steps) {
-    LaneDemand of_held;
-    if (any_is_held) {
-      LaneInstant middle = instant_of(state, time_s, static_cast<double>(steps) * step_s_, command);
-      foresee_lanes(state, middle);
-      for (auto const& effect : effects)
-        if (!effect->follows_steps()) effect->add(middle, of_held);
-    }
-    if (!any_follows_steps) {
-      load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), of_held, state, torques);
-      return advance(steps);
-    }
-    std::copy_n(command, twin_lanes, at.motor_torque);
-    for (std::size_t step = 0; step < steps; ++step) {
-      at.time_s = time_s + static_cast<double>(step) * step_s_;
-      foresee_lanes(state, at);
-      LaneDemand demand = of_held;
-      for (auto const& effect : effects)
-        if (effect->follows_steps()) effect->add(at, demand);
-      load_lanes(joint_.lanes.inertia, dry, noise, friction.level(), demand, state, torques);
-      advance(1);
-    }
-  };
   double const tick_s = 1.0 / track_.rate_hz;
   read_as_recorded(joint_, instant_of(state, 0.0, tick_s, command), state.q);
   for (Eigen::Index k = 0; k < samples(); ++k) {
@@ -255,8 +176,7 @@ void CleanTwin::simulate(TwinAddress const& address, std::uint32_t group, TwinGr
     }
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       noise[lane] = command[lane] + disturbance_std[lane] * noise[lane] - joint_.offset;
-    for (std::size_t step = 0; step < steps_per_tick_; step += held)
-      move_on(time_s + static_cast<double>(step) * step_s_, std::min(held, steps_per_tick_ - step));
+    motion.advance_tick(lanes, time_s, command, noise, friction.level(), sticks ? &sticking : nullptr, state);
   }
 }
 

@@ -51,13 +51,14 @@ bool is_of_speed_alone(InstantEffect const& law) {
 class CatalogueEffect final : public LaneEffect {
  public:
   CatalogueEffect(Effect const& effect, std::vector<double> const& parameters, JointScales const& scales,
-                  LaneBaseline const& baseline)
-      : acts_on_(effect.acts_on()),
+                  LaneBaseline const& baseline, std::size_t lanes)
+      : lanes_(lanes),
+        acts_on_(effect.acts_on()),
         is_dry_friction_(effect.is_dry_friction()),
         is_partly_dry_(effect.is_partly_dry()),
         has_memory_(effect.has_memory()),
         needs_baseline_(effect.needs_baseline()),
-        has_weight_(baseline.joint.gravity_sin != 0.0 || baseline.joint.gravity_cos != 0.0),
+        has_weight_(baseline.joint.has_weight),
         baseline_(baseline.joint),
         gear_load_(baseline.gear_load),
         gear_load_rate_hz_(baseline.rate_hz),
@@ -70,11 +71,11 @@ class CatalogueEffect final : public LaneEffect {
       return;
     }
     if (auto const* remembering = dynamic_cast<MemoryEffect const*>(&effect)) {
-      memory_ = remembering->memory(std::span(parameters_).subspan(effect.n_linear()), scales, twin_lanes);
+      memory_ = remembering->memory(std::span(parameters_).subspan(effect.n_linear()), scales, lanes_);
       linear_ = std::span(parameters_).first(effect.n_linear());
       return;
     }
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane) runners_.push_back(effect.runner(parameters, scales));
+    for (std::size_t lane = 0; lane < lanes_; ++lane) runners_.push_back(effect.runner(parameters, scales));
   }
 
   // a memory may be stiff: what has none is smooth within a tick
@@ -117,14 +118,14 @@ class CatalogueEffect final : public LaneEffect {
     if (!needs_baseline_) return borne;
     double const beside = gear_load_at(at.time_s), in_motor = gear_load_at(motor_at_s);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      borne.load[lane] = beside + baseline_.inertia * at.ddq[lane];
+      borne.load[lane] = beside + baseline_.inertia[lane] * at.ddq[lane];
       borne.motor[lane] += in_motor;
     }
     if (!has_weight_) return borne;
     LaneTorques sine, cosine;
     kernels::cosine_sine_of_multiple(1.0, at.q, twin_lanes, cosine.data(), sine.data());
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      borne.load[lane] += baseline_.gravity_sin * sine[lane] + baseline_.gravity_cos * cosine[lane];
+      borne.load[lane] += baseline_.gravity_sin[lane] * sine[lane] + baseline_.gravity_cos[lane] * cosine[lane];
     return borne;
   }
 
@@ -147,28 +148,29 @@ class CatalogueEffect final : public LaneEffect {
     for (std::size_t lane = 0; lane < runners_.size(); ++lane) runners_[lane]->advance(at.state(lane), step_s);
   }
 
-  static JointStates::Quantity of_lanes(double const* values) { return {values, twin_lanes}; }
+  JointStates::Quantity of_lanes(double const* values) const { return {values, static_cast<Eigen::Index>(lanes_)}; }
 
   // time_s: room for what the lanes have in common
-  static JointStates states_of(LaneInstant const& at, Borne const& borne, LaneTorques& time_s) {
+  JointStates states_of(LaneInstant const& at, Borne const& borne, LaneTorques& time_s) const {
     time_s.fill(at.time_s);
     return {of_lanes(time_s.data()),     of_lanes(at.q), of_lanes(at.dq), of_lanes(at.ddq), of_lanes(borne.load.data()),
             of_lanes(borne.motor.data())};
   }
 
-  static JointStates accelerated(JointStates const& at, LaneTorques const& ddq) {
+  JointStates accelerated(JointStates const& at, LaneTorques const& ddq) const {
     return {at.time_s, at.q, at.dq, of_lanes(ddq.data()), at.load_torque, at.motor_torque};
   }
 
   // memory as it stands
   LaneTorques torques(JointStates const& at) const {
-    LaneTorques found;
+    LaneTorques found{};
+    std::span<double> const used(found.data(), lanes_);
     if (law_ != nullptr)
-      law_->torques(at, parameters_, scales_, found);
+      law_->torques(at, parameters_, scales_, used);
     else if (memory_)
-      memory_->torques(at, linear_, found);
+      memory_->torques(at, linear_, used);
     else
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) found[lane] = runners_[lane]->torque(at.state(lane));
+      for (std::size_t lane = 0; lane < lanes_; ++lane) found[lane] = runners_[lane]->torque(at.state(lane));
     return found;
   }
 
@@ -183,8 +185,8 @@ class CatalogueEffect final : public LaneEffect {
   LaneTorques sliding(JointStates const& at, double direction) const {
     if (rest_ && !(direction * at.dq > slowest).any())
       return filled(direction > 0.0 ? rest_->forward : rest_->backward);
-    LaneTorques dq;
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    LaneTorques dq{};
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
       dq[lane] = direction * std::max(direction * at.dq[static_cast<Eigen::Index>(lane)], slowest);
     return torques({at.time_s, at.q, of_lanes(dq.data()), at.ddq, at.load_torque, at.motor_torque});
   }
@@ -198,10 +200,11 @@ class CatalogueEffect final : public LaneEffect {
     double forward, backward;
   };
 
+  std::size_t lanes_;
   ActsOn acts_on_;
   bool is_dry_friction_, is_partly_dry_, has_memory_, needs_baseline_, has_weight_;
   bool asks_for_acceleration_ = true;  // whatever is remembered may
-  LaneJoint baseline_;
+  LaneJoints baseline_;
   std::shared_ptr<Eigen::VectorXd const> gear_load_;
   double gear_load_rate_hz_;
   std::vector<double> parameters_;
@@ -248,11 +251,16 @@ LaneEffectMaker known_torque(Effect const& effect, std::vector<double> const& pa
 
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneBaseline const& baseline) {
-  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear());
+  return lane_effect(effect, std::move(parameters), scales, baseline, twin_lanes);
+}
+
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+                            LaneBaseline const& baseline, std::size_t lanes) {
+  TORQUESCOPE_EXPECT(parameters.size() >= effect.n_linear() && lanes >= 1 && lanes <= twin_lanes);
   TORQUESCOPE_EXPECT(effect.takes_shape(parameters.size() - effect.n_linear()));
   if (effect.is_given()) return known_torque(effect, parameters, baseline);
-  return [&effect, parameters = std::move(parameters), scales, baseline] {
-    return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline);
+  return [&effect, parameters = std::move(parameters), scales, baseline, lanes] {
+    return std::make_unique<CatalogueEffect>(effect, parameters, scales, baseline, lanes);
   };
 }
 

@@ -48,7 +48,7 @@ class LaneEffect {
 
 // what an effect is told of the joint it stands beside
 struct LaneBaseline {
-  LaneJoint joint{.inertia = 0.0};
+  LaneJoints joint{};
   // load that passes the gear beside inertia and weight, one per tick from time 0 on; none
   std::shared_ptr<Eigen::VectorXd const> gear_load{};
   double rate_hz = 0.0;                         // of it
@@ -62,5 +62,8 @@ using LaneEffectMaker = std::function<std::unique_ptr<LaneEffect>()>;
 // parameters as Effect::runner takes them. baseline: what its load torque is made of, inertia and gravity
 LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
                             LaneBaseline const& baseline = {});
+// the same of the first `lanes`; what the other lanes get means nothing
+LaneEffectMaker lane_effect(Effect const& effect, std::vector<double> parameters, JointScales const& scales,
+                            LaneBaseline const& baseline, std::size_t lanes);
 
 }  // namespace torquescope

@@ -42,19 +42,20 @@ inline constexpr std::size_t n_vectors = vector_lanes * 2 <= twin_lanes ? 2 : 1;
 
 // sine, cosine: of the angle, where there is a weight
 template <bool has_weight>
-HWY_INLINE void accelerate(LaneJoint const& joint, LaneTorques const& torques, LaneState const& state,
+HWY_INLINE void accelerate(LaneJoints const& joints, LaneTorques const& torques, LaneState const& state,
                            double const* sine, double const* cosine, LaneAccelerations& a) {
-  V const one = hn::Set(d, 1.0), inertia = hn::Set(d, joint.inertia), viscous = hn::Set(d, joint.viscous);
-  V const gravity_sin = hn::Set(d, joint.gravity_sin), gravity_cos = hn::Set(d, joint.gravity_cos);
+  V const one = hn::Set(d, 1.0);
   for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes) {
+    V const inertia = hn::Load(d, joints.inertia + lane);
     V const per_inertia = hn::Div(one, hn::Add(inertia, hn::Load(d, torques.added_inertia + lane)));
     V const held = hn::Load(d, torques.held + lane);
-    hn::Store(hn::Mul(viscous, per_inertia), d, a.damping + lane);
+    hn::Store(hn::Mul(hn::Load(d, joints.viscous + lane), per_inertia), d, a.damping + lane);
     hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.forward + lane)), per_inertia), d, a.held_forward + lane);
     hn::Store(hn::Mul(hn::Sub(held, hn::Load(d, torques.backward + lane)), per_inertia), d, a.held_backward + lane);
     hn::Store(hn::Load(d, state.q + lane), d, a.from + lane);
     if constexpr (has_weight) {
       V const s = hn::Load(d, sine + lane), c = hn::Load(d, cosine + lane);
+      V const gravity_sin = hn::Load(d, joints.gravity_sin + lane), gravity_cos = hn::Load(d, joints.gravity_cos + lane);
       V const weight = hn::Add(hn::Mul(gravity_sin, s), hn::Mul(gravity_cos, c));
       V const slope = hn::Sub(hn::Mul(gravity_sin, c), hn::Mul(gravity_cos, s));
       hn::Store(hn::Mul(weight, per_inertia), d, a.weight + lane);
@@ -80,6 +81,17 @@ struct Field {
         weight_slope(hn::Load(d, a.weight_slope + lane)),
         weight_half(hn::Mul(weight, hn::Set(d, 0.5))),
         slope_sixth(hn::Mul(weight_slope, hn::Set(d, 1.0 / 6.0))) {}
+
+  // accelerations: of what holds in either direction, and of the weight at `from_` with its slope there
+  HWY_INLINE Field(V forward, V backward, V damping_, V from_, V weight_, V slope)
+      : held_forward(forward),
+        held_backward(backward),
+        damping(damping_),
+        from(from_),
+        weight(weight_),
+        weight_slope(slope),
+        weight_half(hn::Mul(weight_, hn::Set(d, 0.5))),
+        slope_sixth(hn::Mul(slope, hn::Set(d, 1.0 / 6.0))) {}
 
   // w0 + w1 x - w0 x^2/2 - w1 x^3/6
   HWY_INLINE V weight_at(V q) const {

@@ -1,5 +1,6 @@
 #include "engine/simulate/lane_step.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "kernels/dispatch-inl.hpp"
@@ -33,12 +34,12 @@ void foresee(LaneState const& state, LaneInstant& at) {
   }
 }
 
-void load(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
+void load(double const* inertia, LaneDryFriction const& friction, double const* held, double const* level,
           LaneDemand const& demand, LaneState const& state, LaneTorques& torques) {
-  V const most_taken = hn::Set(d, -((1.0 - least_inertia_left) * inertia)), zero = hn::Zero(d);
-  V const half = hn::Set(d, 0.5), to_forward = hn::Set(d, friction.forward),
-          to_backward = hn::Set(d, friction.backward);
+  V const taken = hn::Set(d, 1.0 - least_inertia_left), zero = hn::Zero(d), half = hn::Set(d, 0.5);
   for (std::size_t lane = 0; lane < twin_lanes; lane += hn::MaxLanes(d)) {
+    V const most_taken = hn::Neg(hn::Mul(taken, hn::LoadU(d, inertia + lane)));
+    V const to_forward = hn::LoadU(d, friction.forward + lane), to_backward = hn::LoadU(d, friction.backward + lane);
     V const wanted = hn::LoadU(d, demand.inertia + lane), own = hn::LoadU(d, level + lane);
     V const added = hn::IfThenElse(hn::Lt(wanted, most_taken), most_taken, wanted);
     V const lagging = hn::Mul(hn::Sub(wanted, added), hn::LoadU(d, state.ddq + lane));
@@ -87,7 +88,12 @@ void foresee_lanes(LaneState const& state, LaneInstant& at) {
   at.time_s += 0.5 * at.step_s;
 }
 
-void load_lanes(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
+LaneDryFriction::LaneDryFriction(double forward_, double backward_) {
+  std::fill_n(forward, twin_lanes, forward_);
+  std::fill_n(backward, twin_lanes, backward_);
+}
+
+void load_lanes(double const* inertia, LaneDryFriction const& friction, double const* held, double const* level,
                 LaneDemand const& demand, LaneState const& state, LaneTorques& torques) {
   TORQUESCOPE_DISPATCH(load)(inertia, friction, held, level, demand, state, torques);
 }

@@ -18,11 +18,16 @@ void foresee_lanes(LaneState const& state, LaneInstant& at);
 
 // dry friction of the joint by itself, at its level of 1
 struct LaneDryFriction {
-  double forward = 0.0, backward = 0.0;
+  alignas(64) double forward[twin_lanes] = {};
+  alignas(64) double backward[twin_lanes] = {};
+
+  LaneDryFriction() = default;
+  LaneDryFriction(double forward, double backward);  // the same in all lanes
 };
 
-// held: torque that acts during the tick; level: of the joint's own friction, one per lane; demand: of the effects
-void load_lanes(double inertia, LaneDryFriction const& friction, double const* held, double const* level,
+// inertia: of the joint, one per lane; held: torque that acts during the tick; level: of the joint's own friction, one
+// per lane; demand: of the effects
+void load_lanes(double const* inertia, LaneDryFriction const& friction, double const* held, double const* level,
                 LaneDemand const& demand, LaneState const& state, LaneTorques& torques);
 
 // sum += torque

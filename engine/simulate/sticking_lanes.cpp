@@ -71,17 +71,17 @@ void advance_bristles(LaneAccelerations const& accelerations, double step_s, std
   }
 }
 
-void advance_sticking_light(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+void advance_sticking_light(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                             LaneSticking& sticking, LaneState& state) {
   LaneAccelerations a;
-  accelerate<false>(joint, torques, state, nullptr, nullptr, a);
+  accelerate<false>(joints, torques, state, nullptr, nullptr, a);
   advance_bristles<false>(a, step_s, steps, sticking, state);
 }
-void advance_sticking_heavy(LaneJoint const& joint, LaneTorques const& torques, double const* sine,
+void advance_sticking_heavy(LaneJoints const& joints, LaneTorques const& torques, double const* sine,
                             double const* cosine, double step_s, std::size_t steps, LaneSticking& sticking,
                             LaneState& state) {
   LaneAccelerations a;
-  accelerate<true>(joint, torques, state, sine, cosine, a);
+  accelerate<true>(joints, torques, state, sine, cosine, a);
   advance_bristles<true>(a, step_s, steps, sticking, state);
 }
 
@@ -95,13 +95,13 @@ TORQUESCOPE_EXPORT(advance_sticking_light);
 TORQUESCOPE_EXPORT(advance_sticking_heavy);
 }  // namespace
 
-void advance_sticking_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+void advance_sticking_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                             LaneSticking& sticking, LaneState& state) {
-  if (joint.gravity_sin == 0.0 && joint.gravity_cos == 0.0)
-    return TORQUESCOPE_DISPATCH(advance_sticking_light)(joint, torques, step_s, steps, sticking, state);
+  if (!joints.has_weight)
+    return TORQUESCOPE_DISPATCH(advance_sticking_light)(joints, torques, step_s, steps, sticking, state);
   alignas(64) double sine[twin_lanes], cosine[twin_lanes];
   kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
-  TORQUESCOPE_DISPATCH(advance_sticking_heavy)(joint, torques, sine, cosine, step_s, steps, sticking, state);
+  TORQUESCOPE_DISPATCH(advance_sticking_heavy)(joints, torques, sine, cosine, step_s, steps, sticking, state);
 }
 
 }  // namespace torquescope

@@ -25,7 +25,7 @@ struct LaneSticking {
 };
 
 // `steps` steps of step_s each
-void advance_sticking_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+void advance_sticking_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                             LaneSticking& sticking, LaneState& state);
 
 }  // namespace torquescope

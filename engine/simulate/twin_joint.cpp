@@ -17,8 +17,9 @@ Problem no_joint(std::string what) {
   return problem;
 }
 
-// false: a term the lanes have no place for
-bool place(TwinJoint& joint, std::string const& term, double const* value) {
+}  // namespace
+
+bool place_in_lanes(TwinJoint& joint, std::string const& term, double const* value) {
   if (term == "inertia") {
     joint.lanes.inertia += value[0];
   } else if (term == "viscous") {
@@ -41,8 +42,6 @@ bool place(TwinJoint& joint, std::string const& term, double const* value) {
   return true;
 }
 
-}  // namespace
-
 TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& parameters) {
   TORQUESCOPE_EXPECT(static_cast<std::size_t>(parameters.size()) == regressor.size());
   TwinJoint joint;
@@ -56,7 +55,7 @@ TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& par
       continue;
     }
     // a term of [model] needs nothing but the motion, so no scales of the data either
-    if (!place(joint, effect->name(), value))
+    if (!place_in_lanes(joint, effect->name(), value))
       joint.effects.push_back(lane_effect(*effect, {value, value + count}, JointScales{}));
     value += count;
   }

@@ -6,6 +6,7 @@
 // Threads    plain record; makers are shared by all threads
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "engine/effects/regressor.hpp"
@@ -21,6 +22,9 @@ struct TwinJoint {
   double offset = 0.0;
   std::vector<LaneEffectMaker> effects{};  // accepted effects, and baseline terms with no place above
 };
+
+// adds a term's torque to the joint; false: the lanes have no place for it. value: its linear parameters
+bool place_in_lanes(TwinJoint& joint, std::string const& term, double const* value);
 
 // parameters: [regressor.size()], as a fit returns them
 TwinJoint make_twin_joint(Regressor const& regressor, Eigen::VectorXd const& parameters);

@@ -9,56 +9,11 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "engine/simulate/lane_field-inl.hpp"
+#include "engine/simulate/lane_sliding-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace torquescope::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-struct Moving {
-  M forward, backward;
-};
-
-// where to at this instant: along the velocity, or from rest whereto the torque is stronger than friction
-HWY_INLINE Moving direction(V q_weight, V dq, V held_forward, V held_backward) {
-  V const zero = hn::Zero(d);
-  M const rest = hn::Eq(dq, zero);
-  M const forward = hn::Or(hn::Gt(dq, zero), hn::And(rest, hn::Gt(held_forward, q_weight)));
-  M const backward = hn::Or(hn::Lt(dq, zero), hn::And(rest, hn::Lt(held_backward, q_weight)));
-  return {forward, backward};
-}
-
-// acceleration while sliding in this direction; 0 where held
-template <bool has_weight>
-HWY_INLINE V acceleration(Field<has_weight> const& field, V weight, V dq, Moving const& moving) {
-  V const held = hn::IfThenElse(moving.forward, field.held_forward, field.held_backward);
-  V const a = hn::Sub(hn::Sub(held, weight), hn::Mul(field.damping, dq));
-  return hn::IfThenElseZero(hn::Or(moving.forward, moving.backward), a);
-}
-
-HWY_INLINE M turned(Moving const& moving, V dq) {
-  V const zero = hn::Zero(d);
-  return hn::Or(hn::And(moving.forward, hn::Lt(dq, zero)), hn::And(moving.backward, hn::Gt(dq, zero)));
-}
-
-// lanes whose velocity met zero: slide to there, then ask friction again for the rest of the step
-template <bool has_weight>
-HWY_INLINE void cut_step(Field<has_weight> const& field, M cut, V q0, V dq0, V a, V step, V& q, V& dq) {
-  // a lane that started at rest and came back is one that friction would have held: sliding time 0
-  V const drop = hn::Sub(dq0, dq);
-  V const sliding = hn::IfThenElseZero(cut, hn::Mul(step, hn::Div(dq0, hn::IfThenElse(cut, drop, hn::Set(d, 1.0)))));
-  V const q_stop = Slide<has_weight>(field, q0, dq0, a, sliding).q;
-  V const left = hn::Sub(step, sliding);
-  V const weight = weight_of(field, q_stop);
-  V const rest = hn::Zero(d);
-  Moving const moving = direction(weight, rest, field.held_forward, field.held_backward);
-  V const again = acceleration(field, weight, rest, moving);
-  Slide<has_weight> const second(field, q_stop, rest, again, left);
-  // a lane that began the step at rest, or would turn twice, is held
-  M const held = hn::Or(turned(moving, second.dq), hn::Eq(dq0, rest));
-  q = hn::IfThenElse(cut, hn::IfThenElse(held, q_stop, second.q), q);
-  dq = hn::IfThenElse(cut, hn::IfThenElse(held, rest, second.dq), dq);
-}
 
 template <bool has_weight>
 void advance(LaneAccelerations const& accelerations, double step_s, std::size_t steps, LaneState& state) {
@@ -73,15 +28,7 @@ void advance(LaneAccelerations const& accelerations, double step_s, std::size_t 
     for (std::size_t k = 0; k < steps; ++k) {
       for (std::size_t i = 0; i < n_vectors; ++i) {
         Field<has_weight> const field(accelerations, first + i * vector_lanes);
-        V const weight = weight_of(field, q[i]);
-        Moving const moving = direction(weight, dq[i], field.held_forward, field.held_backward);
-        ddq[i] = acceleration(field, weight, dq[i], moving);
-        Slide<has_weight> next(field, q[i], dq[i], ddq[i], step);
-        M const cut = turned(moving, next.dq);
-        // reversals are rare, and twins reverse together
-        if (HWY_UNLIKELY(!hn::AllFalse(d, cut))) cut_step(field, cut, q[i], dq[i], ddq[i], step, next.q, next.dq);
-        q[i] = next.q;
-        dq[i] = next.dq;
+        slide_step(field, step, q[i], dq[i], ddq[i]);
       }
     }
     for (std::size_t i = 0; i < n_vectors; ++i) {
@@ -92,16 +39,16 @@ void advance(LaneAccelerations const& accelerations, double step_s, std::size_t 
   }
 }
 
-void advance_light(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+void advance_light(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state) {
   LaneAccelerations a;
-  accelerate<false>(joint, torques, state, nullptr, nullptr, a);
+  accelerate<false>(joints, torques, state, nullptr, nullptr, a);
   advance<false>(a, step_s, steps, state);
 }
-void advance_heavy(LaneJoint const& joint, LaneTorques const& torques, double const* sine, double const* cosine,
+void advance_heavy(LaneJoints const& joints, LaneTorques const& torques, double const* sine, double const* cosine,
                    double step_s, std::size_t steps, LaneState& state) {
   LaneAccelerations a;
-  accelerate<true>(joint, torques, state, sine, cosine, a);
+  accelerate<true>(joints, torques, state, sine, cosine, a);
   advance<true>(a, step_s, steps, state);
 }
 
@@ -115,13 +62,25 @@ TORQUESCOPE_EXPORT(advance_light);
 TORQUESCOPE_EXPORT(advance_heavy);
 }  // namespace
 
-void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+LaneJoints::LaneJoints(LaneJoint const& same) {
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) set(lane, same);
+}
+
+void LaneJoints::set(std::size_t lane, LaneJoint const& joint) {
+  inertia[lane] = joint.inertia;
+  viscous[lane] = joint.viscous;
+  gravity_sin[lane] = joint.gravity_sin;
+  gravity_cos[lane] = joint.gravity_cos;
+  has_weight = has_weight || joint.gravity_sin != 0.0 || joint.gravity_cos != 0.0;
+}
+
+void advance_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state) {
-  if (joint.gravity_sin == 0.0 && joint.gravity_cos == 0.0)
-    return TORQUESCOPE_DISPATCH(advance_light)(joint, torques, step_s, steps, state);
+  if (!joints.has_weight)
+    return TORQUESCOPE_DISPATCH(advance_light)(joints, torques, step_s, steps, state);
   alignas(64) double sine[twin_lanes], cosine[twin_lanes];
   kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
-  TORQUESCOPE_DISPATCH(advance_heavy)(joint, torques, sine, cosine, step_s, steps, state);
+  TORQUESCOPE_DISPATCH(advance_heavy)(joints, torques, sine, cosine, step_s, steps, state);
 }
 
 }  // namespace torquescope

@@ -6,7 +6,7 @@
 // Steps      second-order Taylor while sliding; where a velocity meets zero the step is cut, and its rest begins with
 //            the question whether friction holds (set-valued, no smoothing). Gravity: third-order Taylor, error (q -
 //            q0)^4 / 24 of the weight, 3e-12 at 3 rad/s and 1 kHz
-// Shapes     twin_lanes replicates, one lane each; unused lanes may hold anything finite
+// Shapes     twin_lanes replicates or trials, one lane each; unused lanes may hold anything finite
 // Units      SI; held, forward, backward in N m or N
 // Bits       the same on every instruction set: additions and multiplications only, no fused ones
 // Requires   inertia + added > 0, backward <= forward, viscous step / (inertia + added) < 1
@@ -36,8 +36,22 @@ struct LaneJoint {
   double inertia = 1.0, viscous = 0.0, gravity_sin = 0.0, gravity_cos = 0.0;
 };
 
+// one joint a lane: replicates have the same in all, trials of a fit each its own
+struct LaneJoints {
+  alignas(64) double inertia[twin_lanes] = {};
+  alignas(64) double viscous[twin_lanes] = {};
+  alignas(64) double gravity_sin[twin_lanes] = {};
+  alignas(64) double gravity_cos[twin_lanes] = {};
+  bool has_weight = false;  // any lane
+
+  LaneJoints() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a joint is itself in every lane
+  LaneJoints(LaneJoint const& same);
+  void set(std::size_t lane, LaneJoint const& joint);
+};
+
 // `steps` steps of step_s each
-void advance_lanes(LaneJoint const& joint, LaneTorques const& torques, double step_s, std::size_t steps,
+void advance_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state);
 
 }  // namespace torquescope

@@ -11,6 +11,7 @@ constexpr Command every_command[] = {
     {"check", add_check},
     {"run", add_run},
     {"diagnose", [](CLI::App& app, ChosenCommand& chosen) { add_diagnose(app, chosen, diagnose); }},
+    {"replay", add_replay},
     {"show", add_show},
     {"report", add_report},
     {"compare", add_compare},

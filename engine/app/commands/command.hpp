@@ -18,6 +18,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen);
 // `diagnose` does the work: the program's is diagnose() of run/workflows.hpp, tests bring their own
 using DiagnoseWork = std::function<Diagnosis(Experiment const&, DiagnoseRequest const&, ProgressSink const&)>;
 void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose);
+void add_replay(CLI::App& app, ChosenCommand& chosen);
 void add_merge(CLI::App& app, ChosenCommand& chosen);
 void add_status(CLI::App& app, ChosenCommand& chosen);
 void add_submit(CLI::App& app, ChosenCommand& chosen);

@@ -21,8 +21,10 @@ def frame(result, table):
     import pandas
     makers = {"parameters": _parameters_of_diagnosis, "effects": _effects, "candidates": _candidates, "map": _map} \
         if result.diagnosis else {"parameters": _parameters_of_run, "estimators": _estimators}
+    if not result.diagnosis and not result.estimators:
+        makers = {}
     if table not in makers:
-        raise UsageError(f"error: this result has no table {table!r}\n  it has: {', '.join(makers)}")
+        raise UsageError(f"error: this result has no table {table!r}\n  it has: {', '.join(makers) or 'none'}")
     rows, index = makers[table](result)
     made = pandas.DataFrame(rows)
     return made.set_index(index) if len(made) else made

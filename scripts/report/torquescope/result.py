@@ -12,6 +12,7 @@ from . import frames
 from .errors import UsageError
 from .reader import read_result, summary
 from .reader.diagnosis_records import Diagnosis, Joint, NamedEffect, Parameter
+from .reader.read_replay import Replay
 
 if TYPE_CHECKING:
     import pandas
@@ -27,6 +28,7 @@ class Result(read_result.Result):
                          (reader/diagnosis_records.py)
     Of an identification estimators {name: group}; verdict is None
     Of both              parameters {name: Parameter}, job, model, train, validate, provenance: the groups of the file
+    Of a replay, alone or beside them    replay() (reader/read_replay.py)
     """
 
     def __init__(self, path: str | os.PathLike[str], is_ours: bool = False):
@@ -63,12 +65,17 @@ class Result(read_result.Result):
         """{name: Parameter} of the fitted model: with the effects of a diagnosis, of the first estimator of a run. Of
         several joints the names begin with joint_N."""
         if not self.diagnosis:
-            return _of_estimator(self, next(iter(self.estimators.values())))
+            return _of_estimator(self, next(iter(self.estimators.values()))) if self.estimators else {}
         found = {}
         for joint in self.joints:
             lead = f"joint_{joint.joint}." if len(self.joints) > 1 else ""
             found.update({lead + name: one for name, one in (joint.augmented or joint.baseline).items()})
         return found
+
+    def replay(self) -> Replay | None:
+        """Every recording beside its simulation, before and after: the records of reader/read_replay.py; None where the
+        file holds none."""
+        return super().replay()
 
     @property
     def plot(self) -> Plots:
@@ -111,11 +118,21 @@ class Result(read_result.Result):
     def __repr__(self):
         if self.diagnosis:
             return f"<Result {self.job.name!r}: {self.verdict}: {self.reason}>"
+        if not self.estimators:
+            return f"<Result {self.job.name!r}: replay of {_recordings(self)}>"
         names = ", ".join(self.estimators)
         return f"<Result {self.job.name!r}: {len(self.model.names)} parameters; {names}>"
 
     def _repr_html_(self):
-        return _verdict_block(self) if self.diagnosis else _parameter_block(self)
+        if self.diagnosis:
+            return _verdict_block(self)
+        return _parameter_block(self) if self.estimators else f"<pre>{html.escape(self.summary())}</pre>"
+
+
+def _recordings(result):
+    replay = result.replay()
+    count = len(replay.recordings) if replay else 0
+    return f"{count} recording{'' if count == 1 else 's'}"
 
 
 def _of_estimator(result, estimator):

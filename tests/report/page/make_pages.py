@@ -10,5 +10,6 @@ import support
 folder = Path(sys.argv[1])
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
-for kind in support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED:
+kinds = support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED
+for kind in kinds + support.REPLAYS + support.BESIDE:
     shutil.copy(support.page(kind), folder)

@@ -23,6 +23,7 @@ except ImportError as error:
 
 import make_arm_result  # noqa: E402
 import make_board  # noqa: E402
+import make_replay  # noqa: E402
 import make_result  # noqa: E402
 import vary_diagnosis  # noqa: E402
 
@@ -48,6 +49,8 @@ VERDICTS = (
 )
 VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
+REPLAYS = every_time(make_replay.ALONE, "replayed", "replayed_once")  # of `torquescope replay`
+BESIDE = tuple(kind for kind, of in make_replay.BESIDE.items() if of in (*KINDS, *DIAGNOSES))  # beside other results
 COMPARED = ("compared",) if EXAMPLE_WRITER else ()  # results side by side
 needs_diagnoses = unittest.skipUnless(
     EXAMPLE_WRITER, "TORQUESCOPE_EXAMPLE_DIAGNOSIS does not name write_example_diagnosis"
@@ -57,7 +60,7 @@ needs_diagnoses = unittest.skipUnless(
 @lru_cache(maxsize=None)
 def result(kind):
     """Path of the file of this kind: made by make_result.py, make_arm_result.py, write_example_diagnosis.cpp,
-    vary_diagnosis.py or make_board.py."""
+    vary_diagnosis.py, make_replay.py or make_board.py."""
     path = FOLDER / f"{kind}.{'json' if kind in make_board.KINDS else 'h5'}"
     if kind in VERDICTS:
         subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
@@ -66,6 +69,12 @@ def result(kind):
         shutil.copy(result(source), path)
         with h5py.File(path, "r+") as file:
             vary(file)
+    elif kind in make_replay.BESIDE:
+        shutil.copy(result(make_replay.BESIDE[kind]), path)
+        with h5py.File(path, "r+") as file:
+            make_replay.beside(file)
+    elif kind in make_replay.ALONE:
+        make_replay.alone(path, make_replay.ALONE[kind])
     elif kind in make_board.KINDS:
         make_board.write(kind, path)
     elif kind in ARMS:

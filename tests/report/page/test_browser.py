@@ -17,10 +17,12 @@ try:
 except ImportError:
     pass
 
-ALL = support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED
+ALL = (support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED + support.REPLAYS
+       + support.BESIDE)
 KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "arm", "named", "unexplained", "minute", "board",
-                                                           "compared"))
-FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1, "compared": 1}
+                                                           "compared", "replayed"))
+FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1, "compared": 1,
+                  **{kind: 1 for kind in support.REPLAYS}}
 WIDTHS, THEMES = (1280, 400), ("light", "dark")
 LEAST_TEXT_PX = 10.5
 MOST_BYTES = 3e6
@@ -374,7 +376,7 @@ class Page(browser.Browser):
     @support.needs_diagnoses
     def test_no_table_is_cut_off_on_paper(self):
         """A4 less its margins is 688 px wide."""
-        for kind in ("named", "none"):
+        for kind in ("named", "none", "crs", "replayed"):
             self.open(kind, width=688)
             self.media("light", "print")
             cut = self.script("return [...document.querySelectorAll('table')].map((t) => t.getBoundingClientRect())"

@@ -90,7 +90,7 @@ TEST(TwinLanes, StandStillWhileFrictionHolds) {
   torques.held[1] = -0.41;
   torques.held[2] = 1.29;
   torques.held[3] = -0.39;
-  advance_lanes({inertia, viscous, 0.0, 0.0}, torques, 1e-4, 100, state);
+  advance_lanes(LaneJoint{inertia, viscous, 0.0, 0.0}, torques, 1e-4, 100, state);
   EXPECT_GT(state.dq[0], 0.0);
   EXPECT_LT(state.dq[1], 0.0);
   for (std::size_t lane = 2; lane < twin_lanes; ++lane) {
@@ -109,7 +109,7 @@ TEST(TwinLanes, CarryTheInertiaThatIsAddedToThem) {
   std::fill_n(torques.backward, twin_lanes, -coulomb);
   LaneState plain, heavy, both;
   advance_lanes(joint, torques, 1e-4, 500, plain);
-  advance_lanes({inertia + added, viscous, weight_sin, weight_cos}, torques, 1e-4, 500, heavy);
+  advance_lanes(LaneJoint{inertia + added, viscous, weight_sin, weight_cos}, torques, 1e-4, 500, heavy);
   torques.added_inertia[1] = added;
   advance_lanes(joint, torques, 1e-4, 500, both);
   EXPECT_GT(plain.q[0], heavy.q[0]);

@@ -14,7 +14,7 @@ import jinja2
 
 from ..errors import ResultError
 from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words
-from . import what_now, words_of_arm, words_of_diagnosis
+from . import what_now, words_of_arm, words_of_diagnosis, words_of_replay
 from .figures import all_cases
 from .study import Study
 
@@ -27,10 +27,14 @@ SCRIPTS = ("drawing.js", "samples.js", "trace.js", "zoom.js", "chart.js", "chart
 
 def page(study):
     """The text of the page."""
-    body = (_of_diagnosis if study.diagnosis else _of_arm if study.arm else _of_study)(study)
+    kind = _of_diagnosis if study.diagnosis else _of_arm if study.arm else _of_study
+    body = (_of_replay if study.is_replay_alone else kind)(study)
+    if study.replay:
+        body["parts"] = ["replay.html", *body["parts"]]
     return render(
         all_cases(study),
         study=study,
+        replayed=words_of_replay,
         tables=tables,
         what_now=what_now,
         **body,
@@ -86,6 +90,11 @@ def script_json(text):
 def _of_study(study):
     return {"parts": ["study.html", "recording.html"], "verdict": words.verdict(study), "head": words.head(study),
             "numbers": words.big_numbers(study), "verdict_json": ""}
+
+
+def _of_replay(study):
+    return {"parts": ["came_from.html"], "verdict": words_of_replay.verdict(study),
+            "head": words_of_replay.head(study), "numbers": words_of_replay.big_numbers(study), "verdict_json": ""}
 
 
 def _of_arm(study):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import diagnosed, quantities as q, style, words_of_diagnosis
+from ..errors import ResultError
 from ..reader.diagnosis_records import Parameter
 from ..reader.read_result import Result
 
@@ -38,6 +39,8 @@ class Side:
             finished = result.provenance.get("finished", "") if "provenance" in result else ""
             self.finished = finished[:10] or "–"
             self.diagnosis = result.diagnosis
+            if not self.diagnosis and not result.estimators:
+                raise ResultError(f"{path} has no estimates to compare: it is a replay alone")
             self.is_arm = "arm" in result
             estimator = None if self.diagnosis else _reference(result)
             self.parameters = _of_joints(self.diagnosis.joints) if self.diagnosis else _of_estimator(result, estimator)

@@ -23,13 +23,13 @@ class View:
     def __getattr__(self, key):
         if key.startswith("_"):
             raise AttributeError(key)
-        return self._group.get(key)
+        return self._group.get(key) if self._group is not None else None
 
     def unit_of(self, dataset):
         return self._group.unit(dataset)
 
     def has(self, dataset):
-        return dataset in self._group
+        return self._group is not None and dataset in self._group
 
 
 class Recording(View):
@@ -101,34 +101,45 @@ class Estimator(View):
 
 class Study:
     """One result file, by its path or opened already. Estimators in the order of the job; none in the file of a
-    diagnosis."""
+    diagnosis or of a replay alone."""
 
     def __init__(self, source):
         self._result = source if isinstance(source, Result) else Result(source)
         self.path = self._result.path
         self.creator, self.digest = self._result.get("creator", ""), self._result.get("content_sha256", "")
-        self.job, self.model = View(self._result.job), View(self._result.model)
-        self.job_text = str(np.atleast_1d(self.job.text)[0])
-        self.provenance = View(self._result.provenance)
+        self.job, self.model = View(self._result.job), View(self._result.get("model"))
+        self.job_text = str(np.atleast_1d(self.job.text)[0]) if self.job.has("text") else ""
+        self.provenance = View(self._result.get("provenance"))
         self.diagnosis = self._result.diagnosis  # diagnosis_records.py; None for an identification
-        self.train = Recording(self._result.train)
-        is_arm = "arm" in self._result
-        if not self.train.has("joint_1" if is_arm else "torque"):
-            raise ResultError(f"{self.path} keeps no samples to draw: its job says [output] samples = false")
+        replay = self._result.replay()  # read_replay.py; None where there is nothing to show
+        self.replay = replay if replay and any(one.channels for one in replay.recordings) else None
+        self.train = Recording(self._result.train) if self._result.train is not None else None
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
-        self.arm = Arm(self._result) if is_arm else None
-        self.health = View(self._result.data.regressor_health)
+        is_arm = "arm" in self._result
+        self.is_replay_alone = bool(self.replay) and not self._result.estimators and not self.diagnosis
+        if not self.is_replay_alone:
+            if self.train is None:
+                raise ResultError(f"{self.path} has nothing to draw: neither rows of a fit nor a replay")
+            if not self.train.has("joint_1" if is_arm else "torque"):
+                raise ResultError(f"{self.path} keeps no samples to draw: its job says [output] samples = false")
+        self.arm = Arm(self._result) if is_arm and not self.is_replay_alone else None
+        self.health = View(self._result.data.get("regressor_health")) if "data" in self._result else View(None)
         self.estimators = [Estimator(name, group) for name, group in self._result.estimators.items()]
         for estimator, look in zip(self.estimators, style.estimator_looks([e.kind for e in self.estimators])):
             estimator.colour, estimator.dashes = look
 
     @property
+    def joint(self):
+        """"revolute", "prismatic", "arm"."""
+        return self.model.joint or (self.replay.joint if self.replay else "")
+
+    @property
     def effort(self):
-        return "force" if self.model.joint == "prismatic" else "torque"
+        return "force" if self.joint == "prismatic" else "torque"
 
     @property
     def symbol(self):
-        return "F" if self.model.joint == "prismatic" else "τ"
+        return "F" if self.joint == "prismatic" else "τ"
 
     @property
     def effort_unit(self):

@@ -121,9 +121,8 @@ def provenance(study):
             ("job sha256", study.job.sha256), ("result sha256", study.digest)]
     for which, data in (("training", study.train), ("unseen", study.validate)):
         if data is not None:
-            told += [
-                (f"{which} data", f"{name}, sha256 {digest}") for name, digest in zip(data.recordings, data.sha256)
-            ]
+            told += [(f"{which} data", f"{name}, sha256 {digest}")
+                     for name, digest in zip(data.recordings or [], data.sha256 or [])]
     return [(what, value) for what, value in told if value not in (None, "")]
 
 

@@ -81,7 +81,7 @@ class Trace {
       const y = pixel(height(row, k * step));
       this.axis.append(element(this.svg, "path", { d: `M${left} ${y}H${right}`, stroke: "var(--grid)", fill: "none" }));
       const label = { x: left - 5, y: Number(y) + 4, "text-anchor": "end", "font-size": "12px", fill: "var(--muted)" };
-      this.axis.append(element(this.svg, "text", label, written(k * step, step)));
+      this.axis.append(element(this.svg, "text", label, written(k * step * row.times, step * row.times)));
     }
   }
   // what stands under a place: the row there, or all rows where each has one line; null outside of them
@@ -96,7 +96,7 @@ class Trace {
       row.lines.forEach((part, i) => {
         if (isHidden(figure, part)) return;
         const value = samples.line(part)[nearest], colour = row.colours[i];
-        lines.push({ text: `${row.labels[i]} ${quantity(value, row.unit)}`, colour });
+        lines.push({ text: `${row.labels[i]} ${quantity(value * row.times, row.unit)}`, colour });
         if (value >= row.low && value <= row.high) dots.push({ x, y: height(row, value), colour });
       });
     }

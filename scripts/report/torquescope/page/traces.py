@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from . import style, thin
+from . import quantities, style, thin
 
 MOST_SAMPLES = 50000  # per trace, in the page
 ALL_SAMPLES = 700000  # of all traces of a page together: it stays below 3 MB
@@ -43,6 +43,7 @@ class Row:
     low: float
     high: float
     band: float = 0.0  # half height of a shaded band about zero
+    times: float = 1.0  # how many of `unit` make one of the values': 1000 for mrad
 
 
 def draw(time, rows, window, overview, width, regions=()):
@@ -70,13 +71,15 @@ def draw(time, rows, window, overview, width, regions=()):
         axes.set(xlim=(start, stop), ylim=(row.low, row.high))
         style.few_ticks(axes.xaxis, 8 if width >= style.WIDE else 4)
         style.few_ticks(axes.yaxis, 4 if row.height > 100 else 2)
+        if row.times != 1.0:
+            axes.yaxis.set_major_formatter(lambda value, _, times=row.times: quantities.tick(value * times))
         axes.xaxis.set_gid("part:x-axis")
         axes.yaxis.set_gid("part:y-axis")
         if index < len(rows) - 1:
             axes.tick_params(labelbottom=False)
         canvas.text(LEFT, top - 8, style.fit(row.words, width - LEFT))
         layout["rows"].append({"top": top, "bottom": top + row.height, "low": row.low, "high": row.high,
-                               "symbol": row.symbol, "unit": row.unit, "band": row.band,
+                               "symbol": row.symbol, "unit": row.unit, "band": row.band, "times": row.times,
                                "lines": [line.part for line in row.lines],
                                "colours": [style.name_of(line.colour) for line in row.lines],
                                "labels": [line.label or row.symbol for line in row.lines]})

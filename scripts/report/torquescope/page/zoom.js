@@ -110,7 +110,7 @@ function makeZoomable(figure) {
     const boxes = trace.boxes(view);
     const box = boxes.find((one) => at.y >= one.top - 12 && at.y <= one.bottom + 12) ?? boxes[0];
     const seconds = trace.time(to.x, view) - trace.time(at.x, view);
-    const rise = valueAt(box, to.y) - valueAt(box, at.y);
+    const rise = (valueAt(box, to.y) - valueAt(box, at.y)) * box.times;
     const text = `Δt ${seconds.toPrecision(3)} s, Δ${box.symbol} ${rise.toPrecision(3)} ${box.unit}`;
     return text.replace(/-/g, "\u2212");
   }

@@ -13,6 +13,7 @@
     fade.unit("mse"), fade.long_name("mse")            what a dataset says about itself
     result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found,
                                                        diagnosis_records.py
+    result.replay().recordings[0].torque.measured      recordings beside their simulation, read_replay.py
 
 On the command line, `read_result.py R.h5` prints a summary; with --verify it first reads all of the file and compares
 its digest.
@@ -32,6 +33,7 @@ from .content_digest import FIRST_FORMAT, content_sha256
 from .file_seal import check_seal
 from .first_look import WHAT_H5PY_RAISES, look_first
 from .read_diagnosis import read_diagnosis
+from .read_replay import read_replay, replay_table
 
 NEWEST_FORMAT = 3
 
@@ -154,11 +156,11 @@ class Provenance(Group):
 
 
 class Result(Group):
-    """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without unseen data), `estimators`.
+    """A result file: `job`, `provenance`, `model`, `train`, `validate` (None without such data), `estimators`.
 
     `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the
     records of diagnosis_records.py. Whatever else the file has is there under its own name:
-    `result.data.regressor_health`. Use it in a `with` block, or close() it.
+    `result.data.regressor_health`; but /replay is `replay()`. Use it in a `with` block, or close() it.
     """
 
     def __init__(self, name, is_ours=False):
@@ -197,8 +199,8 @@ class Result(Group):
 
     @property
     def train(self):
-        """What the fit has seen: samples, regressor, where they come from."""
-        return Group(self._file["data/train"])
+        """What the fit has seen: samples, regressor, where they come from; None in a file of `replay` without it."""
+        return Group(self._file["data/train"]) if "data/train" in self._file else None
 
     @property
     def validate(self):
@@ -214,6 +216,11 @@ class Result(Group):
     def diagnosis(self):
         """What `torquescope diagnose` found; None when the file holds none. Read anew each time it is asked for."""
         return read_diagnosis(Group(self._file["diagnosis"])) if "diagnosis" in self._file else None
+
+    def replay(self):
+        """Every recording beside its simulation, as the records of read_replay.py; None when the file holds none. Read
+        anew each time."""
+        return read_replay(Group(self._file["replay"])) if "replay" in self._file else None
 
     def verify(self):
         """Read everything; ResultError unless the content is what its sha256 says."""
@@ -290,6 +297,9 @@ def summary(result):
     yield ""
     if result.diagnosis is not None:
         yield from _diagnosis_summary(result.diagnosis)
+    if (replay := result.replay()) is not None and replay.recordings:
+        yield from _table(replay_table(replay, _number))
+        yield ""
     if not result.estimators:
         return
     yield from _table(parameter_table(result))

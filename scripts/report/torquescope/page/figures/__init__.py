@@ -22,6 +22,7 @@ ARM_MODULES = ("arm_parameters", "joint_errors", "joint_torque", "joint_residual
 DIAGNOSIS_MODULES = ("mismatch_map", "residual_before_after", "missing_torque", "twin_energy", "error_before_after",
                      "diagnosed_trace", "residual_budget", "parameters_before_after")
 BOARD_MODULES = ("power_curve", "family_confusion", "share_histogram", "stated_confidence", "diagnosis_seconds")
+REPLAY_MODULES = ("replay_trace",)
 RECORDING_MODULES = ("recording_trace", "speed_histogram", "torque_by_speed")
 
 
@@ -46,11 +47,11 @@ class Case:
 def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
     if study.arm:
-        return _cases(DIAGNOSIS_MODULES if study.diagnosis else ARM_MODULES, study)
-    modules = (
-        (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ()) + RECORDING_MODULES
-    )
-    return _cases(modules, study)
+        return _cases(REPLAY_MODULES + (DIAGNOSIS_MODULES if study.diagnosis else ARM_MODULES), study)
+    if study.is_replay_alone:
+        return _cases(REPLAY_MODULES, study)
+    own = (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ())
+    return _cases(REPLAY_MODULES + own + RECORDING_MODULES, study)
 
 
 def board_cases(board):

@@ -1,0 +1,117 @@
+#include "engine/rollout/loop_form.hpp"
+
+#include <array>
+#include <utility>
+
+namespace torquescope {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double largest = 1e9;
+
+constexpr std::array<std::pair<LoopForm, char const*>, 8> forms{{{LoopForm::identified, "identified"},
+                                                                  {LoopForm::p, "p"},
+                                                                  {LoopForm::pi, "pi"},
+                                                                  {LoopForm::pd, "pd"},
+                                                                  {LoopForm::pid, "pid"},
+                                                                  {LoopForm::p_velocity, "p_velocity"},
+                                                                  {LoopForm::p_pi, "p_pi"},
+                                                                  {LoopForm::none, "none"}}};
+
+constexpr std::array<LoopKeyFacts, loop_keys> facts{{
+    {LoopKey::kp, "kp", "", "", 0.0, 0.0, largest},
+    {LoopKey::ki, "ki", "", "", 0.0, 0.0, largest},
+    {LoopKey::kd, "kd", "N m s/rad", "N s/m", 0.0, 0.0, largest},
+    {LoopKey::kv, "kv", "N m s/rad", "N s/m", 0.0, 0.0, largest},
+    {LoopKey::feed_speed, "feed_speed", "1", "1", 0.0, -2.0, 2.0},
+    {LoopKey::feed_acceleration, "feed_acceleration", "kg m2", "kg", 0.0, -largest, largest},
+    {LoopKey::added_command_gain, "added_command_gain", "N m per unit", "N per unit", 1.0, -largest, largest},
+    {LoopKey::torque_limit, "torque_limit", "N m", "N", infinite, 0.0, largest},
+    {LoopKey::speed_lag_s, "speed_lag_s", "s", "s", 0.0, 0.0, 1.0},
+    {LoopKey::back_emf, "back_emf", "N m s/rad", "N s/m", 0.0, 0.0, largest},
+    {LoopKey::goal_speed_limit, "goal_speed_limit", "rad/s", "m/s", infinite, 1e-6, largest},
+    {LoopKey::goal_acceleration_limit, "goal_acceleration_limit", "rad/s2", "m/s2", infinite, 1e-6, largest},
+    {LoopKey::command_delay_s, "command_delay_s", "s", "s", 0.0, 0.0, 0.25},
+    {LoopKey::torque_delay_s, "torque_delay_s", "s", "s", 0.0, 0.0, 0.25},
+    {LoopKey::torque_lag_s, "torque_lag_s", "s", "s", 0.0, 0.0, 1.0},
+    {LoopKey::torque_log_lag_s, "torque_log_lag_s", "s", "s", 0.0, 0.0, 1.0},
+}};
+
+}  // namespace
+
+std::string word(LoopForm form) {
+  for (auto const& [one, name] : forms)
+    if (one == form) return name;
+  return {};
+}
+
+std::optional<LoopForm> loop_form_of(std::string const& word) {
+  for (auto const& [form, name] : forms)
+    if (word == name) return form;
+  return {};
+}
+
+std::vector<std::string> loop_form_words() {
+  std::vector<std::string> words;
+  for (auto const& one : forms) words.emplace_back(one.second);
+  return words;
+}
+
+LoopKeyFacts const& facts_of(LoopKey key) { return facts[static_cast<std::size_t>(key)]; }
+
+std::optional<LoopKey> loop_key_of(std::string const& name) {
+  for (auto const& one : facts)
+    if (name == one.name) return one.key;
+  return {};
+}
+
+std::vector<LoopKey> gains_of(LoopForm form) {
+  using enum LoopKey;
+  switch (form) {
+    case LoopForm::p: return {kp};
+    case LoopForm::pi: return {kp, ki};
+    case LoopForm::pd: return {kp, kd};
+    case LoopForm::pid: return {kp, ki, kd};
+    case LoopForm::p_velocity: return {kp, kv};
+    case LoopForm::p_pi: return {kp, kv, ki};
+    case LoopForm::identified:
+    case LoopForm::none: break;
+  }
+  return {};
+}
+
+LoopValues::LoopValues() : value{} {
+  for (auto const& one : facts) (*this)[one.key] = one.none;
+}
+
+LoopNumbers numbers_of(LoopForm form, LoopValues const& values) {
+  using enum LoopKey;
+  LoopNumbers numbers;
+  bool const is_cascade = form == LoopForm::p_velocity || form == LoopForm::p_pi;
+  if (is_cascade) {
+    numbers.kp = values[kv] * values[kp];
+    numbers.kd = values[kv];
+    numbers.ki = form == LoopForm::p_pi ? values[ki] * values[kp] : 0.0;
+    numbers.ki_speed = form == LoopForm::p_pi ? values[ki] : 0.0;
+  } else if (form != LoopForm::none && form != LoopForm::identified) {
+    numbers.kp = values[kp];
+    numbers.kd = form == LoopForm::pd || form == LoopForm::pid ? values[kd] : 0.0;
+    numbers.ki = form == LoopForm::pi || form == LoopForm::pid ? values[ki] : 0.0;
+  }
+  numbers.feed_speed = values[feed_speed];
+  numbers.feed_acceleration = values[feed_acceleration];
+  numbers.added_gain = values[added_command_gain];
+  numbers.least = -values[torque_limit];
+  numbers.most = values[torque_limit];
+  numbers.speed_lag_s = values[speed_lag_s];
+  numbers.back_emf = values[back_emf];
+  numbers.goal_speed = values[goal_speed_limit];
+  numbers.goal_acceleration = values[goal_acceleration_limit];
+  numbers.command_delay_s = values[command_delay_s];
+  numbers.torque_delay_s = values[torque_delay_s];
+  numbers.torque_lag_s = values[torque_lag_s];
+  numbers.log_lag_s = values[torque_log_lag_s];
+  return numbers;
+}
+
+}  // namespace torquescope

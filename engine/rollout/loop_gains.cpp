@@ -1,0 +1,173 @@
+#include "engine/rollout/loop_gains.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/dense_solvers.hpp"
+#include "engine/rollout/loop_lanes.hpp"
+#include "engine/simulate/lane_controller.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+
+// what a loop with one gain of 1 answers to the measured positions of a segment, sample by sample
+Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track,
+                          TrackSegment const& segment) {
+  LaneLoops loops(track.tick_s(), 1, speed_samples);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) loops.set(lane, numbers);
+  double const delay = numbers.command_delay_s / track.tick_s();
+  auto const goal_at = [&](double tick) {
+    double const last = static_cast<double>(segment.samples - 1);
+    double const sample = std::clamp(tick / static_cast<double>(track.ticks_per_sample), 0.0, last);
+    auto const before = static_cast<Index>(sample);
+    double const share = sample - static_cast<double>(before);
+    Index const at = segment.first + before;
+    return share > 0.0 ? track.reference[at] + share * (track.reference[at + 1] - track.reference[at])
+                       : track.reference[at];
+  };
+  double goal[twin_lanes], read[twin_lanes], speed[twin_lanes], held[twin_lanes], logged[twin_lanes];
+  LaneState state;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    state.q[lane] = segment.position;
+    state.dq[lane] = segment.velocity;
+    goal[lane] = goal_at(-delay);
+  }
+  LaneLoopState loop;
+  loop.start(loops, state, goal, segment.torque);
+  Eigen::VectorXd answers(segment.samples);
+  for (Index k = 0; k < segment.samples; ++k) {
+    Index const at = segment.first + k;
+    Index const after = std::min(at + 1, segment.first + segment.samples - 1), before = std::max(at - 1, segment.first);
+    double const next = track.position[after];
+    std::fill_n(speed, twin_lanes,
+                (next - track.position[before]) * track.rate_hz / static_cast<double>(std::max<Index>(1, after - before)));
+    for (std::size_t tick = 0; tick < track.ticks_per_sample; ++tick) {
+      double const share = static_cast<double>(tick) / static_cast<double>(track.ticks_per_sample);
+      std::fill_n(read, twin_lanes, track.position[at] + share * (next - track.position[at]));
+      std::fill_n(goal, twin_lanes,
+                  goal_at(static_cast<double>(k) * static_cast<double>(track.ticks_per_sample) +
+                          static_cast<double>(tick) - delay));
+      double const added = track.added.size() > 0 ? track.added[at] : 0.0;
+      double const enabled = track.enabled.size() > 0 ? track.enabled[at] : 1.0;
+      answer_tick(loops, {goal, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);
+      if (tick == 0) answers[k] = logged[0];
+    }
+  }
+  return answers;
+}
+
+// least squares on all tracks; columns: numbers with one gain of 1 each. An integral is told up to a constant
+Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNumbers const& fixed, std::size_t speed_samples,
+                                 std::vector<RolloutTrack> const& tracks) {
+  constexpr double near_limit = 0.98;
+  auto const p = static_cast<Index>(columns.size());
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p, p);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(p);
+  for (auto const& track : tracks) {
+    if (track.drive != TrackDrive::reference) continue;
+    for (auto const& segment : track.segments) {
+      Eigen::MatrixXd phi(segment.samples, p);
+      Eigen::VectorXd tau = track.torque.segment(segment.first, segment.samples) - answer_to(fixed, speed_samples, track, segment);
+      for (Index k = 0; k < p; ++k) phi.col(k) = answer_to(columns[static_cast<std::size_t>(k)], speed_samples, track, segment);
+      for (Index k = 0; k < segment.samples; ++k) {
+        double const asked = std::abs(track.torque[segment.first + k]);
+        bool const is_off = track.enabled.size() > 0 && track.enabled[segment.first + k] == 0.0;
+        if (asked < near_limit * fixed.most && !is_off) continue;
+        phi.row(k).setZero();
+        tau[k] = 0.0;
+      }
+      phi.rowwise() -= phi.colwise().mean().eval();
+      tau.array() -= tau.mean();
+      gram += phi.transpose() * phi;
+      right += phi.transpose() * tau;
+    }
+  }
+  return solve_shortest(gram, right);
+}
+
+}  // namespace
+
+LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted, std::size_t speed_samples,
+                            std::vector<RolloutTrack> const& tracks) {
+  using enum LoopKey;
+  if (wanted.empty() || gains_of(form).empty()) return values;
+  // a loop of no gain: its delays, limits and what is added to its command
+  LoopNumbers bare = numbers_of(LoopForm::none, values);
+  LoopNumbers empty = bare;
+  empty.added_gain = 0.0;
+  bool const is_cascade = form == LoopForm::p_velocity || form == LoopForm::p_pi;
+  auto const column = [&](double LoopNumbers::* gain) {
+    LoopNumbers one = empty;
+    one.*gain = 1.0;
+    one.least = -std::numeric_limits<double>::infinity();
+    one.most = std::numeric_limits<double>::infinity();
+    return one;
+  };
+  std::vector<LoopNumbers> columns{column(&LoopNumbers::kp)};
+  bool const has_speed = is_cascade || form == LoopForm::pd || form == LoopForm::pid;
+  bool const has_integral = form == LoopForm::pi || form == LoopForm::pid || form == LoopForm::p_pi;
+  if (has_speed) columns.push_back(column(&LoopNumbers::kd));
+  if (has_integral) columns.push_back(column(&LoopNumbers::ki));
+  Eigen::VectorXd const found = gains_of_columns(columns, bare, speed_samples, tracks);
+  constexpr double least_share = 1e-3;
+  auto const positive = [&](double gain, double beside) { return std::max(gain, least_share * std::abs(beside)); };
+  double const by_error = std::max(found[0], 1e-9), by_speed = has_speed ? positive(found[1], 1e-3 * by_error) : 0.0;
+  double const by_integral = has_integral ? positive(found[found.size() - 1], by_error) : 0.0;
+  auto const set = [&](LoopKey key, double value) {
+    if (std::find(wanted.begin(), wanted.end(), key) != wanted.end()) values[key] = value;
+  };
+  if (is_cascade) {
+    set(kv, by_speed);
+    set(kp, by_error / values[kv]);
+    set(ki, by_integral / values[kp]);
+  } else {
+    set(kp, by_error);
+    set(kd, by_speed);
+    set(ki, by_integral);
+  }
+  return values;
+}
+
+namespace {
+
+double share_left(RolloutTrack const& track, std::vector<Eigen::VectorXd> const& answers) {
+  double left = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    auto const measured = track.torque.segment(track.segments[i].first, track.segments[i].samples);
+    left += (measured - answers[i]).squaredNorm();
+    all += measured.squaredNorm();
+  }
+  return all > 0.0 ? std::sqrt(left / all) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double loop_error(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track) {
+  // without the joint that it would have led, a sum of errors runs away
+  if (numbers.ki != 0.0 || numbers.ki_speed != 0.0) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<Eigen::VectorXd> answers;
+  for (auto const& segment : track.segments) answers.push_back(answer_to(numbers, speed_samples, track, segment));
+  return share_left(track, answers);
+}
+
+double loop_error(LoopLaw const& law, RolloutTrack const& track) {
+  std::vector<Eigen::VectorXd> answers;
+  for (auto const& segment : track.segments) {
+    Eigen::VectorXd const reference = track.reference.segment(segment.first, segment.samples);
+    Eigen::VectorXd const open = open_part(law, reference);
+    ReferenceSignal const signal(reference);
+    LaneController controller(law, segment.position, segment.velocity, track.rate_hz);
+    answers.emplace_back(segment.samples);
+    double read[twin_lanes], command[twin_lanes];
+    for (Index k = 0; k < segment.samples; ++k) {
+      std::fill_n(read, twin_lanes, track.position[segment.first + k]);
+      controller.command(read, open[k], signal(k + law.shift), command);
+      answers.back()[k] = command[0];
+    }
+  }
+  return share_left(track, answers);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,89 @@
+#pragma once
+// The loop of loop_numbers.hpp round the joint of twin_lanes.hpp, for sixteen trials side by side: tick by tick, in
+// vector registers.
+//
+// At a tick  the loop reads the position, answers, and its torque is held until the next tick; every hold_ticks-th tick
+//            of a slower controller answers
+// Shapes     rows of a chunk: [ticks][twin_lanes]
+// Accuracy   as twin_lanes.hpp; the sine of the weight is carried on from tick to tick by its series of fifth order and
+//            made anew with every chunk: a turn d a tick leaves d^6 / 720 of the weight
+// Bits       of a lane: the same on every instruction set, whatever stands in the other lanes
+// Threads    any number, each with its own states; does not allocate
+
+#include <cstddef>
+
+#include "engine/rollout/loop_numbers.hpp"
+#include "engine/simulate/lane_step.hpp"
+#include "engine/simulate/twin_lanes.hpp"
+
+namespace torquescope {
+
+inline constexpr std::size_t most_delay_ticks = 256;
+inline constexpr std::size_t chunk_ticks = 256;
+inline constexpr std::size_t most_speed_samples = 16;
+
+// numbers of every lane, for one tick of tick_s
+struct LaneLoops {
+  using Lanes = double[twin_lanes];
+  alignas(64) Lanes kp{}, kd{}, ki{}, ki_speed{}, feed_speed{}, feed_acceleration{}, added_gain{};
+  alignas(64) Lanes least{}, most{}, speed_share{}, back_emf{}, goal_step{}, goal_change{};
+  alignas(64) Lanes late_share{}, lag_end{}, lag_mean{}, log_share{};
+  std::size_t late_ticks[twin_lanes] = {};
+  double tick_s = 0.0;
+  std::size_t hold_ticks = 1;
+  bool has_profile = false, has_feed = false, has_integral = false, has_delay = false, has_lag = false;
+
+  std::size_t speed_samples = 1;  // that the difference of what it reads spans; 0: it sees the joint's own speed
+
+  LaneLoops(double tick_s, std::size_t hold_ticks, std::size_t speed_samples = 1);
+  void set(std::size_t lane, LoopNumbers const& numbers);
+};
+
+// what the loop remembers
+struct LaneLoopState {
+  using Lanes = double[twin_lanes];
+  alignas(64) Lanes goal{}, goal_speed{}, goal_before{}, goal_step_before{}, speed{}, integral{};
+  alignas(64) Lanes command{}, lagged{}, logged{};
+  std::size_t tick = 0;
+  alignas(64) double reads[most_speed_samples][twin_lanes] = {};  // a ring, by answer
+  alignas(64) double commands[most_delay_ticks][twin_lanes] = {};  // a ring, by tick
+
+  // at a first tick that follows rest or an even motion: position, velocity, goal and the torque that was held before;
+  // the integral takes up what the other parts leave of it
+  void start(LaneLoops const& loops, LaneState const& joint, double const* goal, double torque);
+};
+
+// of one chunk; each may be none: zeros, no added command, a drive that is on
+struct TickInputs {
+  double const* goal = nullptr;     // [ticks][lanes], delayed
+  double const* added = nullptr;    // [ticks]
+  double const* outside = nullptr;  // [ticks], torque on the joint from outside
+  double const* enabled = nullptr;  // [ticks], 1 or 0
+};
+
+// [ticks][lanes], at the ticks: positions and speeds as they are, the torque as it is logged
+struct TickOutputs {
+  double* position = nullptr;
+  double* velocity = nullptr;
+  double* torque = nullptr;
+};
+
+struct RolledJoints {
+  LaneJoints joints{};
+  LaneDryFriction dry{};
+  alignas(64) double offset[twin_lanes] = {};
+};
+
+// `ticks` <= chunk_ticks ticks of `steps` steps each, of a joint without effects
+void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& inputs, std::size_t ticks,
+                std::size_t steps, LaneState& joint, LaneLoopState& loop, TickOutputs const& outputs);
+
+// the loop's half of one tick: read -> held, what the motor gives until the next, and logged. read: the positions that
+// the encoder shows; speed: of the joint; row: of the inputs
+void answer_tick(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* read,
+                 double const* speed, LaneLoopState& loop, double* held, double* logged);
+// the same from a command on, where another law gave it
+void pass_on_tick(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* command,
+                  LaneLoopState& loop, double* held, double* logged);
+
+}  // namespace torquescope

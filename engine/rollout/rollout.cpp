@@ -1,0 +1,322 @@
+#include "engine/rollout/rollout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "engine/base/contract.hpp"
+#include "engine/rollout/loop_lanes.hpp"
+#include "engine/simulate/lane_controller.hpp"
+#include "engine/simulate/lane_motion.hpp"
+#include "engine/simulate/trial_effect.hpp"
+#include "kernels/aligned_doubles.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// inputs of a segment at its ticks, one chunk at a time
+class ChunkInputs {
+ public:
+  ChunkInputs(RolloutTrack const& track, TrackSegment const& segment, std::vector<double> const& delay_ticks)
+      : track_(track), segment_(segment), delay_ticks_(delay_ticks), goal_(chunk_ticks * twin_lanes) {
+    is_same_ = std::all_of(delay_ticks.begin(), delay_ticks.end(), [&](double one) { return one == delay_ticks[0]; });
+    for (auto* row : {&added_, &outside_, &enabled_}) row->assign(chunk_ticks, 0.0);
+  }
+
+  TickInputs at(std::size_t first_tick, std::size_t ticks) {
+    for (std::size_t row = 0; row < ticks; ++row) fill_goal(first_tick + row, goal_.data() + row * twin_lanes);
+    auto const filled = [&](Eigen::VectorXd const& channel, std::vector<double>& rows) -> double const* {
+      if (channel.size() == 0) return nullptr;
+      for (std::size_t row = 0; row < ticks; ++row) rows[row] = channel[sample_of(first_tick + row)];
+      return rows.data();
+    };
+    return {goal_.data(), filled(track_.added, added_), filled(track_.outside, outside_),
+            filled(track_.enabled, enabled_)};
+  }
+
+  // as the loop sees it before anything is delayed
+  double goal_at(double tick) const {
+    if (track_.reference.size() == 0) return segment_.position;
+    double const last = static_cast<double>(segment_.samples) * static_cast<double>(track_.ticks_per_sample) - 1.0;
+    double const within = std::clamp(tick, 0.0, last);
+    auto const before = static_cast<std::size_t>(within);
+    double const share = within - static_cast<double>(before);
+    double const from = reference_at(before);
+    return share > 0.0 ? from + share * (reference_at(before + 1) - from) : from;
+  }
+
+ private:
+  Eigen::Index sample_of(std::size_t tick) const {
+    auto const sample = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
+    return segment_.first + std::min(sample, segment_.samples - 1);
+  }
+
+  double reference_at(std::size_t tick) const {
+    Eigen::Index const sample = sample_of(tick);
+    double const here = track_.reference[sample];
+    std::size_t const within = tick % track_.ticks_per_sample;
+    if (!track_.straight_reference || within == 0 || sample + 1 >= segment_.first + segment_.samples) return here;
+    double const share = static_cast<double>(within) / static_cast<double>(track_.ticks_per_sample);
+    return here + share * (track_.reference[sample + 1] - here);
+  }
+
+  void fill_goal(std::size_t tick, double* row) const {
+    double const first = goal_at(static_cast<double>(tick) - delay_ticks_[0]);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      row[lane] = is_same_ ? first : goal_at(static_cast<double>(tick) - delay_ticks_[lane]);
+  }
+
+  RolloutTrack const& track_;
+  TrackSegment const& segment_;
+  std::vector<double> delay_ticks_;
+  bool is_same_ = true;
+  kernels::AlignedDoubles goal_;  // on cache lines: rows are one each
+  std::vector<double> added_, outside_, enabled_;
+};
+
+// sixteen trials as lanes; those beyond the last repeat the first
+class Lanes {
+ public:
+  Lanes(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials)
+      : has_law_(track.law.has_value()), loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
+    std::vector<std::vector<std::vector<double>>> parameters(structure.effects.size());
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      RolloutTrial const& trial = trials[lane < trials.size() ? lane : 0];
+      used.push_back(&trial);
+      rolled.joints.set(lane, trial.joint);
+      rolled.dry.forward[lane] = trial.forward;
+      rolled.dry.backward[lane] = trial.backward;
+      rolled.offset[lane] = trial.offset;
+      loops.set(lane, trial.loop);
+      delay_ticks.push_back(trial.loop.command_delay_s / track.tick_s());
+      for (std::size_t e = 0; e < parameters.size(); ++e) parameters[e].push_back(trial.effects[e]);
+      reads_by_steps = reads_by_steps || trial.encoder_step > 0.0;
+    }
+    LaneBaseline beside;
+    beside.joint = rolled.joints;
+    for (std::size_t e = 0; e < parameters.size(); ++e)
+      makers.push_back(trial_effect(*structure.effects[e], parameters[e], structure.scales, beside));
+    double const longest_s = std::min(structure.step_s, track.tick_s());
+    steps = static_cast<std::size_t>(std::ceil(track.tick_s() / longest_s * (1.0 - 1e-9)));
+    braked = rolled.joints;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) braked.viscous[lane] += loops.back_emf[lane];
+  }
+
+  bool is_fast() const { return makers.empty() && !has_law_ && !reads_by_steps; }
+
+  void read_encoder(double* position) const {
+    if (!reads_by_steps) return;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      double const step = used[lane]->encoder_step, phase = used[lane]->encoder_phase;
+      if (step > 0.0) position[lane] = step * std::floor((position[lane] + phase) / step + 0.5) - phase;
+    }
+  }
+
+ private:
+  bool has_law_;
+
+ public:
+  LaneLoops loops;
+  RolledJoints rolled{};
+  LaneJoints braked{};  // with the back-EMF of a drive that is on
+  std::vector<RolloutTrial const*> used{};
+  std::vector<double> delay_ticks{};
+  std::vector<LaneEffectMaker> makers{};
+  std::size_t steps = 1;
+  bool reads_by_steps = false;
+};
+
+struct Chunk {
+  kernels::AlignedDoubles position = kernels::AlignedDoubles(chunk_ticks * twin_lanes),
+                          velocity = kernels::AlignedDoubles(chunk_ticks * twin_lanes),
+                          torque = kernels::AlignedDoubles(chunk_ticks * twin_lanes);
+  TickOutputs outputs() { return {position.data(), velocity.data(), torque.data()}; }
+};
+
+// what has no memory is held for a millisecond at most
+TickSteps tick_steps(double tick_s, std::size_t steps) {
+  constexpr double longest_held_s = 1e-3;
+  double const step_s = tick_s / static_cast<double>(steps);
+  return {step_s, steps, std::clamp<std::size_t>(static_cast<std::size_t>(longest_held_s / step_s), 1, steps)};
+}
+
+// one segment, tick by tick: effects, an identified law, an encoder
+class SlowSegment {
+ public:
+  SlowSegment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes)
+      : track_(track),
+        lanes_(lanes),
+        motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
+    if (!track.law) return;
+    law_.emplace(*track.law, segment.position, segment.velocity, track.rate_hz);
+    Eigen::VectorXd const reference = track.reference.segment(segment.first, segment.samples);
+    open_ = open_part(*track.law, reference);
+    ReferenceSignal const signal(reference);
+    wanted_.resize(segment.samples);
+    for (Eigen::Index k = 0; k < segment.samples; ++k) wanted_[k] = signal(k + track.law->shift);
+  }
+
+  void roll(TickInputs const& inputs, std::size_t first_tick, std::size_t ticks, LaneState& state, LaneLoopState& loop,
+            TickOutputs const& out) {
+    alignas(64) double read[twin_lanes], held[twin_lanes], logged[twin_lanes], acts[twin_lanes];
+    for (std::size_t row = 0; row < ticks; ++row) {
+      double const time_s = static_cast<double>(first_tick + row) * track_.tick_s();
+      std::copy_n(state.q, twin_lanes, read);
+      LaneInstant const at = instant_of(state, time_s, track_.tick_s(), motor_);
+      for (auto const& effect : motion_.effects()) effect->shift_position(at, read);
+      lanes_.read_encoder(read);
+      answer(inputs, first_tick, row, read, state.dq, loop, held, logged);
+      std::copy_n(held, twin_lanes, motor_);
+      LaneInstant const answered = instant_of(state, time_s, track_.tick_s(), motor_);
+      for (auto const& effect : motion_.effects()) effect->shift_torque(answered, logged);
+      std::copy_n(read, twin_lanes, out.position + row * twin_lanes);
+      std::copy_n(state.dq, twin_lanes, out.velocity + row * twin_lanes);
+      std::copy_n(logged, twin_lanes, out.torque + row * twin_lanes);
+      double const outside = inputs.outside != nullptr ? inputs.outside[row] : 0.0;
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane) acts[lane] = held[lane] - lanes_.rolled.offset[lane] + outside;
+      bool const is_on = inputs.enabled == nullptr || inputs.enabled[row] != 0.0;
+      motion_.advance_tick(is_on ? lanes_.braked : lanes_.rolled.joints, time_s, motor_, acts, ones_, nullptr, state);
+    }
+  }
+
+ private:
+  void answer(TickInputs const& inputs, std::size_t first_tick, std::size_t row, double const* read, double const* speed,
+              LaneLoopState& loop, double* held, double* logged) {
+    if (!law_) return answer_tick(lanes_.loops, inputs, row, read, speed, loop, held, logged);
+    // the law answers once a sample: it was found in samples
+    std::size_t const tick = first_tick + row;
+    auto const k = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
+    if (tick % track_.ticks_per_sample == 0) law_->command(read, open_[k], wanted_[k], command_);
+    pass_on_tick(lanes_.loops, inputs, row, command_, loop, held, logged);
+  }
+
+  RolloutTrack const& track_;
+  Lanes const& lanes_;
+  LaneMotion motion_;
+  std::optional<LaneController> law_{};
+  Eigen::VectorXd open_{}, wanted_{};
+  alignas(64) double motor_[twin_lanes] = {}, command_[twin_lanes] = {};
+  double ones_[twin_lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+};
+
+// lanes that are lost stay so
+class Watch {
+ public:
+  Watch(RolloutTrack const& track, TrackSegment const& segment, std::span<RolloutTrial const> trials) {
+    constexpr double far_times = 100.0;
+    auto const measured = track.position.segment(segment.first, segment.samples);
+    middle_ = 0.5 * (measured.maxCoeff() + measured.minCoeff());
+    double const range = measured.maxCoeff() - measured.minCoeff();
+    farthest_ = far_times * std::max({range, std::abs(segment.velocity) / track.rate_hz, 1e-3});
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      is_lost_[lane] = lane < trials.size() && !trials[lane].is_possible;
+  }
+
+  void look(Chunk& chunk, std::size_t ticks, LaneState& state) {
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      for (std::size_t row = 0; row < ticks && !is_lost_[lane]; ++row)
+        if (!(std::abs(chunk.position[row * twin_lanes + lane] - middle_) < farthest_)) is_lost_[lane] = true;
+      if (!is_lost_[lane]) continue;
+      state.q[lane] = middle_;  // out of the way: no overflow slows the others down
+      state.dq[lane] = state.ddq[lane] = 0.0;
+      for (std::size_t row = 0; row < ticks; ++row)
+        for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque}) (*values)[row * twin_lanes + lane] = nan;
+    }
+  }
+
+  bool all_lost(std::size_t trials) const {
+    return std::all_of(is_lost_, is_lost_ + trials, [](bool lost) { return lost; });
+  }
+
+ private:
+  double middle_ = 0.0, farthest_ = 0.0;
+  bool is_lost_[twin_lanes] = {};
+};
+
+// rows of ticks become rows of samples, in place
+void keep_samples(kernels::AlignedDoubles& rows, std::size_t samples, std::size_t ticks_per_sample) {
+  if (ticks_per_sample == 1) return;
+  for (std::size_t k = 1; k < samples; ++k)
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * ticks_per_sample * twin_lanes), twin_lanes,
+                rows.begin() + static_cast<std::ptrdiff_t>(k * twin_lanes));
+}
+
+// whole samples, and for a weight few enough that its angle's series holds
+std::size_t ticks_of_chunk(RolloutTrack const& track, bool has_weight) {
+  std::size_t const each = track.ticks_per_sample;
+  std::size_t whole = std::max<std::size_t>(1, chunk_ticks / each) * each;
+  if (!has_weight) return whole;
+  double fastest = 0.0;
+  for (Eigen::Index k = 1; k < track.position.size(); ++k)
+    fastest = std::max(fastest, std::abs(track.position[k] - track.position[k - 1]));
+  constexpr double small_turn = 0.02, medium_turn = 0.1;
+  double const turn = fastest / static_cast<double>(each);
+  if (turn > small_turn) whole = std::max<std::size_t>(1, (turn > medium_turn ? 1 : 16) / each) * each;
+  return whole;
+}
+
+void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes, std::span<RolloutTrial const> trials, Chunk& chunk, RolloutSink const& sink) {
+  ChunkInputs inputs(track, segment, lanes.delay_ticks);
+  LaneState state;
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+    state.q[lane] = segment.position + lanes.used[lane]->position_step;
+    state.dq[lane] = segment.velocity + lanes.used[lane]->velocity_step;
+  }
+  LaneLoopState loop;
+  double first_goal[twin_lanes];
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane) first_goal[lane] = inputs.goal_at(-lanes.delay_ticks[lane]);
+  loop.start(lanes.loops, state, first_goal, segment.torque);
+  std::optional<SlowSegment> slow;
+  if (!lanes.is_fast()) slow.emplace(track, segment, lanes);
+  Watch watch(track, segment, trials);
+  std::size_t const all = static_cast<std::size_t>(segment.samples) * track.ticks_per_sample;
+  std::size_t const at_once = ticks_of_chunk(track, lanes.rolled.joints.has_weight && lanes.is_fast());
+  for (std::size_t first = 0; first < all; first += at_once) {
+    std::size_t const ticks = std::min(at_once, all - first), samples = ticks / track.ticks_per_sample;
+    if (!watch.all_lost(trials.size())) {
+      TickInputs const in = inputs.at(first, ticks);
+      if (slow)
+        slow->roll(in, first, ticks, state, loop, chunk.outputs());
+      else
+        roll_ticks(lanes.rolled, lanes.loops, in, ticks, lanes.steps, state, loop, chunk.outputs());
+    }
+    watch.look(chunk, ticks, state);
+    for (auto* rows : {&chunk.position, &chunk.velocity, &chunk.torque})
+      keep_samples(*rows, samples, track.ticks_per_sample);
+    sink({segment.first + static_cast<Eigen::Index>(first / track.ticks_per_sample),
+          static_cast<Eigen::Index>(samples), chunk.position.data(), chunk.velocity.data(), chunk.torque.data()});
+  }
+}
+
+}  // namespace
+
+void roll_out(RolloutTrack const& track, RolloutStructure const& structure, std::span<RolloutTrial const> trials,
+              RolloutSink const& sink) {
+  TORQUESCOPE_EXPECT(!trials.empty() && trials.size() <= twin_lanes && track.ticks_per_sample <= chunk_ticks);
+  // a lane that cannot be simulated is given the first that can, and is lost from the start
+  std::vector<RolloutTrial> possible(trials.begin(), trials.end());
+  auto const first = std::find_if(trials.begin(), trials.end(), [](auto const& one) { return one.is_possible; });
+  for (auto& trial : possible)
+    if (!trial.is_possible && first != trials.end()) trial = *first;
+  Lanes const lanes(track, structure, possible);
+  Chunk chunk;
+  for (auto const& segment : track.segments) roll_segment(track, segment, lanes, trials, chunk, sink);
+}
+
+double longest_step_s(RolloutTrial const& trial, RolloutStructure const& structure, double tick_s) {
+  constexpr double fiftieth = 0.02, of_memory_s = 2.5e-4;
+  double const inertia = trial.joint.inertia;
+  if (!(inertia > 0.0)) return tick_s;
+  double const decay = std::abs(trial.joint.viscous + trial.loop.back_emf) / inertia;
+  double const swing = std::sqrt(std::hypot(trial.joint.gravity_sin, trial.joint.gravity_cos) / inertia);
+  double const own = fiftieth / std::max({decay, swing, fiftieth / tick_s});
+  bool const remembers = std::any_of(structure.effects.begin(), structure.effects.end(),
+                                     [](Effect const* effect) { return effect->has_memory(); });
+  constexpr double shortest_share = 1.0 / 64.0;
+  return std::clamp(remembers ? std::min(own, of_memory_s) : own, shortest_share * tick_s, tick_s);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,106 @@
+#include "engine/rollout/track.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.hpp"
+#include "engine/data/signal_facts.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr Eigen::Index fewest_samples = 8;
+
+// slope of a line through the samples around `at`, none of them before `first`; rest where they cover less than a step
+double velocity_at(RolloutTrack const& track, Eigen::Index first, Eigen::Index at, Eigen::Index end) {
+  constexpr double seconds = 0.02;
+  auto const reach = std::max<Eigen::Index>(2, std::llround(0.5 * seconds * track.rate_hz));
+  Eigen::Index const from = std::max(first, at - reach), until = std::min(end, std::max(at + reach, from + 3));
+  double const middle = 0.5 * static_cast<double>(until - 1 - from);
+  double numerator = 0.0, denominator = 0.0;
+  for (Eigen::Index k = from; k < until; ++k) {
+    double const x = static_cast<double>(k - from) - middle;
+    numerator += x * (track.position[k] - track.position[from]);
+    denominator += x * x;
+  }
+  if (!(denominator > 0.0)) return 0.0;
+  double const slope = numerator / denominator;
+  return std::abs(slope) * static_cast<double>(until - 1 - from) <= track.encoder_step ? 0.0 : slope * track.rate_hz;
+}
+
+// runs of samples outside every stretch that was left out
+std::vector<TrackSegment> runs_of(Recording const& recording, Eigen::Index n) {
+  std::vector<bool> is_out(static_cast<std::size_t>(n), false);
+  for (auto const& stretch : recording.left_out)
+    for (Eigen::Index k = 0; k < n; ++k) {
+      double const time_s = static_cast<double>(k) / recording.rate_hz;
+      if (time_s > stretch.from_s && time_s < stretch.until_s) is_out[static_cast<std::size_t>(k)] = true;
+    }
+  std::vector<TrackSegment> runs;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (is_out[static_cast<std::size_t>(k)]) continue;
+    bool const goes_on = k > 0 && !is_out[static_cast<std::size_t>(k - 1)];
+    if (!goes_on) runs.push_back({k, 0});
+    ++runs.back().samples;
+  }
+  std::erase_if(runs, [](TrackSegment const& run) { return run.samples < fewest_samples; });
+  return runs;
+}
+
+std::vector<TrackSegment> in_windows(std::vector<TrackSegment> const& runs, Eigen::Index length) {
+  std::vector<TrackSegment> windows;
+  for (auto const& run : runs)
+    for (Eigen::Index first = run.first; first < run.first + run.samples; first += length)
+      windows.push_back({first, std::min(length, run.first + run.samples - first)});
+  return windows;
+}
+
+}  // namespace
+
+Eigen::Index RolloutTrack::samples() const {
+  Eigen::Index sum = 0;
+  for (auto const& segment : segments) sum += segment.samples;
+  return sum;
+}
+
+RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
+  RolloutTrack track;
+  Eigen::Index const n = recording.position.size();
+  track.name = recording.name;
+  track.rate_hz = recording.rate_hz;
+  track.drive = recording.reference.size() == n ? TrackDrive::reference : TrackDrive::torque;
+  track.straight_reference = options.straight_reference;
+  if (options.controller_rate_hz > recording.rate_hz)
+    track.ticks_per_sample = static_cast<std::size_t>(std::max(1.0, options.controller_rate_hz / recording.rate_hz + 0.5));
+  track.encoder_step = recording.rows.encoder_step > 0.0
+                           ? recording.rows.encoder_step
+                           : quantisation_step({recording.position.data(), static_cast<std::size_t>(n)});
+  track.time_s = recording.time_s;
+  track.reference = recording.reference;
+  track.position = recording.position;
+  track.torque = recording.torque;
+  track.added = track.drive == TrackDrive::torque ? recording.torque : recording.added_command;
+  track.outside = recording.external_torque;
+  track.enabled = recording.enabled;
+  auto const runs = runs_of(recording, n);
+  validate(!runs.empty(), [&] {
+    Problem problem{ExitCode::bad_data,
+                    fmt::format("{} has no {} samples in a row that could be simulated", recording.name, fewest_samples)};
+    problem.help = "leave less of it out (recording.leave_out), or record a stretch without gaps";
+    return problem;
+  });
+  bool const is_open = track.drive == TrackDrive::torque && options.window_s > 0.0;
+  auto const window = std::max<Eigen::Index>(fewest_samples / 2, std::llround(options.window_s * track.rate_hz));
+  track.segments = is_open ? in_windows(runs, window) : runs;
+  for (auto& segment : track.segments) {
+    auto const run = std::find_if(runs.rbegin(), runs.rend(), [&](auto const& one) { return one.first <= segment.first; });
+    segment.position = track.position[segment.first];
+    segment.velocity = velocity_at(track, run->first, segment.first, run->first + run->samples);
+    segment.torque = track.torque[std::max(segment.first - 1, run->first)];
+  }
+  return track;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,33 @@
+#pragma once
+// The models of a job, a run or a diagnosis as rollouts of a loaded job's recordings.
+//
+// Threads    free functions; const parts
+
+#include <string>
+#include <vector>
+
+#include "engine/rollout/replay.hpp"
+#include "engine/rollout/rollout_model.hpp"
+#include "engine/run/experiment_parts.hpp"
+#include "engine/verdict/diagnosis.hpp"
+
+namespace torquescope {
+
+struct ReplaySource {
+  std::string name;  // "as identified"
+  RolloutModel model;
+  Eigen::VectorXd parameters;
+};
+
+// the job's own numbers: given where it gives them all, else least squares; effects need values of their own.
+// Errors     Error 78 where [[model.effects]] have none
+std::vector<ReplaySource> sources_of_job(Experiment::Parts const& parts, RolloutParts const& rollout);
+// before and after what was named; one where nothing was
+std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, RolloutParts const& rollout, Diagnosis const& diagnosis);
+// names: of the parameters as the result has them; one without a number of a parameter of the job is left out
+void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label, std::vector<std::string> const& names,
+                       std::vector<double> const& parameters, std::vector<ReplaySource>& sources);
+
+Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources, int threads);
+
+}  // namespace torquescope
