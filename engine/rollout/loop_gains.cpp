@@ -51,7 +51,7 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
                           static_cast<double>(tick) - delay));
       double const added = track.added.size() > 0 ? track.added[at] : 0.0;
       double const enabled = track.enabled.size() > 0 ? track.enabled[at] : 1.0;
-      answer_tick(loops, {goal, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);
+      answer_tick(loops, {goal, twin_lanes, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);
       if (tick == 0) answers[k] = logged[0];
     }
   }

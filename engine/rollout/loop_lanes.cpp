@@ -42,10 +42,10 @@ HWY_INLINE V led_goal(LaneLoops const& loops, V wanted, LaneLoopState& loop, std
 
 // the torque that was asked for late_ticks and a share of a tick ago, on average over the tick
 HWY_INLINE V delayed(LaneLoops const& loops, LaneLoopState& loop, V command, std::size_t lane) {
-  store(command, loop.commands[loop.tick % most_delay_ticks], lane);
+  store(command, loop.commands[loop.clock.tick % most_delay_ticks], lane);
   alignas(64) double newer[vector_lanes], older[vector_lanes];
   for (std::size_t i = 0; i < vector_lanes; ++i) {
-    std::size_t const at = loop.tick + most_delay_ticks - loops.late_ticks[lane + i];
+    std::size_t const at = loop.clock.tick + most_delay_ticks - loops.late_ticks[lane + i];
     newer[i] = loop.commands[at % most_delay_ticks][lane + i];
     older[i] = loop.commands[(at - 1) % most_delay_ticks][lane + i];
   }
@@ -72,18 +72,17 @@ HWY_INLINE V pass_on(LaneLoops const& loops, TickInputs const& in, std::size_t r
 // what the motor gives on average until the next tick
 HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t row, V read, V dq, LaneLoopState& loop,
                     std::size_t lane) {
-  V const wanted = hn::LoadU(d, in.goal + row * twin_lanes + lane);
+  V const wanted = in.goal_stride == 1 ? hn::Set(d, in.goal[row]) : hn::LoadU(d, in.goal + row * twin_lanes + lane);
   V const goal = loops.has_profile ? led_goal(loops, wanted, loop, lane) : wanted;
   store(goal, loop.goal, lane);
   V command = load(loop.command, lane);
-  if (loop.tick % loops.hold_ticks == 0) {
-    double const period_s = loops.tick_s * static_cast<double>(loops.hold_ticks);
-    V const per_period = hn::Set(d, 1.0 / period_s);
+  if (loop.clock.answers()) {
+    V const per_period = hn::Set(d, loops.per_period);
     V const error = hn::Sub(goal, read);
     V difference = dq;
-    if (std::size_t const span = loops.speed_samples; span > 0) {
-      double* const place = loop.reads[loop.tick / loops.hold_ticks % span];
-      difference = hn::Mul(hn::Sub(read, load(place, lane)), hn::Set(d, 1.0 / (static_cast<double>(span) * period_s)));
+    if (loops.speed_samples > 0) {
+      double* const place = loop.reads[loop.clock.place];
+      difference = hn::Mul(hn::Sub(read, load(place, lane)), hn::Set(d, loops.per_span));
       store(read, place, lane);
     }
     V speed = load(loop.speed, lane);
@@ -102,7 +101,7 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
     if (in.added != nullptr) asked = hn::Add(asked, hn::Mul(load(loops.added_gain, lane), hn::Set(d, in.added[row])));
     V const least = load(loops.least, lane), most = load(loops.most, lane);
     if (loops.has_integral) {
-      V const grown = hn::Mul(hn::Set(d, period_s), hn::Add(hn::Mul(load(loops.ki, lane), error),
+      V const grown = hn::Mul(hn::Set(d, loops.period_s), hn::Add(hn::Mul(load(loops.ki, lane), error),
                                                             hn::Mul(load(loops.ki_speed, lane), slip)));
       V const before = load(loop.integral, lane);
       V const whole = hn::Add(asked, hn::Add(before, grown));
@@ -125,7 +124,7 @@ void answer_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t 
     hn::StoreU(acting, d, held + lane);
     hn::StoreU(load(loop.logged, lane), d, logged + lane);
   }
-  ++loop.tick;
+  loop.clock.advance(loops);
 }
 
 void pass_on_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* command,
@@ -135,7 +134,7 @@ void pass_on_lanes(LaneLoops const& loops, TickInputs const& inputs, std::size_t
     hn::StoreU(acting, d, held + lane);
     hn::StoreU(load(loop.logged, lane), d, logged + lane);
   }
-  ++loop.tick;
+  loop.clock.advance(loops);
 }
 
 // sine and cosine of an angle that turns a little from tick to tick
@@ -158,7 +157,7 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
           std::size_t steps, double const* sines, double const* cosines, LaneState& joint, LaneLoopState& loop,
           TickOutputs const& out) {
   V const step = hn::Set(d, loops.tick_s / static_cast<double>(steps)), one = hn::Set(d, 1.0);
-  std::size_t const first_tick = loop.tick;
+  LoopClock const first_clock = loop.clock;
   LaneJoints const& joints = rolled.joints;
   for (std::size_t first = 0; first < twin_lanes; first += n_vectors * vector_lanes) {
     V q[n_vectors], dq[n_vectors], ddq[n_vectors], per_inertia[n_vectors];
@@ -171,7 +170,7 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
       per_inertia[i] = hn::Div(one, load(joints.inertia, lane));
       if constexpr (has_weight) angle[i] = {load(sines, lane), load(cosines, lane)};
     }
-    loop.tick = first_tick;
+    loop.clock = first_clock;
     for (std::size_t tick = 0; tick < ticks; ++tick) {
       for (std::size_t i = 0; i < n_vectors; ++i) {
         std::size_t const lane = first + i * vector_lanes, at = tick * twin_lanes + lane;
@@ -197,7 +196,7 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
         for (std::size_t k = 0; k < steps; ++k) slide_step(field, step, q[i], dq[i], ddq[i]);
         if constexpr (has_weight) angle[i].turn(hn::Sub(q[i], from));
       }
-      ++loop.tick;
+      loop.clock.advance(loops);
     }
     for (std::size_t i = 0; i < n_vectors; ++i) {
       std::size_t const lane = first + i * vector_lanes;
@@ -243,7 +242,12 @@ struct LagOfTick {
 }  // namespace
 
 LaneLoops::LaneLoops(double tick_s_, std::size_t hold_ticks_, std::size_t speed_samples_)
-    : tick_s(tick_s_), hold_ticks(hold_ticks_), speed_samples(speed_samples_) {}
+    : tick_s(tick_s_),
+      hold_ticks(hold_ticks_),
+      speed_samples(speed_samples_),
+      period_s(tick_s_ * static_cast<double>(hold_ticks_)),
+      per_period(1.0 / period_s),
+      per_span(1.0 / (period_s * static_cast<double>(std::max<std::size_t>(1, speed_samples_)))) {}
 
 void LaneLoops::set(std::size_t lane, LoopNumbers const& numbers) {
   kp[lane] = numbers.kp;
@@ -274,8 +278,7 @@ void LaneLoops::set(std::size_t lane, LoopNumbers const& numbers) {
 }
 
 void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double const* first_goal, double torque) {
-  tick = 0;
-  double const period_s = loops.tick_s * static_cast<double>(loops.hold_ticks);
+  clock = {};
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     goal[lane] = goal_before[lane] = first_goal[lane];
     goal_speed[lane] = 0.0;
@@ -283,7 +286,7 @@ void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double
     speed[lane] = joint.dq[lane];
     // before the start the joint came along at its first velocity; the first answer overwrites the oldest
     for (std::size_t k = 0; k < loops.speed_samples; ++k)
-      reads[k][lane] = joint.q[lane] - joint.dq[lane] * period_s * static_cast<double>(loops.speed_samples - k);
+      reads[k][lane] = joint.q[lane] - joint.dq[lane] * loops.period_s * static_cast<double>(loops.speed_samples - k);
     double const rest = loops.kp[lane] * (first_goal[lane] - joint.q[lane]) - loops.kd[lane] * joint.dq[lane];
     integral[lane] = loops.has_integral ? torque - rest : 0.0;
     command[lane] = lagged[lane] = logged[lane] = torque;

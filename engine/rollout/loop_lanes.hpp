@@ -34,9 +34,24 @@ struct LaneLoops {
   bool has_profile = false, has_feed = false, has_integral = false, has_delay = false, has_lag = false;
 
   std::size_t speed_samples = 1;  // that the difference of what it reads spans; 0: it sees the joint's own speed
+  double period_s = 0.0, per_period = 0.0, per_span = 0.0;  // between two answers; over so many samples
 
   LaneLoops(double tick_s, std::size_t hold_ticks, std::size_t speed_samples = 1);
   void set(std::size_t lane, LoopNumbers const& numbers);
+};
+
+// where the loop stands between its answers, the same for all lanes
+struct LoopClock {
+  std::size_t tick = 0, until_answer = 0, place = 0;  // place: of the next read in its ring
+  bool answers() const { return until_answer == 0; }
+  void advance(LaneLoops const& loops) {
+    if (answers()) {
+      until_answer = loops.hold_ticks;
+      place = place + 1 < loops.speed_samples ? place + 1 : 0;
+    }
+    --until_answer;
+    ++tick;
+  }
 };
 
 // what the loop remembers
@@ -44,7 +59,7 @@ struct LaneLoopState {
   using Lanes = double[twin_lanes];
   alignas(64) Lanes goal{}, goal_speed{}, goal_before{}, goal_step_before{}, speed{}, integral{};
   alignas(64) Lanes command{}, lagged{}, logged{};
-  std::size_t tick = 0;
+  LoopClock clock{};
   alignas(64) double reads[most_speed_samples][twin_lanes] = {};  // a ring, by answer
   alignas(64) double commands[most_delay_ticks][twin_lanes] = {};  // a ring, by tick
 
@@ -55,7 +70,8 @@ struct LaneLoopState {
 
 // of one chunk; each may be none: zeros, no added command, a drive that is on
 struct TickInputs {
-  double const* goal = nullptr;     // [ticks][lanes], delayed
+  double const* goal = nullptr;     // [ticks][lanes], delayed; or [ticks] where all lanes see the same
+  std::size_t goal_stride = twin_lanes;  // 1 of the latter
   double const* added = nullptr;    // [ticks]
   double const* outside = nullptr;  // [ticks], torque on the joint from outside
   double const* enabled = nullptr;  // [ticks], 1 or 0

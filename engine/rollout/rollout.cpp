@@ -27,13 +27,18 @@ class ChunkInputs {
   }
 
   TickInputs at(std::size_t first_tick, std::size_t ticks) {
-    for (std::size_t row = 0; row < ticks; ++row) fill_goal(first_tick + row, goal_.data() + row * twin_lanes);
+    for (std::size_t row = 0; row < ticks; ++row)
+      if (is_same_)
+        goal_[row] = goal_at(static_cast<double>(first_tick + row) - delay_ticks_[0]);
+      else
+        for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+          goal_[row * twin_lanes + lane] = goal_at(static_cast<double>(first_tick + row) - delay_ticks_[lane]);
     auto const filled = [&](Eigen::VectorXd const& channel, std::vector<double>& rows) -> double const* {
       if (channel.size() == 0) return nullptr;
       for (std::size_t row = 0; row < ticks; ++row) rows[row] = channel[sample_of(first_tick + row)];
       return rows.data();
     };
-    return {goal_.data(), filled(track_.added, added_), filled(track_.outside, outside_),
+    return {goal_.data(), is_same_ ? 1 : twin_lanes, filled(track_.added, added_), filled(track_.outside, outside_),
             filled(track_.enabled, enabled_)};
   }
 
@@ -61,12 +66,6 @@ class ChunkInputs {
     if (!track_.straight_reference || within == 0 || sample + 1 >= segment_.first + segment_.samples) return here;
     double const share = static_cast<double>(within) / static_cast<double>(track_.ticks_per_sample);
     return here + share * (track_.reference[sample + 1] - here);
-  }
-
-  void fill_goal(std::size_t tick, double* row) const {
-    double const first = goal_at(static_cast<double>(tick) - delay_ticks_[0]);
-    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-      row[lane] = is_same_ ? first : goal_at(static_cast<double>(tick) - delay_ticks_[lane]);
   }
 
   RolloutTrack const& track_;
@@ -150,6 +149,7 @@ class SlowSegment {
       : track_(track),
         lanes_(lanes),
         motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
+    for (auto const& effect : motion_.effects()) shifts_channels_ = shifts_channels_ || effect->shifts_channels();
     if (!track.law) return;
     law_.emplace(*track.law, segment.position, segment.velocity, track.rate_hz);
     Eigen::VectorXd const reference = track.reference.segment(segment.first, segment.samples);
@@ -165,13 +165,17 @@ class SlowSegment {
     for (std::size_t row = 0; row < ticks; ++row) {
       double const time_s = static_cast<double>(first_tick + row) * track_.tick_s();
       std::copy_n(state.q, twin_lanes, read);
-      LaneInstant const at = instant_of(state, time_s, track_.tick_s(), motor_);
-      for (auto const& effect : motion_.effects()) effect->shift_position(at, read);
+      if (shifts_channels_) {
+        LaneInstant const at = instant_of(state, time_s, track_.tick_s(), motor_);
+        for (auto const& effect : motion_.effects()) effect->shift_position(at, read);
+      }
       lanes_.read_encoder(read);
       answer(inputs, first_tick, row, read, state.dq, loop, held, logged);
       std::copy_n(held, twin_lanes, motor_);
-      LaneInstant const answered = instant_of(state, time_s, track_.tick_s(), motor_);
-      for (auto const& effect : motion_.effects()) effect->shift_torque(answered, logged);
+      if (shifts_channels_) {
+        LaneInstant const answered = instant_of(state, time_s, track_.tick_s(), motor_);
+        for (auto const& effect : motion_.effects()) effect->shift_torque(answered, logged);
+      }
       std::copy_n(read, twin_lanes, out.position + row * twin_lanes);
       std::copy_n(state.dq, twin_lanes, out.velocity + row * twin_lanes);
       std::copy_n(logged, twin_lanes, out.torque + row * twin_lanes);
@@ -196,6 +200,7 @@ class SlowSegment {
   RolloutTrack const& track_;
   Lanes const& lanes_;
   LaneMotion motion_;
+  bool shifts_channels_ = false;
   std::optional<LaneController> law_{};
   Eigen::VectorXd open_{}, wanted_{};
   alignas(64) double motor_[twin_lanes] = {}, command_[twin_lanes] = {};
@@ -207,9 +212,8 @@ class Watch {
  public:
   Watch(RolloutTrack const& track, TrackSegment const& segment, std::span<RolloutTrial const> trials) {
     constexpr double far_times = 100.0;
-    auto const measured = track.position.segment(segment.first, segment.samples);
-    middle_ = 0.5 * (measured.maxCoeff() + measured.minCoeff());
-    double const range = measured.maxCoeff() - measured.minCoeff();
+    middle_ = 0.5 * (track.position.maxCoeff() + track.position.minCoeff());
+    double const range = track.position.maxCoeff() - track.position.minCoeff();
     farthest_ = far_times * std::max({range, std::abs(segment.velocity) / track.rate_hz, 1e-3});
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       is_lost_[lane] = lane < trials.size() && !trials[lane].is_possible;
@@ -217,8 +221,8 @@ class Watch {
 
   void look(Chunk& chunk, std::size_t ticks, LaneState& state) {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      for (std::size_t row = 0; row < ticks && !is_lost_[lane]; ++row)
-        if (!(std::abs(chunk.position[row * twin_lanes + lane] - middle_) < farthest_)) is_lost_[lane] = true;
+      // what leaves for so far does not come back within a chunk
+      if (!(std::abs(chunk.position[(ticks - 1) * twin_lanes + lane] - middle_) < farthest_)) is_lost_[lane] = true;
       if (!is_lost_[lane]) continue;
       state.q[lane] = middle_;  // out of the way: no overflow slows the others down
       state.dq[lane] = state.ddq[lane] = 0.0;

@@ -3,6 +3,8 @@
 #include "engine/run/diagnosis_writer.hpp"
 #include "engine/run/experiment_parts.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/run/replay_of_parts.hpp"
+#include "engine/run/replay_writer.hpp"
 #include "engine/run/study_writer.hpp"
 #include "engine/store/temp_file.hpp"
 
@@ -22,6 +24,7 @@ Diagnosis diagnose_into_file(Experiment const& experiment, DiagnoseRequest const
   write_diagnosis(writer, diagnosis);
   for (auto const& [key, value] : DiagnoseOptions::table().values(parts.diagnose))
     writer.attribute("/diagnosis/options", key, value);
+  if (auto const replay = replay_of_diagnosis(parts, diagnosis, request.threads.count)) write_replay(writer, *replay);
   finish_result(writer, request.output, request.threads, beginning);
   return diagnosis;
 }

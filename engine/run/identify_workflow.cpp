@@ -14,6 +14,8 @@
 #include "engine/run/last_states.hpp"
 #include "engine/run/population_stage.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/run/replay_of_parts.hpp"
+#include "engine/run/replay_writer.hpp"
 #include "engine/run/rollout_objective.hpp"
 #include "engine/run/rollout_stage.hpp"
 #include "engine/run/search_box.hpp"
@@ -204,18 +206,28 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
   Study const study{parts, attempt, progress, writer, floor, parts.torque_unit(), merges};
   IdentifyReport report;
   std::vector<std::string> order;
+  std::vector<ReplaySource> rolled;
   for (auto const& plan : parts.estimators) {
     RunResults const results =
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
-    write_results(writer, plan, results, study.torque_unit, parts.parameter_names());
+    write_results(writer, plan, results, plan.rolls_out() ? rollout_error_unit(parts) : study.torque_unit,
+                  parts.parameter_names());
     if (parts.regressor && parts.parameters() == parts.row_parameters()) write_model_code(writer, plan.label, *parts.regressor, results);
     if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
+    if (plan.rolls_out()) write_rollout_errors(writer, plan.label, parts);
+    if (plan.rolls_out() && !results.present().empty()) {
+      Eigen::VectorXd const& typical = results.parameters[lower_median_index(results.gap)];
+      add_source_of_run(parts, *parts.rollout, plan.label, parts.parameter_names(), {typical.begin(), typical.end()},
+                        rolled);
+    }
     order.push_back(plan.label);
     report.runs += static_cast<std::int64_t>(results.runs());
     for (std::int64_t evaluations : results.evaluations) report.evaluations += evaluations;
   }
   writer.attribute("/runs", "order", order);
+  if (parts.rollout && !rolled.empty())
+    write_replay(writer, replay_of(parts, *parts.rollout, rolled, options.threads.count));
   // whoever asks to stop now is served best by the result
   if (options.saving) options.saving();
   report.content_sha256 = finish_result(writer, options.output, options.threads, beginning,

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/parallel.hpp"
 #include "engine/rollout/loop_gains.hpp"
+#include "engine/run/job_sections.hpp"
 #include "engine/run/model_laws.hpp"
 
 namespace torquescope {
@@ -170,6 +171,25 @@ Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, st
     }
   }
   return replay;
+}
+
+std::optional<Replay> replay_of_diagnosis(Experiment::Parts const& parts, Diagnosis const& diagnosis, int threads) {
+  if (!parts.regressor || diagnosis.joints.empty() || diagnosis.joints.front().baseline.empty()) return std::nullopt;
+  try {
+    std::vector<Problem> problems;
+    RolloutParts rollout = begin_rollouts(plan_rollouts(parts.job, *parts.regressor, problems), *parts.regressor);
+    // a diagnosis begins at the terms of the model alone
+    rollout.plan.effects.clear();
+    add_recordings(rollout, *parts.regressor, parts.train.recordings,
+                   parts.validate ? parts.validate->recordings : std::vector<Recording>(), parts.train.regression,
+                   parts.filter, section_or_empty(parts.job, "filter"));
+    auto const sources = sources_of_diagnosis(parts, rollout, diagnosis);
+    if (sources.empty()) return std::nullopt;
+    return replay_of(parts, rollout, sources, threads);
+  } catch (Error const&) {
+    // what cannot be simulated has been diagnosed all the same
+    return std::nullopt;
+  }
 }
 
 }  // namespace torquescope

@@ -3,6 +3,7 @@
 //
 // Threads    free functions; const parts
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, R
 void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label, std::vector<std::string> const& names,
                        std::vector<double> const& parameters, std::vector<ReplaySource>& sources);
 
-Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources, int threads);
+Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources,
+                 int threads);
+// of a job that was loaded for a diagnosis; nothing of an arm, or where no joint was identified that could be simulated
+std::optional<Replay> replay_of_diagnosis(Experiment::Parts const& parts, Diagnosis const& diagnosis, int threads);
 
 }  // namespace torquescope

@@ -1,5 +1,7 @@
 #include "engine/run/rollout_stage.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -48,6 +50,10 @@ std::vector<PredictionMetrics> metrics_on(RolloutParts const& rollout, RolloutDa
   return all;
 }
 
+bool judges_torque(RolloutParts const& rollout) {
+  return channels_of(rollout.plan.loop)[of_torque] && rollout.train.tracks.front().drive == TrackDrive::reference;
+}
+
 }  // namespace
 
 RolloutFit fit_by_rollouts(Experiment::Parts const& parts, LmOptions const& options, int threads,
@@ -67,8 +73,6 @@ void measure_rollouts(Experiment::Parts const& parts, int threads, RunResults& r
 void write_rollout_fit(ResultWriter& writer, std::string const& label, RolloutFit const& fit) {
   std::string const group = "/runs/" + label;
   auto const n = static_cast<std::size_t>(fit.parameters.size());
-  writer.attribute(group, "remark",
-                   std::string("errors are of all samples, simulated in closed loop: not those of other estimators' rows"));
   writer.numbers(group + "/standard_error", {1, n}, {fit.errors.data(), n},
                  Note{"SI", "standard error", "Newey-West"}.over({"run", "parameter"}));
   std::vector<double> intervals;
@@ -80,6 +84,20 @@ void write_rollout_fit(ResultWriter& writer, std::string const& label, RolloutFi
   writer.attribute(group, "sums_of_squares", std::vector<double>(fit.sums.begin(), fit.sums.end()));
   writer.attribute(group, "effective_samples", std::vector<double>(fit.effective.begin(), fit.effective.end()));
   writer.attribute(group, "at_bounds", fit.at_bounds);
+}
+
+std::string rollout_error_unit(Experiment::Parts const& parts) {
+  bool const slides = parts.regressor->joint() == JointKind::prismatic;
+  return judges_torque(*parts.rollout) ? (slides ? "N" : "N m") : (slides ? "m" : "rad");
+}
+
+void write_rollout_errors(ResultWriter& writer, std::string const& label, Experiment::Parts const& parts) {
+  bool const of_force = judges_torque(*parts.rollout), slides = parts.regressor->joint() == JointKind::prismatic;
+  writer.attribute("/runs/" + label, "rollout_error_unit", rollout_error_unit(parts));
+  writer.attribute("/runs/" + label, "remark",
+                   fmt::format("errors are of the {} on all samples, simulated in closed loop; of rows they would be "
+                               "others",
+                               of_force ? (slides ? "force" : "torque") : "position"));
 }
 
 }  // namespace torquescope

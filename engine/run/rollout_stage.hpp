@@ -19,6 +19,9 @@ RolloutFit fit_by_rollouts(Experiment::Parts const& parts, LmOptions const& opti
 void measure_rollouts(Experiment::Parts const& parts, int threads, RunResults& results);
 
 // standard errors, intervals, sums and effective samples of each channel
+// of which channel, in which unit
+std::string rollout_error_unit(Experiment::Parts const& parts);
+void write_rollout_errors(ResultWriter& writer, std::string const& label, Experiment::Parts const& parts);
 void write_rollout_fit(ResultWriter& writer, std::string const& label, RolloutFit const& fit);
 
 }  // namespace torquescope

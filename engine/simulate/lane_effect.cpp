@@ -80,6 +80,7 @@ class CatalogueEffect final : public LaneEffect {
 
   // a memory may be stiff: what has none is smooth within a tick
   bool follows_steps() const override { return has_memory_; }
+  bool shifts_channels() const override { return acts_on_ != ActsOn::joint; }
 
   void add(LaneInstant const& at, LaneDemand& demand) override {
     if (acts_on_ != ActsOn::joint) return;

@@ -42,6 +42,7 @@ class LaneEffect {
   // and the torque is held between ticks anyway), unless the joint is faster than its ticks
   virtual bool follows_steps() const { return true; }
   virtual void add(LaneInstant const&, LaneDemand&) {}
+  virtual bool shifts_channels() const { return false; }
   virtual void shift_position(LaneInstant const&, double*) {}
   virtual void shift_torque(LaneInstant const&, double*) {}
 };

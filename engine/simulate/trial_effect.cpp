@@ -44,6 +44,8 @@ class EffectOfTrials final : public LaneEffect {
 
   bool follows_steps() const override { return groups_.front().effect->follows_steps(); }
 
+  bool shifts_channels() const override { return groups_.front().effect->shifts_channels(); }
+
   void add(LaneInstant const& at, LaneDemand& demand) override {
     for (auto const& [lanes, effect] : groups_) {
       LaneDemand few;
@@ -93,6 +95,7 @@ LaneEffectMaker trial_effect(Effect const& effect, std::vector<std::vector<doubl
     if (same == groups.end()) same = groups.insert(groups.end(), {{}, parameters[lane], {}});
     same->lanes.push_back(lane);
   }
+  if (groups.size() == 1) return lane_effect(effect, parameters.front(), scales, baseline);
   for (auto& group : groups)
     group.make = lane_effect(effect, group.parameters, scales, gathered(baseline, group.lanes), group.lanes.size());
   return [groups = std::move(groups)] { return std::make_unique<EffectOfTrials>(groups); };

@@ -46,6 +46,7 @@ EstimatorSummary read_estimator(Source const& reader, std::string const& name, s
   summary.kind = reader.template attribute<std::string>(group, "kind");
   summary.title = text_or_empty(reader, group, "title");
   summary.remark = text_or_empty(reader, group, "remark");
+  summary.rollout_unit = text_or_empty(reader, group, "rollout_error_unit");
   summary.runs = reader.template attribute<std::int64_t>(group, "runs");
   summary.missing_runs = reader.template find_attribute<std::int64_t>(group, "missing_runs").value_or(0);
   summary.evaluations = reader.template find_attribute<std::int64_t>(group, "evaluations_total").value_or(0);

@@ -21,6 +21,7 @@ namespace torquescope {
 
 struct EstimatorSummary {
   std::string name, kind, title;
+  std::string rollout_unit;                 // of the error, where it is one of rollouts; "" of rows
   std::string remark;                       // of a closed form: what a person should know; "" where it has none
   std::int64_t runs = 0, missing_runs = 0;  // missing: of a partial merge
   std::vector<double> parameters;           // [R] of the median run

@@ -18,7 +18,7 @@ namespace {
 struct Column {
   std::string title;
   std::function<std::string(std::size_t)> parameter;
-  std::string mse{}, train{}, unseen{}, gap{};
+  std::string mse{}, train{}, unseen{}, gap{}, fitness{};
 };
 
 std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.3g}", 100.0 * share); }
@@ -32,6 +32,16 @@ bool knows_truth(ResultSummary const& summary) {
   return std::any_of(summary.truth.begin(), summary.truth.end(), [](double value) { return !std::isnan(value); });
 }
 
+// of the errors in the table: of rollouts where all estimators have it
+std::string error_unit(ResultSummary const& summary) {
+  std::string const unit = summary.joint == "prismatic" ? "N" : "N m";
+  if (summary.estimators.empty()) return unit;
+  std::string const first = summary.estimators.front().rollout_unit;
+  bool const same = std::all_of(summary.estimators.begin(), summary.estimators.end(),
+                                [&](EstimatorSummary const& one) { return one.rollout_unit == first; });
+  return same && !first.empty() ? first : unit;
+}
+
 std::vector<Column> columns_of_result(ResultSummary const& summary) {
   std::vector<Column> columns;
   if (summary.arm && summary.arm->seen.size() == summary.names.size())
@@ -39,11 +49,14 @@ std::vector<Column> columns_of_result(ResultSummary const& summary) {
   if (knows_truth(summary))
     columns.push_back({"truth", [&](std::size_t i) { return short_number(summary.truth.at(i)); }});
   for (auto const& estimator : summary.estimators) {
-    bool const is_floor = estimator.kind == floor_kind(summary);
+    bool const is_floor = estimator.kind == floor_kind(summary), rolls_out = !estimator.rollout_unit.empty();
+    std::string const gap = rough_number(estimator.gap_median);
     columns.push_back({column_title(estimator), [&](std::size_t i) { return short_number(estimator.parameters.at(i)); },
-                       short_number(estimator.mse_median), percent(estimator.relerr_median),
-                       percent(estimator.validation_relerr_median),
-                       is_floor ? "" : rough_number(estimator.gap_median)});
+                       estimator.rollout_unit.empty() || estimator.rollout_unit == error_unit(summary)
+                           ? short_number(estimator.mse_median)
+                           : "",
+                       percent(estimator.relerr_median), percent(estimator.validation_relerr_median),
+                       is_floor || rolls_out ? "" : gap, rolls_out ? short_number(estimator.gap_median) : ""});
     // sixty lines of "name error, name error" are nobody's table
     if (summary.arm && !estimator.standard_error.empty())
       columns.push_back({"std. error", [&](std::size_t i) { return short_error(estimator.standard_error.at(i)); }});
@@ -53,7 +66,7 @@ std::vector<Column> columns_of_result(ResultSummary const& summary) {
 
 std::string squared_unit(ResultSummary const& summary) {
   if (summary.arm) return "noise2";
-  return fmt::format("({})2", summary.joint == "prismatic" ? "N" : "N m");
+  return fmt::format("({})2", error_unit(summary));
 }
 
 std::string gap_title(ResultSummary const& summary) {
@@ -127,6 +140,7 @@ std::string block_text(ResultSummary const& summary, std::vector<Column> const& 
     text += block.line("error, unseen", "%", cells([](Column const& c) { return c.unseen; }));
   }
   if (has(&Column::gap)) text += block.line(gap_title(summary), "", cells([](Column const& c) { return c.gap; }));
+  if (has(&Column::fitness)) text += block.line("fitness", "", cells([](Column const& c) { return c.fitness; }));
   return text;
 }
 
