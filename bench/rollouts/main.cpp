@@ -1,5 +1,5 @@
-// Joint steps a second and core of the lanes alone: sixteen trials of one joint along a minute at 1 kHz, sums of squares
-// of both channels, in one thread. One line of JSON a case.
+// Joint steps a second and core of the lanes alone: sixteen trials of one joint along a minute at 1 kHz, sums of
+// squares of both channels, in one thread. One line of JSON a case.
 
 #include <chrono>
 #include <cmath>

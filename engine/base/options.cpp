@@ -53,6 +53,11 @@ struct TextOf {
 
 std::string to_text(OptionValue const& value) { return std::visit(TextOf{}, value); }
 
+std::string default_text(OptionValue const& value) {
+  auto const* const number = std::get_if<double>(&value);
+  return number != nullptr && std::isnan(*number) ? "none" : to_text(value);
+}
+
 std::string type_name(OptionValue const& value) {
   static char const* const names[] = {"true or false",   "whole number",  "number",        "text",
                                       "list of numbers", "list of texts", "table of texts"};

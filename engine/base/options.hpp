@@ -54,6 +54,7 @@ struct OptionDescription {
 };
 
 std::string to_text(OptionValue const& value);    // as it would stand in a job file
+std::string default_text(OptionValue const& value);  // the same; "none" of a number that is none unless it is written
 std::string type_name(OptionValue const& value);  // "number", "text", "list of texts"
 // converts what TOML wrote to what the member wants (integer -> double); nothing when it does not fit
 std::optional<OptionValue> converted(OptionValue const& given, OptionValue const& wanted_type);
@@ -163,7 +164,7 @@ std::vector<OptionDescription> OptionTable<Options>::describe() const {
   for (auto const& option : options_) {
     auto const value = option.get(defaults);
     descriptions.push_back({option.key, type_name(value), option.unit,
-                            range_text(option.least, option.most, option.words), to_text(value), option.meaning});
+                            range_text(option.least, option.most, option.words), default_text(value), option.meaning});
   }
   return descriptions;
 }

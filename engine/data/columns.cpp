@@ -107,7 +107,8 @@ class ColumnPicker {
   bool has_column(std::string const& column) const {
     auto const is_it = [&](std::string const& name) { return ends_in(name, column); };
     return std::any_of(table_.names.begin(), table_.names.end(), is_it) ||
-           std::any_of(table_.unusable.begin(), table_.unusable.end(), [&](auto const& one) { return is_it(one.name); });
+           std::any_of(table_.unusable.begin(), table_.unusable.end(),
+                       [&](auto const& one) { return is_it(one.name); });
   }
 
   std::optional<std::size_t> find(std::string const& channel, std::string const& column) {

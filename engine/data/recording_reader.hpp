@@ -31,10 +31,10 @@ struct RecordingOptions {
   std::vector<double> leave_out{};                // s from, until, from, until, ...: on the recording's own clock
   double rate_hz = 0.0;                           // sampling rate when the file has no time column
   double delay_s = 0.0;                           // added to the torque's time stamps
-  std::string gaps = "fill";       // missing values: "error", or "fill" short ones and leave out longer ones
-  std::string simulated_torque{};  // column of the user's own simulator, in N m (not scaled, not delayed)
+  std::string gaps = "fill";         // missing values: "error", or "fill" short ones and leave out longer ones
+  std::string simulated_torque{};    // column of the user's own simulator, in N m (not scaled, not delayed)
   std::string simulated_position{};  // and of its position, from the reference, in the unit of the position column
-  double train_share = 1.0;        // of every training recording, from its start; the rest judges
+  double train_share = 1.0;          // of every training recording, from its start; the rest judges
   // of an arm, kg: what its last link carries in each recording; none: nothing. First moments: three a recording
   std::vector<double> payload_kg{}, payload_first_moments_kgm{}, validate_payload_kg{};
 

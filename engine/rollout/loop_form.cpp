@@ -10,13 +10,13 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double largest = 1e9;
 
 constexpr std::array<std::pair<LoopForm, char const*>, 8> forms{{{LoopForm::identified, "identified"},
-                                                                  {LoopForm::p, "p"},
-                                                                  {LoopForm::pi, "pi"},
-                                                                  {LoopForm::pd, "pd"},
-                                                                  {LoopForm::pid, "pid"},
-                                                                  {LoopForm::p_velocity, "p_velocity"},
-                                                                  {LoopForm::p_pi, "p_pi"},
-                                                                  {LoopForm::none, "none"}}};
+                                                                 {LoopForm::p, "p"},
+                                                                 {LoopForm::pi, "pi"},
+                                                                 {LoopForm::pd, "pd"},
+                                                                 {LoopForm::pid, "pid"},
+                                                                 {LoopForm::p_velocity, "p_velocity"},
+                                                                 {LoopForm::p_pi, "p_pi"},
+                                                                 {LoopForm::none, "none"}}};
 
 constexpr std::array<LoopKeyFacts, loop_keys> facts{{
     {LoopKey::kp, "kp", "", "", 0.0, 0.0, largest},
@@ -68,14 +68,21 @@ std::optional<LoopKey> loop_key_of(std::string const& name) {
 std::vector<LoopKey> gains_of(LoopForm form) {
   using enum LoopKey;
   switch (form) {
-    case LoopForm::p: return {kp};
-    case LoopForm::pi: return {kp, ki};
-    case LoopForm::pd: return {kp, kd};
-    case LoopForm::pid: return {kp, ki, kd};
-    case LoopForm::p_velocity: return {kp, kv};
-    case LoopForm::p_pi: return {kp, kv, ki};
+    case LoopForm::p:
+      return {kp};
+    case LoopForm::pi:
+      return {kp, ki};
+    case LoopForm::pd:
+      return {kp, kd};
+    case LoopForm::pid:
+      return {kp, ki, kd};
+    case LoopForm::p_velocity:
+      return {kp, kv};
+    case LoopForm::p_pi:
+      return {kp, kv, ki};
     case LoopForm::identified:
-    case LoopForm::none: break;
+    case LoopForm::none:
+      break;
   }
   return {};
 }

@@ -41,8 +41,9 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
     Index const at = segment.first + k;
     Index const after = std::min(at + 1, segment.first + segment.samples - 1), before = std::max(at - 1, segment.first);
     double const next = track.position[after];
-    std::fill_n(speed, twin_lanes,
-                (next - track.position[before]) * track.rate_hz / static_cast<double>(std::max<Index>(1, after - before)));
+    std::fill_n(
+        speed, twin_lanes,
+        (next - track.position[before]) * track.rate_hz / static_cast<double>(std::max<Index>(1, after - before)));
     for (std::size_t tick = 0; tick < track.ticks_per_sample; ++tick) {
       double const share = static_cast<double>(tick) / static_cast<double>(track.ticks_per_sample);
       std::fill_n(read, twin_lanes, track.position[at] + share * (next - track.position[at]));
@@ -59,8 +60,8 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
 }
 
 // least squares on all tracks; columns: numbers with one gain of 1 each. An integral is told up to a constant
-Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNumbers const& fixed, std::size_t speed_samples,
-                                 std::vector<RolloutTrack> const& tracks) {
+Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNumbers const& fixed,
+                                 std::size_t speed_samples, std::vector<RolloutTrack> const& tracks) {
   constexpr double near_limit = 0.98;
   auto const p = static_cast<Index>(columns.size());
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p, p);
@@ -69,8 +70,10 @@ Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNu
     if (track.drive != TrackDrive::reference) continue;
     for (auto const& segment : track.segments) {
       Eigen::MatrixXd phi(segment.samples, p);
-      Eigen::VectorXd tau = track.torque.segment(segment.first, segment.samples) - answer_to(fixed, speed_samples, track, segment);
-      for (Index k = 0; k < p; ++k) phi.col(k) = answer_to(columns[static_cast<std::size_t>(k)], speed_samples, track, segment);
+      Eigen::VectorXd tau =
+          track.torque.segment(segment.first, segment.samples) - answer_to(fixed, speed_samples, track, segment);
+      for (Index k = 0; k < p; ++k)
+        phi.col(k) = answer_to(columns[static_cast<std::size_t>(k)], speed_samples, track, segment);
       for (Index k = 0; k < segment.samples; ++k) {
         double const asked = std::abs(track.torque[segment.first + k]);
         bool const is_off = track.enabled.size() > 0 && track.enabled[segment.first + k] == 0.0;
@@ -89,8 +92,8 @@ Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNu
 
 }  // namespace
 
-LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted, std::size_t speed_samples,
-                            std::vector<RolloutTrack> const& tracks) {
+LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted,
+                            std::size_t speed_samples, std::vector<RolloutTrack> const& tracks) {
   using enum LoopKey;
   if (wanted.empty() || gains_of(form).empty()) return values;
   // a loop of no gain: its delays, limits and what is added to its command
@@ -98,7 +101,7 @@ LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKe
   LoopNumbers empty = bare;
   empty.added_gain = 0.0;
   bool const is_cascade = form == LoopForm::p_velocity || form == LoopForm::p_pi;
-  auto const column = [&](double LoopNumbers::* gain) {
+  auto const column = [&](double LoopNumbers::*gain) {
     LoopNumbers one = empty;
     one.*gain = 1.0;
     one.least = -std::numeric_limits<double>::infinity();

@@ -13,9 +13,10 @@
 
 namespace torquescope {
 
-// keys of gains_of(form) that are not given, with values from the recording; positive, or the smallest that is plausible
-LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted, std::size_t speed_samples,
-                            std::vector<RolloutTrack> const& tracks);
+// wanted: keys of gains_of(form) that are not given, with values from the recordings; positive, or the smallest that is
+// plausible
+LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted,
+                            std::size_t speed_samples, std::vector<RolloutTrack> const& tracks);
 
 // the loop's own answer to the measured positions beside the recorded torque; NaN of one with an integral
 double loop_error(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track);

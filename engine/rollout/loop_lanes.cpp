@@ -101,8 +101,8 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
     if (in.added != nullptr) asked = hn::Add(asked, hn::Mul(load(loops.added_gain, lane), hn::Set(d, in.added[row])));
     V const least = load(loops.least, lane), most = load(loops.most, lane);
     if (loops.has_integral) {
-      V const grown = hn::Mul(hn::Set(d, loops.period_s), hn::Add(hn::Mul(load(loops.ki, lane), error),
-                                                            hn::Mul(load(loops.ki_speed, lane), slip)));
+      V const grown = hn::Mul(hn::Set(d, loops.period_s),
+                              hn::Add(hn::Mul(load(loops.ki, lane), error), hn::Mul(load(loops.ki_speed, lane), slip)));
       V const before = load(loop.integral, lane);
       V const whole = hn::Add(asked, hn::Add(before, grown));
       V const beyond = hn::Sub(whole, clamped(whole, least, most));
@@ -185,8 +185,10 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
         V weight = hn::Zero(d), slope = hn::Zero(d);
         if constexpr (has_weight) {
           V const by_sine = load(joints.gravity_sin, lane), by_cosine = load(joints.gravity_cos, lane);
-          weight = hn::Mul(per_inertia[i], hn::Add(hn::Mul(by_sine, angle[i].sine), hn::Mul(by_cosine, angle[i].cosine)));
-          slope = hn::Mul(per_inertia[i], hn::Sub(hn::Mul(by_sine, angle[i].cosine), hn::Mul(by_cosine, angle[i].sine)));
+          weight =
+              hn::Mul(per_inertia[i], hn::Add(hn::Mul(by_sine, angle[i].sine), hn::Mul(by_cosine, angle[i].cosine)));
+          slope =
+              hn::Mul(per_inertia[i], hn::Sub(hn::Mul(by_sine, angle[i].cosine), hn::Mul(by_cosine, angle[i].sine)));
         }
         Field<has_weight> const field(hn::Mul(hn::Sub(held, load(rolled.dry.forward, lane)), per_inertia[i]),
                                       hn::Mul(hn::Sub(held, load(rolled.dry.backward, lane)), per_inertia[i]),

@@ -60,7 +60,7 @@ struct LaneLoopState {
   alignas(64) Lanes goal{}, goal_speed{}, goal_before{}, goal_step_before{}, speed{}, integral{};
   alignas(64) Lanes command{}, lagged{}, logged{};
   LoopClock clock{};
-  alignas(64) double reads[most_speed_samples][twin_lanes] = {};  // a ring, by answer
+  alignas(64) double reads[most_speed_samples][twin_lanes] = {};   // a ring, by answer
   alignas(64) double commands[most_delay_ticks][twin_lanes] = {};  // a ring, by tick
 
   // at a first tick that follows rest or an even motion: position, velocity, goal and the torque that was held before;
@@ -70,11 +70,11 @@ struct LaneLoopState {
 
 // of one chunk; each may be none: zeros, no added command, a drive that is on
 struct TickInputs {
-  double const* goal = nullptr;     // [ticks][lanes], delayed; or [ticks] where all lanes see the same
+  double const* goal = nullptr;          // [ticks][lanes], delayed; or [ticks] where all lanes see the same
   std::size_t goal_stride = twin_lanes;  // 1 of the latter
-  double const* added = nullptr;    // [ticks]
-  double const* outside = nullptr;  // [ticks], torque on the joint from outside
-  double const* enabled = nullptr;  // [ticks], 1 or 0
+  double const* added = nullptr;         // [ticks]
+  double const* outside = nullptr;       // [ticks], torque on the joint from outside
+  double const* enabled = nullptr;       // [ticks], 1 or 0
 };
 
 // [ticks][lanes], at the ticks: positions and speeds as they are, the torque as it is logged

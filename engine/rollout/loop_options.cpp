@@ -12,15 +12,22 @@ namespace torquescope {
 namespace {
 
 using Member = double LoopOptions::*;
-constexpr std::array<Member, loop_keys> members{
-    &LoopOptions::kp,           &LoopOptions::ki,
-    &LoopOptions::kd,           &LoopOptions::kv,
-    &LoopOptions::feed_speed,   &LoopOptions::feed_acceleration,
-    &LoopOptions::added_command_gain, &LoopOptions::torque_limit,
-    &LoopOptions::speed_lag_s,  &LoopOptions::back_emf,
-    &LoopOptions::goal_speed_limit,   &LoopOptions::goal_acceleration_limit,
-    &LoopOptions::command_delay_s,    &LoopOptions::torque_delay_s,
-    &LoopOptions::torque_lag_s, &LoopOptions::torque_log_lag_s};
+constexpr std::array<Member, loop_keys> members{&LoopOptions::kp,
+                                                &LoopOptions::ki,
+                                                &LoopOptions::kd,
+                                                &LoopOptions::kv,
+                                                &LoopOptions::feed_speed,
+                                                &LoopOptions::feed_acceleration,
+                                                &LoopOptions::added_command_gain,
+                                                &LoopOptions::torque_limit,
+                                                &LoopOptions::speed_lag_s,
+                                                &LoopOptions::back_emf,
+                                                &LoopOptions::goal_speed_limit,
+                                                &LoopOptions::goal_acceleration_limit,
+                                                &LoopOptions::command_delay_s,
+                                                &LoopOptions::torque_delay_s,
+                                                &LoopOptions::torque_lag_s,
+                                                &LoopOptions::torque_log_lag_s};
 
 double given(LoopOptions const& options, LoopKey key) { return options.*members[static_cast<std::size_t>(key)]; }
 
@@ -137,7 +144,8 @@ CountedChannels channels_of(LoopOptions const& options) {
 LoopSetting loop_setting(LoopOptions const& options, double recording_rate_hz) {
   LoopSetting setting;
   setting.form = form_of(options);
-  setting.speed_samples = options.speed == "joint" ? 0 : static_cast<std::size_t>(std::max<std::int64_t>(1, options.speed_samples));
+  setting.speed_samples =
+      options.speed == "joint" ? 0 : static_cast<std::size_t>(std::max<std::int64_t>(1, options.speed_samples));
   for_each_key([&](LoopKey key) {
     if (!std::isnan(given(options, key))) setting.values[key] = given(options, key);
   });

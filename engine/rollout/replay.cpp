@@ -30,8 +30,7 @@ Simulated simulate(RolloutTrack const& track, ReplayedModel const& model) {
 
 std::vector<bool> simulated_samples(RolloutTrack const& track) {
   std::vector<bool> is_in(static_cast<std::size_t>(track.position.size()), false);
-  for (auto const& segment : track.segments)
-    std::fill_n(is_in.begin() + segment.first, segment.samples, true);
+  for (auto const& segment : track.segments) std::fill_n(is_in.begin() + segment.first, segment.samples, true);
   return is_in;
 }
 
@@ -110,9 +109,12 @@ double horizon_of(RolloutTrack const& track, ReplayedModel const& model, Eigen::
 
 std::string word(ReplayChannel channel) {
   switch (channel) {
-    case ReplayChannel::position: return "position";
-    case ReplayChannel::velocity: return "velocity";
-    case ReplayChannel::torque: break;
+    case ReplayChannel::position:
+      return "position";
+    case ReplayChannel::velocity:
+      return "velocity";
+    case ReplayChannel::torque:
+      break;
   }
   return "torque";
 }

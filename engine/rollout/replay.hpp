@@ -1,8 +1,8 @@
 #pragma once
 // A recording beside its simulation by several models, channel by channel, on every sample.
 //
-// Channels   position, velocity (where it was measured or derived), torque; errors are measured - simulated, relative to
-//            the rms of the torque, or of the position or velocity about its mean
+// Channels   position, velocity (where it was measured or derived), torque; errors are measured - simulated, relative
+//            to the rms of the torque, or of the position or velocity about its mean
 // Left out   samples of the recording's gaps: NaN in a simulation, and in no number; `samples` counts the others
 // Horizon    sixteen replicates, whose encoders lie elsewhere within a step and which begin within one: the first half
 //            second in which they differ among themselves by as much as the simulation from the recording, and by two
@@ -32,7 +32,7 @@ struct ChannelError {
 
 struct ChannelReplay {
   double signal_rms = 0.0;
-  Eigen::VectorXd measured{};               // [n]; empty: not there
+  Eigen::VectorXd measured{};                // [n]; empty: not there
   std::vector<Eigen::VectorXd> simulated{};  // of each model
   std::vector<ChannelError> errors{};
 };

@@ -146,9 +146,7 @@ TickSteps tick_steps(double tick_s, std::size_t steps) {
 class SlowSegment {
  public:
   SlowSegment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes)
-      : track_(track),
-        lanes_(lanes),
-        motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
+      : track_(track), lanes_(lanes), motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
     for (auto const& effect : motion_.effects()) shifts_channels_ = shifts_channels_ || effect->shifts_channels();
     if (!track.law) return;
     law_.emplace(*track.law, segment.position, segment.velocity, track.rate_hz);
@@ -180,15 +178,16 @@ class SlowSegment {
       std::copy_n(state.dq, twin_lanes, out.velocity + row * twin_lanes);
       std::copy_n(logged, twin_lanes, out.torque + row * twin_lanes);
       double const outside = inputs.outside != nullptr ? inputs.outside[row] : 0.0;
-      for (std::size_t lane = 0; lane < twin_lanes; ++lane) acts[lane] = held[lane] - lanes_.rolled.offset[lane] + outside;
+      for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+        acts[lane] = held[lane] - lanes_.rolled.offset[lane] + outside;
       bool const is_on = inputs.enabled == nullptr || inputs.enabled[row] != 0.0;
       motion_.advance_tick(is_on ? lanes_.braked : lanes_.rolled.joints, time_s, motor_, acts, ones_, nullptr, state);
     }
   }
 
  private:
-  void answer(TickInputs const& inputs, std::size_t first_tick, std::size_t row, double const* read, double const* speed,
-              LaneLoopState& loop, double* held, double* logged) {
+  void answer(TickInputs const& inputs, std::size_t first_tick, std::size_t row, double const* read,
+              double const* speed, LaneLoopState& loop, double* held, double* logged) {
     if (!law_) return answer_tick(lanes_.loops, inputs, row, read, speed, loop, held, logged);
     // the law answers once a sample: it was found in samples
     std::size_t const tick = first_tick + row;
@@ -262,7 +261,8 @@ std::size_t ticks_of_chunk(RolloutTrack const& track, bool has_weight) {
   return whole;
 }
 
-void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes, std::span<RolloutTrial const> trials, Chunk& chunk, RolloutSink const& sink) {
+void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes,
+                  std::span<RolloutTrial const> trials, Chunk& chunk, RolloutSink const& sink) {
   ChunkInputs inputs(track, segment, lanes.delay_ticks);
   LaneState state;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
@@ -290,8 +290,8 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes 
     watch.look(chunk, ticks, state);
     for (auto* rows : {&chunk.position, &chunk.velocity, &chunk.torque})
       keep_samples(*rows, samples, track.ticks_per_sample);
-    sink({segment.first + static_cast<Eigen::Index>(first / track.ticks_per_sample),
-          static_cast<Eigen::Index>(samples), chunk.position.data(), chunk.velocity.data(), chunk.torque.data()});
+    sink({segment.first + static_cast<Eigen::Index>(first / track.ticks_per_sample), static_cast<Eigen::Index>(samples),
+          chunk.position.data(), chunk.velocity.data(), chunk.torque.data()});
   }
 }
 

@@ -24,9 +24,9 @@ namespace torquescope {
 struct RolloutStructure {
   std::vector<Effect const*> effects{};
   JointScales scales{};
-  std::size_t hold_ticks = 1;    // of a controller slower than the ticks
+  std::size_t hold_ticks = 1;     // of a controller slower than the ticks
   std::size_t speed_samples = 1;  // that the controller's difference of the position spans; 0: it sees the speed
-  double step_s = 1e-3;          // of the integration, at most
+  double step_s = 1e-3;           // of the integration, at most
 };
 
 struct RolloutTrial {

@@ -22,8 +22,8 @@ struct Point {
 
 class Search {
  public:
-  Search(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts, LmOptions const& options,
-         int threads, StopAsked const& stop)
+  Search(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
+         LmOptions const& options, int threads, StopAsked const& stop)
       : model_(model), tracks_(tracks), options_(options), threads_(threads), stop_(stop), task_{tracks, {}, counts} {
     for (auto const& track : tracks) {
       task_.structures.push_back(model.structure_for(model.start(), track.tick_s()));
@@ -182,8 +182,7 @@ class Search {
         double const weight = std::sqrt(effective_[channel] / sums[channel]);
         Eigen::MatrixXd jacobian(samples.rows(), p);
         for (Index k = 0; k < p; ++k) {
-          if (steps[k] > 0.0)
-            jacobian.col(k) = (samples.col(2 + 2 * k) - samples.col(1 + 2 * k)) * (weight / steps[k]);
+          if (steps[k] > 0.0) jacobian.col(k) = (samples.col(2 + 2 * k) - samples.col(1 + 2 * k)) * (weight / steps[k]);
           if (!(steps[k] > 0.0) || !jacobian.col(k).allFinite()) jacobian.col(k).setZero();
         }
         Eigen::VectorXd residual = weight * samples.col(0);
@@ -294,7 +293,8 @@ class Search {
     Eigen::VectorXd const size = phi.colwise().norm().transpose() / std::sqrt(static_cast<double>(rows));
     phi.array().rowwise() /= size.transpose().array();
     Eigen::MatrixXd const gram = phi.transpose() * phi;
-    Eigen::MatrixXd const bread = solve_semidefinite(gram, Eigen::MatrixXd(Eigen::MatrixXd::Identity(gram.rows(), gram.cols())));
+    Eigen::MatrixXd const bread =
+        solve_semidefinite(gram, Eigen::MatrixXd(Eigen::MatrixXd::Identity(gram.rows(), gram.cols())));
     RowScores const scores{phi, psi, first_row};
     std::int64_t const lags = andrews_lags(scores);
     Eigen::MatrixXd const covariance = newey_west_covariance(scores, bread, lags);
@@ -336,9 +336,8 @@ std::vector<Eigen::VectorXd> starts_of(RolloutModel const& model, LmOptions cons
       auto const& one = parameters[k];
       double const share = random.uniform();
       if (!is_open(one)) continue;
-      starts.back()[static_cast<Index>(k)] = one.is_logarithmic
-                                                 ? one.lower * std::pow(one.upper / one.lower, share)
-                                                 : one.lower + share * (one.upper - one.lower);
+      starts.back()[static_cast<Index>(k)] = one.is_logarithmic ? one.lower * std::pow(one.upper / one.lower, share)
+                                                                : one.lower + share * (one.upper - one.lower);
     }
   }
   return starts;

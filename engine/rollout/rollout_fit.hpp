@@ -2,9 +2,9 @@
 // Levenberg-Marquardt on rollouts: parameters of a joint and its loop that bring simulation and recording together, on
 // every sample of every channel.
 //
-// Objective  sum over channels of n_eff ln S, S: the sum of squares over all tracks; n_eff of the residual where the fit
-//            stands, set anew once it has come to rest (effective_samples.hpp). Equal to least squares with each channel
-//            by its own noise
+// Objective  sum over channels of n_eff ln S, S: the sum of squares over all tracks; n_eff of the residual where the
+//            fit stands, set anew once it has come to rest (effective_samples.hpp). Equal to least squares with each
+//            channel by its own noise
 // Jacobian   central differences of `width` of a parameter's scale, all trials side by side; four times wider when no
 //            step is accepted, because dry friction makes the sum rough
 // Step       sixteen dampings at once, the best of them; parameters stay within their bounds

@@ -57,8 +57,9 @@ RolloutParameter shape_of(EffectParameter const& parameter, ParameterRange const
 void begin_at(RolloutParameter& parameter, double value) {
   parameter.start = value;
   parameter.is_given = true;
-  parameter.lower = std::min(parameter.lower, value);
-  parameter.upper = std::max(parameter.upper, value);
+  // who begins beyond a plausible bound means to leave it
+  if (value < parameter.lower) parameter.lower = parameter.is_shape ? value : -parameter.upper;
+  if (value > parameter.upper) parameter.upper = value;
   parameter.scale = parameter.is_logarithmic ? std::abs(value) : std::max(parameter.scale, std::abs(value));
 }
 

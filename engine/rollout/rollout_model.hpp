@@ -1,8 +1,8 @@
 #pragma once
 // A joint in its loop as one vector of parameters: what a fit by simulation searches, and what a replay is given.
 //
-// Parameters those of the regressor, then of every effect (linear ones, then shapes), then the loop's free numbers, named
-//            loop_kp, loop_kd, ...
+// Parameters those of the regressor, then of every effect (linear ones, then shapes), then the loop's free numbers,
+//            named loop_kp, loop_kd, ...
 // Scale      of a parameter: what changes the torque by a tenth of its rms, or its own size, whichever is larger
 // Units      SI of the joint's kind
 // Errors     Error 78: parameters of two effects with one name
@@ -23,9 +23,9 @@ struct RolloutParameter {
   std::string name, unit;
   double start = 0.0, lower = 0.0, upper = 0.0;
   double scale = 1.0;
-  bool is_shape = false;         // of an effect
-  bool is_logarithmic = false;   // spread over orders of magnitude between its bounds
-  bool is_given = false;         // its start is the job's own
+  bool is_shape = false;        // of an effect
+  bool is_logarithmic = false;  // spread over orders of magnitude between its bounds
+  bool is_given = false;        // its start is the job's own
 };
 
 // an effect as a job gives it: parameters by name, those left out begin in the middle of their range
@@ -36,8 +36,8 @@ struct ModelEffect {
 
 struct LoopSetting {
   LoopForm form = LoopForm::identified;
-  LoopValues values{};            // fixed, or where the search begins
-  std::vector<LoopKey> free{};    // those that are searched
+  LoopValues values{};          // fixed, or where the search begins
+  std::vector<LoopKey> free{};  // those that are searched
   std::size_t hold_ticks = 1;
   std::size_t speed_samples = 1;  // 0: the controller sees the joint's own speed
 };

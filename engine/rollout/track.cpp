@@ -12,6 +12,7 @@ namespace torquescope {
 namespace {
 
 constexpr Eigen::Index fewest_samples = 8;
+constexpr double most_ticks_per_sample = 200.0;  // below chunk_ticks of loop_lanes.hpp
 
 // slope of a line through the samples around `at`, none of them before `first`; rest where they cover less than a step
 double velocity_at(RolloutTrack const& track, Eigen::Index first, Eigen::Index at, Eigen::Index end) {
@@ -72,8 +73,16 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   track.rate_hz = recording.rate_hz;
   track.drive = recording.reference.size() == n ? TrackDrive::reference : TrackDrive::torque;
   track.straight_reference = options.straight_reference;
+  validate(options.controller_rate_hz <= most_ticks_per_sample * recording.rate_hz, [&] {
+    Problem problem{ExitCode::bad_job, fmt::format("loop.rate_hz = {:g} is more than {:g} times the {:g} Hz of {}",
+                                                   options.controller_rate_hz, most_ticks_per_sample, recording.rate_hz,
+                                                   recording.name)};
+    problem.help = "a lower rate says the same: 1000 Hz is enough for most joints";
+    return problem;
+  });
   if (options.controller_rate_hz > recording.rate_hz)
-    track.ticks_per_sample = static_cast<std::size_t>(std::max(1.0, options.controller_rate_hz / recording.rate_hz + 0.5));
+    track.ticks_per_sample =
+        static_cast<std::size_t>(std::max(1.0, options.controller_rate_hz / recording.rate_hz + 0.5));
   track.encoder_step = recording.rows.encoder_step > 0.0
                            ? recording.rows.encoder_step
                            : quantisation_step({recording.position.data(), static_cast<std::size_t>(n)});
@@ -86,8 +95,8 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   track.enabled = recording.enabled;
   auto const runs = runs_of(recording, n);
   validate(!runs.empty(), [&] {
-    Problem problem{ExitCode::bad_data,
-                    fmt::format("{} has no {} samples in a row that could be simulated", recording.name, fewest_samples)};
+    Problem problem{ExitCode::bad_data, fmt::format("{} has no {} samples in a row that could be simulated",
+                                                    recording.name, fewest_samples)};
     problem.help = "leave less of it out (recording.leave_out), or record a stretch without gaps";
     return problem;
   });
@@ -95,7 +104,8 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   auto const window = std::max<Eigen::Index>(fewest_samples / 2, std::llround(options.window_s * track.rate_hz));
   track.segments = is_open ? in_windows(runs, window) : runs;
   for (auto& segment : track.segments) {
-    auto const run = std::find_if(runs.rbegin(), runs.rend(), [&](auto const& one) { return one.first <= segment.first; });
+    auto const run =
+        std::find_if(runs.rbegin(), runs.rend(), [&](auto const& one) { return one.first <= segment.first; });
     segment.position = track.position[segment.first];
     segment.velocity = velocity_at(track, run->first, segment.first, run->first + run->samples);
     segment.torque = track.torque[std::max(segment.first - 1, run->first)];

@@ -86,7 +86,7 @@ std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> 
 void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
                     std::vector<Recording> const& unseen) {
   std::vector<Problem> problems;
-  auto const check = [&](char const* channel, Eigen::VectorXd Recording::* values) {
+  auto const check = [&](char const* channel, Eigen::VectorXd Recording::*values) {
     auto const column = options.columns.find(channel);
     auto const has_it = [&](Recording const& one) { return (one.*values).size() > 0; };
     if (column == options.columns.end() || std::any_of(train.begin(), train.end(), has_it) ||
@@ -160,10 +160,10 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options, Record
 }
 
 void forget_channels(Recording& recording) {
-  for (auto* channel : {&recording.time_s, &recording.position, &recording.torque, &recording.reference,
-                        &recording.velocity, &recording.acceleration, &recording.simulated_torque,
-                        &recording.simulated_position, &recording.added_command, &recording.external_torque,
-                        &recording.enabled})
+  for (auto* channel :
+       {&recording.time_s, &recording.position, &recording.torque, &recording.reference, &recording.velocity,
+        &recording.acceleration, &recording.simulated_torque, &recording.simulated_position, &recording.added_command,
+        &recording.external_torque, &recording.enabled})
     *channel = Eigen::VectorXd();
 }
 
@@ -293,11 +293,12 @@ void begin_rollouts_of(Experiment::Parts& parts, Experiment::Purpose purpose, st
   auto const sections = parts.job.all("estimator");
   for (std::size_t i = 0; i < std::min(sections.size(), plans.size()); ++i)
     if (!rolls_out(plans[i]))
-      problems.push_back(problem_at(*sections[i], "name",
-                                    fmt::format("{} fits rows, which know nothing of effects and loops that are searched "
-                                                "by rollouts",
-                                                plans[i].label),
-                                    "give it a job of its own, or write fitness = \"rollout\""));
+      problems.push_back(
+          problem_at(*sections[i], "name",
+                     fmt::format("{} fits rows, which know nothing of effects and loops that are searched "
+                                 "by rollouts",
+                                 plans[i].label),
+                     "give it a job of its own, or write fitness = \"rollout\""));
 }
 
 }  // namespace

@@ -15,9 +15,9 @@
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/loss.hpp"
 #include "engine/robot/robot_options.hpp"
+#include "engine/rollout/loop_options.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
-#include "engine/rollout/loop_options.hpp"
 #include "engine/simulate/simulation_plan.hpp"
 
 namespace torquescope {
@@ -88,7 +88,10 @@ void append(std::vector<OptionDescription>& options, std::vector<OptionDescripti
 void add_estimators(std::vector<CatalogueEntry>& entries) {
   for (auto const& choice : estimator_choices())
     entries.push_back({choice.name, "estimator", choice.title, {"source     " + choice.source}, choice.options});
-  entries.push_back({lm_name, "estimator", lm_title, {"source     Marquardt 1963, doi:10.1137/0111030"},
+  entries.push_back({lm_name,
+                     "estimator",
+                     lm_title,
+                     {"source     Marquardt 1963, doi:10.1137/0111030"},
                      LmOptions::table().describe()});
   for (auto const& choice : optimiser_choices()) {
     CatalogueEntry entry{choice.name, "optimiser", choice.title, {"source     " + choice.source}, choice.options};
@@ -137,11 +140,12 @@ void add_sections(std::vector<CatalogueEntry>& entries) {
                      "parameters of model.terms as they are known, for replay and as the start of rollouts",
                      {"inertia = 95.1    those that are left out are fitted by least squares"},
                      {}});
-  entries.push_back({"model.effects",
-                     "section",
-                     "one effect beside model.terms, for rollouts; written [[model.effects]], as often as there are effects",
-                     {"name = \"cogging\", and where its parameters begin: cogging_order = 7.0, ..."},
-                     {}});
+  entries.push_back(
+      {"model.effects",
+       "section",
+       "one effect beside model.terms, for rollouts; written [[model.effects]], as often as there are effects",
+       {"name = \"cogging\", and where its parameters begin: cogging_order = 7.0, ..."},
+       {}});
   add_section<LoopOptions>(entries);
   add_section<EstimatorOptions>(entries);
   add_section<SimulationOptions>(entries);

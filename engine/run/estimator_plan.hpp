@@ -63,7 +63,7 @@ struct EstimatorPlan {
   bool rolls_out() const { return lm || objective.fitness == "rollout"; }
 };
 
-// the estimator that fits simulations to recordings; it needs the recordings, not rows, so it is in no registry of those
+// the estimator that fits simulations to recordings; it needs these, not rows, so it is in no registry of those that do
 inline constexpr char lm_name[] = "lm", lm_title[] = "Levenberg-Marquardt on rollouts";
 
 // one plan per section, in their order

@@ -157,7 +157,10 @@ void write_model_code(ResultWriter& writer, std::string const& label, Regressor 
 
 void write_fitness_choice(ResultWriter& writer, std::string const& label, FitnessChoice const& choice) {
   std::string const group = group_of(label);
-  writer.attribute(group, "fitness_used", std::string(choice.by_rollouts ? "rollout" : choice.from_statistics ? "gram" : "direct"));
+  writer.attribute(group, "fitness_used",
+                   std::string(choice.by_rollouts       ? "rollout"
+                               : choice.from_statistics ? "gram"
+                                                        : "direct"));
   writer.attribute(group, "fitness_reason", choice.words);
 }
 

@@ -77,7 +77,8 @@ RunResults run_lm(Study const& study, EstimatorPlan const& plan) {
   StageProgress progress(study.progress, plan.label, 1, 1);
   RolloutFit const fit = fit_by_rollouts(study.parts, *plan.lm, options.threads.count, options.stop_requested);
   if (options.stop_requested && options.stop_requested())
-    throw Error(Problem{ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
+    throw Error(
+        Problem{ExitCode::stopped, "stopped: nothing was published", {}, {}, {}, {}, "run the same command again"});
   RunResults results;
   RolloutObjective const objective(*study.parts.rollout, study.parts.box);
   keep_run(objective.fitness_of(fit.parameters), fit.parameters, fit.failed ? "diverged" : "converged", fit.evaluations,
@@ -88,8 +89,9 @@ RunResults run_lm(Study const& study, EstimatorPlan const& plan) {
     options.tell("warning", fmt::format("{} ends on the bound of {}: the recordings do not say what it is", plan.label,
                                         fmt::join(fit.at_bounds, ", ")));
   if (fit.failed && options.tell)
-    options.tell("warning", plan.label +
-                                ": the simulation diverges at its start; check [loop], or give [model.given] near values");
+    options.tell(
+        "warning",
+        plan.label + ": the simulation diverges at its start; check [loop], or give [model.given] near values");
   progress.count_evaluations(fit.evaluations);
   progress.count_run();
   return results;
@@ -212,7 +214,8 @@ IdentifyReport write_result(Experiment experiment, Attempt& attempt, bool merges
         plan.is_closed_form() ? run_closed_form(study, plan) : run_population_method(study, plan);
     write_results(writer, plan, results, plan.rolls_out() ? rollout_error_unit(parts) : study.torque_unit,
                   parts.parameter_names());
-    if (parts.regressor && parts.parameters() == parts.row_parameters()) write_model_code(writer, plan.label, *parts.regressor, results);
+    if (parts.regressor && parts.parameters() == parts.row_parameters())
+      write_model_code(writer, plan.label, *parts.regressor, results);
     if (parts.arm) write_arm_accuracy(writer, plan.label, parts, results);
     if (!plan.is_closed_form()) warn_of_bounds(study, plan, results);
     if (plan.rolls_out()) write_rollout_errors(writer, plan.label, parts);

@@ -14,8 +14,8 @@
 #include "engine/run/code_identity.hpp"
 #include "engine/run/optimise.hpp"
 #include "engine/run/provenance_writer.hpp"
-#include "engine/run/run_scheduler.hpp"
 #include "engine/run/rollout_objective.hpp"
+#include "engine/run/run_scheduler.hpp"
 #include "engine/run/search_identity.hpp"
 #include "engine/run/stage_progress.hpp"
 

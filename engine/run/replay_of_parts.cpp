@@ -24,8 +24,8 @@ LoopSetting settled_loop(RolloutParts const& rollout) {
   return setting;
 }
 
-RolloutModel model_with(Experiment::Parts const& parts, RolloutParts const& rollout, Eigen::VectorXd const& terms, JointScales const& scales,
-                        std::vector<ModelEffect> const& effects) {
+RolloutModel model_with(Experiment::Parts const& parts, RolloutParts const& rollout, Eigen::VectorXd const& terms,
+                        JointScales const& scales, std::vector<ModelEffect> const& effects) {
   return {*parts.regressor, terms, scales, effects, settled_loop(rollout)};
 }
 
@@ -84,16 +84,19 @@ std::vector<ReplaySource> sources_of_job(Experiment::Parts const& parts, Rollout
   for (auto const& given : rollout.plan.effects)
     for (auto const& parameter : given.effect->parameters())
       validate(given.values.contains(parameter.name), [&] {
-        Problem problem{ExitCode::bad_job, fmt::format("[[model.effects]] {} has no {}", given.effect->name(),
-                                                       parameter.name)};
-        problem.help = "write it, or let `torquescope run` fit it with [[estimator]] name = \"lm\" and replay the result";
+        Problem problem{ExitCode::bad_job,
+                        fmt::format("[[model.effects]] {} has no {}", given.effect->name(), parameter.name)};
+        problem.help =
+            "write it, or let `torquescope run` fit it with [[estimator]] name = \"lm\" and replay the result";
         return problem;
       });
-  sources.push_back(source_of("with the effects of the job", model_with(parts, rollout, terms, scales, rollout.plan.effects)));
+  sources.push_back(
+      source_of("with the effects of the job", model_with(parts, rollout, terms, scales, rollout.plan.effects)));
   return sources;
 }
 
-std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, RolloutParts const& rollout, Diagnosis const& diagnosis) {
+std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, RolloutParts const& rollout,
+                                               Diagnosis const& diagnosis) {
   std::vector<ReplaySource> sources;
   if (diagnosis.joints.empty()) return sources;
   JointDiagnosis const& joint = diagnosis.joints.front();
@@ -103,13 +106,14 @@ std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, R
   sources.push_back(source_of(as_identified, model_with(parts, rollout, *before, scales, {})));
   auto const after = terms_of(*parts.regressor, joint.augmented);
   if (after && !joint.effects.empty())
-    sources.push_back(
-        source_of("with what was named", model_with(parts, rollout, *after, scales, effects_of(joint, *parts.regressor))));
+    sources.push_back(source_of("with what was named",
+                                model_with(parts, rollout, *after, scales, effects_of(joint, *parts.regressor))));
   return sources;
 }
 
-void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label, std::vector<std::string> const& names,
-                       std::vector<double> const& parameters, std::vector<ReplaySource>& sources) {
+void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label,
+                       std::vector<std::string> const& names, std::vector<double> const& parameters,
+                       std::vector<ReplaySource>& sources) {
   RolloutModel const& model = *rollout.model;
   Eigen::VectorXd values(static_cast<Eigen::Index>(model.size()));
   for (std::size_t k = 0; k < model.size(); ++k) {
@@ -122,13 +126,15 @@ void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollo
   // where rollouts began, so that a fit by them shows what it gained
   bool const is_first = sources.empty();
   if (is_first && parts.rolls_out())
-    sources.push_back(source_of("by least squares", model_with(parts, rollout, model.start().head(static_cast<Eigen::Index>(
-                                                                          parts.regressor->size())),
-                                                               model.structure().scales, {})));
+    sources.push_back(
+        source_of("by least squares",
+                  model_with(parts, rollout, model.start().head(static_cast<Eigen::Index>(parts.regressor->size())),
+                             model.structure().scales, {})));
   sources.push_back({label, model, values});
 }
 
-Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources, int threads) {
+Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources,
+                 int threads) {
   Replay replay;
   for (auto const& source : sources) replay.models.push_back(source.name);
   replay.after = sources.size() - 1;
@@ -142,8 +148,8 @@ Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, st
     RolloutTrack const& track = data.tracks[k];
     std::vector<ReplayedModel> models;
     for (auto const& source : sources)
-      models.push_back({source.model.structure_for(source.parameters, track.tick_s()),
-                        source.model.trial(source.parameters)});
+      models.push_back(
+          {source.model.structure_for(source.parameters, track.tick_s()), source.model.trial(source.parameters)});
     RecordingReplay made = replay_recording(data.recordings[k], track, data.velocity[k], models);
     made.is_validation = is_validation;
     made.loop = word(data.origins[k]);
@@ -151,12 +157,12 @@ Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, st
     if (track.drive == TrackDrive::torque)
       made.window_s = rollout.plan.loop.window_s;
     else
-      made.loop_error = track.law ? loop_error(*track.law, track) : loop_error(models.back().trial.loop, models.back().structure.speed_samples, track);
+      made.loop_error = track.law ? loop_error(*track.law, track)
+                                  : loop_error(models.back().trial.loop, models.back().structure.speed_samples, track);
     replay.recordings[i] = std::move(made);
   });
-  bool const has_simulator = std::any_of(replay.recordings.begin(), replay.recordings.end(), [&](auto const& one) {
-    return one.diverged.size() > sources.size();
-  });
+  bool const has_simulator = std::any_of(replay.recordings.begin(), replay.recordings.end(),
+                                         [&](auto const& one) { return one.diverged.size() > sources.size(); });
   if (!has_simulator) return replay;
   replay.models.emplace_back(users_simulator);
   // a recording without the simulator's columns has nothing of it

@@ -24,10 +24,12 @@ struct ReplaySource {
 // Errors     Error 78 where [[model.effects]] have none
 std::vector<ReplaySource> sources_of_job(Experiment::Parts const& parts, RolloutParts const& rollout);
 // before and after what was named; one where nothing was
-std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, RolloutParts const& rollout, Diagnosis const& diagnosis);
+std::vector<ReplaySource> sources_of_diagnosis(Experiment::Parts const& parts, RolloutParts const& rollout,
+                                               Diagnosis const& diagnosis);
 // names: of the parameters as the result has them; one without a number of a parameter of the job is left out
-void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label, std::vector<std::string> const& names,
-                       std::vector<double> const& parameters, std::vector<ReplaySource>& sources);
+void add_source_of_run(Experiment::Parts const& parts, RolloutParts const& rollout, std::string const& label,
+                       std::vector<std::string> const& names, std::vector<double> const& parameters,
+                       std::vector<ReplaySource>& sources);
 
 Replay replay_of(Experiment::Parts const& parts, RolloutParts const& rollout, std::vector<ReplaySource> const& sources,
                  int threads);

@@ -62,7 +62,8 @@ StoredModels stored_models(std::filesystem::path const& file) {
   StoredModels stored;
   auto const text = in.text_column("/job/text");
   validate(!text.empty(), [&] {
-    return Problem{.code = ExitCode::bad_data, .what = file.string() + " holds no job to replay",
+    return Problem{.code = ExitCode::bad_data,
+                   .what = file.string() + " holds no job to replay",
                    .help = "replay takes a job, or a result of run or diagnose"};
   });
   stored.job_text = text.front();
@@ -80,8 +81,8 @@ Job job_of_result(StoredModels const& stored, ReplayRequest const& request) {
   if (request.job.empty()) return parse_job(stored.job_text, request.source.filename().replace_extension(".toml"));
   Job job = read_job(request.job);
   validate(job.sha256 == stored.job_sha256, [&] {
-    Problem problem{ExitCode::bad_job, fmt::format("{} is not the job that made {}", request.job.string(),
-                                                   request.source.string())};
+    Problem problem{ExitCode::bad_job,
+                    fmt::format("{} is not the job that made {}", request.job.string(), request.source.string())};
     problem.help = "name the job file as it was then, or replay the job itself";
     return problem;
   });
@@ -123,7 +124,8 @@ Experiment load_for_replay(ReplayRequest const& request, std::vector<ReplaySourc
   } else {
     for (auto const& estimate : stored->estimates)
       if (request.estimator.empty() || estimate.label == request.estimator)
-        add_source_of_run(experiment.parts(), *experiment.parts().rollout, estimate.label, stored->names, estimate.parameters, sources);
+        add_source_of_run(experiment.parts(), *experiment.parts().rollout, estimate.label, stored->names,
+                          estimate.parameters, sources);
   }
   validate(!sources.empty(), [&] {
     Problem problem{ExitCode::bad_data, request.source.string() + " holds no parameters of a joint"};

@@ -14,10 +14,10 @@
 namespace torquescope {
 
 struct ReplayRequest {
-  std::filesystem::path source;            // a job, or a result of run or diagnose
-  std::filesystem::path job{};             // of a result: where its job stands, so that its paths are found
-  std::vector<std::string> recordings{};   // in place of the job's validation
-  std::string estimator{};                 // of a result with runs: this one alone
+  std::filesystem::path source;           // a job, or a result of run or diagnose
+  std::filesystem::path job{};            // of a result: where its job stands, so that its paths are found
+  std::vector<std::string> recordings{};  // in place of the job's validation
+  std::string estimator{};                // of a result with runs: this one alone
   ThreadChoice threads{};
 };
 

@@ -24,9 +24,12 @@ using Json = nlohmann::ordered_json;
 
 char const* unit_of(ReplayChannel channel, bool is_prismatic) {
   switch (channel) {
-    case ReplayChannel::position: return is_prismatic ? "m" : "rad";
-    case ReplayChannel::velocity: return is_prismatic ? "m/s" : "rad/s";
-    case ReplayChannel::torque: break;
+    case ReplayChannel::position:
+      return is_prismatic ? "m" : "rad";
+    case ReplayChannel::velocity:
+      return is_prismatic ? "m/s" : "rad/s";
+    case ReplayChannel::torque:
+      break;
   }
   return is_prismatic ? "N" : "N m";
 }
@@ -43,13 +46,13 @@ void write_channel(ResultWriter& writer, std::string const& group, ReplayChannel
   writer.attribute(group, "unit", unit);
   writer.attribute(group, "signal_rms", channel.signal_rms);
   writer.numbers(group + "/measured", {n}, {channel.measured.data(), n}, {unit, word(which) + " as recorded"});
-  writer.numbers_in_blocks(
-      group + "/simulated", {models, n},
-      [&](std::size_t first, std::span<double> values) {
-        for (std::size_t row = 0; row * n < values.size(); ++row)
-          std::copy_n(channel.simulated[first + row].data(), n, values.begin() + static_cast<std::ptrdiff_t>(row * n));
-      },
-      {unit, word(which) + " as simulated, by model"});
+  writer.numbers_in_blocks(group + "/simulated", {models, n},
+                           [&](std::size_t first, std::span<double> values) {
+                             for (std::size_t row = 0; row * n < values.size(); ++row)
+                               std::copy_n(channel.simulated[first + row].data(), n,
+                                           values.begin() + static_cast<std::ptrdiff_t>(row * n));
+                           },
+                           {unit, word(which) + " as simulated, by model"});
   std::vector<std::int64_t> samples;
   std::vector<double> rms, mae, relerr;
   for (auto const& error : channel.errors) {
@@ -125,8 +128,8 @@ void write_replay_file(Experiment const& experiment, Replay const& replay, std::
       return problem;
     });
   }
-  ResultWriter writer(output, {.gzip = experiment.parts().output.compression == "gzip",
-                               .inputs_sha256 = experiment.inputs_sha256()});
+  ResultWriter writer(
+      output, {.gzip = experiment.parts().output.compression == "gzip", .inputs_sha256 = experiment.inputs_sha256()});
   write_study(writer, experiment);
   write_replay(writer, replay);
   finish_result(writer, output, threads, beginning);

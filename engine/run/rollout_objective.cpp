@@ -6,12 +6,9 @@
 namespace torquescope {
 
 RolloutObjective::RolloutObjective(RolloutParts const& rollout, Bounds bounds)
-    : rollout_(rollout),
-      bounds_(std::move(bounds)),
-      task_{rollout.train.tracks, {}, channels_of(rollout.plan.loop)} {
+    : rollout_(rollout), bounds_(std::move(bounds)), task_{rollout.train.tracks, {}, channels_of(rollout.plan.loop)} {
   RolloutModel const& model = *rollout.model;
-  for (auto const& track : task_.tracks)
-    task_.structures.push_back(model.structure_for(model.start(), track.tick_s()));
+  for (auto const& track : task_.tracks) task_.structures.push_back(model.structure_for(model.start(), track.tick_s()));
   double counted = 0.0;
   for (std::size_t channel = 0; channel < n_channels; ++channel) {
     double n = 0.0;
@@ -27,8 +24,8 @@ RolloutObjective::RolloutObjective(RolloutParts const& rollout, Bounds bounds)
 void RolloutObjective::evaluate(MatrixView<double const> candidates, std::span<double> fitness, Workspace&) const {
   std::vector<RolloutTrial> trials;
   for (std::size_t i = 0; i < candidates.rows(); ++i)
-    trials.push_back(rollout_.model->trial(Eigen::Map<Eigen::VectorXd const>(
-        candidates.row(i).data(), static_cast<Eigen::Index>(candidates.columns()))));
+    trials.push_back(rollout_.model->trial(
+        Eigen::Map<Eigen::VectorXd const>(candidates.row(i).data(), static_cast<Eigen::Index>(candidates.columns()))));
   auto const sums = sums_of_squares(task_, trials, 1);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     fitness[i] = 0.0;

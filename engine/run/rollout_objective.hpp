@@ -2,8 +2,8 @@
 // The fitness of a search by rollouts: squares of all samples of every channel that counts, each channel by its own
 // noise.
 //
-// Equation   fitness = mean over channels of S_c / (n_c v_c), v_c: mean square that the start leaves (RolloutParts); 1 at
-//            the start, inf where a rollout diverges
+// Equation   fitness = mean over channels of S_c / (n_c v_c), v_c: mean square that the start leaves (RolloutParts); 1
+//            at the start, inf where a rollout diverges
 // Shapes     candidates: members x parameters of the model, row-major
 // Bits       of a member: the same whatever stands beside it
 // Threads    const object, shared

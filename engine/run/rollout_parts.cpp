@@ -27,10 +27,10 @@ void read_effect(Section const& section, Regressor const& regressor, RolloutPlan
   auto const* const word = name ? std::get_if<std::string>(&name->value) : nullptr;
   Effect const* const effect = word ? find_effect(*word) : nullptr;
   if (effect == nullptr || !effect->exists_on(regressor.joint()) || effect->is_given() || effect->is_of_whole_arm()) {
-    problems.push_back(problem_at(section, "name",
-                                  word ? fmt::format("\"{}\" is no effect of such a joint", *word)
-                                       : "an effect of [[model.effects]] has no name",
-                                  "torquescope list effects"));
+    problems.push_back(problem_at(
+        section, "name",
+        word ? fmt::format("\"{}\" is no effect of such a joint", *word) : "an effect of [[model.effects]] has no name",
+        "torquescope list effects"));
     return;
   }
   ModelEffect given{effect, {}};
@@ -55,8 +55,7 @@ Eigen::VectorXd possible_start(Regressor const& regressor, Eigen::VectorXd start
   for (auto const* term : regressor.terms()) {
     double& value = start[at];
     at += static_cast<Eigen::Index>(term->n_linear());
-    if (term->name() == "inertia" && !(value > 0.0))
-      value = bound_value({0.1, RelativeTo::inertia}, scales);
+    if (term->name() == "inertia" && !(value > 0.0)) value = bound_value({0.1, RelativeTo::inertia}, scales);
     if (term->name() == "coulomb") value = std::max(value, 0.0);
   }
   return start;
@@ -64,9 +63,28 @@ Eigen::VectorXd possible_start(Regressor const& regressor, Eigen::VectorXd start
 
 std::string said(LoopForm form, LoopOrigin origin) {
   switch (origin) {
-    case LoopOrigin::given: return fmt::format("controller {} as [loop] gives it", word(form));
-    case LoopOrigin::fitted: return fmt::format("controller {} with gains from the recording", word(form));
-    default: return {};
+    case LoopOrigin::given:
+      return fmt::format("controller {} as [loop] gives it", word(form));
+    case LoopOrigin::fitted:
+      return fmt::format("controller {} with gains from the recording", word(form));
+    default:
+      return {};
+  }
+}
+
+// Recordings of one rig have one controller. Where something else acts on a recording (pulses), its own law is bent by
+// that; the law of the first training recording is taken where it answers the recorded torque more closely
+void share_law(RolloutData const& train, RolloutData& data) {
+  auto const& law = train.tracks.front().law;
+  if (!law || law->integral != 0.0) return;
+  for (std::size_t k = 0; k < data.tracks.size(); ++k) {
+    auto& track = data.tracks[k];
+    if (!track.law || (track.law->integral == 0.0 && loop_error(*track.law, track) <= loop_error(*law, track)))
+      continue;
+    track.law = law;
+    data.origins[k] = train.origins.front();
+    data.loop_words[k] = fmt::format("the controller of {}, which fits this recording better than one of its own",
+                                     train.tracks.front().name);
   }
 }
 
@@ -100,11 +118,16 @@ LoopSetting with_loop_of(LoopSetting setting, LoopOptions const& loop, std::vect
 
 std::string word(LoopOrigin origin) {
   switch (origin) {
-    case LoopOrigin::given: return "given";
-    case LoopOrigin::fitted: return "fitted";
-    case LoopOrigin::identified: return "identified";
-    case LoopOrigin::approximated: return "approximated";
-    case LoopOrigin::none: break;
+    case LoopOrigin::given:
+      return "given";
+    case LoopOrigin::fitted:
+      return "fitted";
+    case LoopOrigin::identified:
+      return "identified";
+    case LoopOrigin::approximated:
+      return "approximated";
+    case LoopOrigin::none:
+      break;
   }
   return "none";
 }
@@ -149,8 +172,8 @@ RolloutData rollout_data(std::vector<Recording> recordings, LoopOptions const& l
     if (form == LoopForm::none) seen.reference.resize(0);
     RolloutTrack track = track_of(seen, track_options(loop));
     LoopOrigin origin = form == LoopForm::identified || form == LoopForm::none ? LoopOrigin::none
-                        : missing_gains(loop).empty()                            ? LoopOrigin::given
-                                                                                 : LoopOrigin::fitted;
+                        : missing_gains(loop).empty()                          ? LoopOrigin::given
+                                                                               : LoopOrigin::fitted;
     std::string words = said(form, origin);
     if (track.drive == TrackDrive::torque) {
       origin = LoopOrigin::none;
@@ -180,6 +203,8 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   LoopOptions const& loop = rollout.plan.loop;
   rollout.train = rollout_data(std::move(train), loop, filter, filter_section);
   rollout.validate = rollout_data(std::move(validate), loop, filter, filter_section);
+  share_law(rollout.train, rollout.train);
+  share_law(rollout.train, rollout.validate);
   rollout.least_squares = plain_least_squares(rows, 0).parameters;
   Recording const& first = rollout.train.recordings.front();
   Motion const motion = differentiate(first, filter, filter_section);
@@ -209,8 +234,8 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
       if (data->origins[k] == LoopOrigin::given || data->origins[k] == LoopOrigin::fitted)
         data->loop_words[k] += setting.speed_samples == 0
                                    ? ", which sees the joint's speed"
-                                   : fmt::format(", whose speed is a difference over {} sample{}", setting.speed_samples,
-                                                 setting.speed_samples == 1 ? "" : "s");
+                                   : fmt::format(", whose speed is a difference over {} sample{}",
+                                                 setting.speed_samples, setting.speed_samples == 1 ? "" : "s");
   rollout.model.emplace(regressor, start, scales_with(start), rollout.plan.effects, setting);
   RolloutTask task{rollout.train.tracks, {}, channels_of(loop)};
   for (auto const& track : task.tracks)

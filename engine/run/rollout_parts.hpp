@@ -30,9 +30,9 @@ std::string word(LoopOrigin origin);
 
 struct RolloutData {
   std::vector<Recording> recordings;
-  std::vector<RolloutTrack> tracks{};      // one per recording
-  std::vector<LoopOrigin> origins{};       // of each track's loop
-  std::vector<std::string> loop_words{};   // a sentence each
+  std::vector<RolloutTrack> tracks{};       // one per recording
+  std::vector<LoopOrigin> origins{};        // of each track's loop
+  std::vector<std::string> loop_words{};    // a sentence each
   std::vector<Eigen::VectorXd> velocity{};  // [n] as it was derived
 };
 
@@ -49,9 +49,9 @@ struct RolloutParts {
   RolloutPlan plan;
   std::vector<std::string> names, units;  // of all parameters, known before the data
   RolloutData train{}, validate{};
-  Eigen::VectorXd least_squares{};     // of the regressor, as fitted; the start of the model may differ
+  Eigen::VectorXd least_squares{};  // of the regressor, as fitted; the start of the model may differ
   std::optional<RolloutModel> model{};
-  ChannelNumbers variance{};           // of each channel's residual at the start: what a search weighs it by
+  ChannelNumbers variance{};  // of each channel's residual at the start: what a search weighs it by
 };
 
 // names and units of all parameters

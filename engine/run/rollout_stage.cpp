@@ -45,7 +45,8 @@ std::vector<PredictionMetrics> metrics_on(RolloutParts const& rollout, RolloutDa
       all.push_back({none, none, none, none, none});
       continue;
     }
-    all.push_back({mse, squares, std::sqrt(squares / energy), average, std::sqrt(std::max(0.0, mse - average * average))});
+    all.push_back(
+        {mse, squares, std::sqrt(squares / energy), average, std::sqrt(std::max(0.0, mse - average * average))});
   }
   return all;
 }

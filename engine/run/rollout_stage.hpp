@@ -1,8 +1,8 @@
 #pragma once
 // Estimators that simulate the recordings: the fit of one, errors of all, and what the result file says of them.
 //
-// Errors     of a table are of the torque over all samples of every recording, in closed loop; of the position where the
-//            torque does not count
+// Metrics    of a table are of the torque over all samples of every recording, in closed loop; of the position where
+//            the torque does not count
 // Threads    spreads rollouts over `threads`
 
 #include "engine/rollout/rollout_fit.hpp"

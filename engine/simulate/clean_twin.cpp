@@ -8,8 +8,8 @@
 #include "engine/base/contract.hpp"
 #include "engine/base/random_stream.hpp"
 #include "engine/simulate/lane_controller.hpp"
-#include "engine/simulate/lane_noise.hpp"
 #include "engine/simulate/lane_motion.hpp"
+#include "engine/simulate/lane_noise.hpp"
 #include "engine/simulate/sticking_lanes.hpp"
 
 namespace torquescope {

@@ -55,7 +55,8 @@ HWY_INLINE void accelerate(LaneJoints const& joints, LaneTorques const& torques,
     hn::Store(hn::Load(d, state.q + lane), d, a.from + lane);
     if constexpr (has_weight) {
       V const s = hn::Load(d, sine + lane), c = hn::Load(d, cosine + lane);
-      V const gravity_sin = hn::Load(d, joints.gravity_sin + lane), gravity_cos = hn::Load(d, joints.gravity_cos + lane);
+      V const gravity_sin = hn::Load(d, joints.gravity_sin + lane),
+              gravity_cos = hn::Load(d, joints.gravity_cos + lane);
       V const weight = hn::Add(hn::Mul(gravity_sin, s), hn::Mul(gravity_cos, c));
       V const slope = hn::Sub(hn::Mul(gravity_sin, c), hn::Mul(gravity_cos, s));
       hn::Store(hn::Mul(weight, per_inertia), d, a.weight + lane);

@@ -23,8 +23,7 @@ LaneMotion::LaneMotion(LaneDryFriction const& dry, std::vector<LaneEffectMaker> 
 }
 
 void LaneMotion::advance(LaneJoints const& joints, std::size_t steps, LaneSticking* sticking, LaneState& state) const {
-  if (sticking != nullptr)
-    return advance_sticking_lanes(joints, torques_, steps_.step_s, steps, *sticking, state);
+  if (sticking != nullptr) return advance_sticking_lanes(joints, torques_, steps_.step_s, steps, *sticking, state);
   advance_lanes(joints, torques_, steps_.step_s, steps, state);
 }
 
@@ -58,8 +57,8 @@ void LaneMotion::move_on(LaneJoints const& joints, double time_s, std::size_t st
 void LaneMotion::advance_tick(LaneJoints const& joints, double time_s, double const* command, double const* acts,
                               double const* level, LaneSticking* sticking, LaneState& state) {
   for (std::size_t step = 0; step < steps_.steps; step += steps_.held)
-    move_on(joints, time_s + static_cast<double>(step) * steps_.step_s,
-            std::min(steps_.held, steps_.steps - step), command, acts, level, sticking, state);
+    move_on(joints, time_s + static_cast<double>(step) * steps_.step_s, std::min(steps_.held, steps_.steps - step),
+            command, acts, level, sticking, state);
 }
 
 }  // namespace torquescope

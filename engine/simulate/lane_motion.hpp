@@ -1,6 +1,6 @@
 #pragma once
-// A joint with its effects over one tick, for all lanes: what the loop gave is held, effects that follow steps are asked
-// at every step, the others once for several.
+// A joint with its effects over one tick, for all lanes: what the loop gave is held, effects that follow steps are
+// asked at every step, the others once for several.
 //
 // Use        one object per group of lanes and recording: effects remember
 // Units      SI; times since the start of the recording

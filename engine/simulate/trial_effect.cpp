@@ -31,8 +31,8 @@ LaneBaseline gathered(LaneBaseline baseline, std::vector<std::size_t> const& lan
   LaneJoints const all = baseline.joint;
   baseline.joint = {};
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    baseline.joint.set(i, {all.inertia[lanes[i]], all.viscous[lanes[i]], all.gravity_sin[lanes[i]],
-                           all.gravity_cos[lanes[i]]});
+    baseline.joint.set(
+        i, {all.inertia[lanes[i]], all.viscous[lanes[i]], all.gravity_sin[lanes[i]], all.gravity_cos[lanes[i]]});
   return baseline;
 }
 

@@ -76,8 +76,7 @@ void LaneJoints::set(std::size_t lane, LaneJoint const& joint) {
 
 void advance_lanes(LaneJoints const& joints, LaneTorques const& torques, double step_s, std::size_t steps,
                    LaneState& state) {
-  if (!joints.has_weight)
-    return TORQUESCOPE_DISPATCH(advance_light)(joints, torques, step_s, steps, state);
+  if (!joints.has_weight) return TORQUESCOPE_DISPATCH(advance_light)(joints, torques, step_s, steps, state);
   alignas(64) double sine[twin_lanes], cosine[twin_lanes];
   kernels::cosine_sine_of_multiple(1.0, state.q, twin_lanes, cosine, sine);
   TORQUESCOPE_DISPATCH(advance_heavy)(joints, torques, sine, cosine, step_s, steps, state);

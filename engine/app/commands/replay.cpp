@@ -34,8 +34,7 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
   std::vector<ReplaySource> sources;
   Experiment const experiment = load_for_replay(request, sources);
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
-  Replay const replay =
-      replay_of(experiment.parts(), *experiment.parts().rollout, sources, request.threads.count);
+  Replay const replay = replay_of(experiment.parts(), *experiment.parts().rollout, sources, request.threads.count);
   session.result(replay_text(replay, session.result_ink()));
   session.document(replay_json(replay));
   if (!arguments.csv.empty()) {
@@ -45,8 +44,8 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
     file.publish();
     session.note(session.topic_line("wrote", printable(arguments.csv)));
   }
-  std::filesystem::path const output =
-      arguments.out.empty() ? std::filesystem::path(experiment.name() + "_replay.h5") : std::filesystem::path(arguments.out);
+  std::filesystem::path const output = arguments.out.empty() ? std::filesystem::path(experiment.name() + "_replay.h5")
+                                                             : std::filesystem::path(arguments.out);
   write_replay_file(experiment, replay, output, request.threads);
   note_whereabouts(session, "wrote", output, session.options().json);
   return ExitCode::ok;
@@ -57,7 +56,8 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
 void add_replay(CLI::App& app, ChosenCommand& chosen) {
   auto const arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand(
-      "replay", "Simulates every recording in its own loop, from its own reference, and sets it beside the measurement.");
+      "replay",
+      "Simulates every recording in its own loop, from its own reference, and sets it beside the measurement.");
   command->footer(
       "  torquescope replay lab.toml                  as least squares identifies it\n"
       "  torquescope replay lab_diagnosis.h5          before and after what was named\n"

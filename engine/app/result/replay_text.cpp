@@ -25,9 +25,7 @@ std::string value_text(double value, bool diverged) {
   return diverged ? "diverged" : std::isnan(value) ? "-" : short_number(value);
 }
 
-std::string share_text(double value, bool diverged) {
-  return diverged || std::isnan(value) ? "" : percent_text(value);
-}
+std::string share_text(double value, bool diverged) { return diverged || std::isnan(value) ? "" : percent_text(value); }
 
 // a line for every model of a channel
 void add_rows(Replay const& replay, RecordingReplay const& one, TextTable& table) {
@@ -63,16 +61,16 @@ std::string drive_text(RecordingReplay const& one) {
 }  // namespace
 
 std::string replay_text(Replay const& replay, Ink const& ink) {
-  TextTable table({Align::left, Align::left, Align::left, Align::right, Align::right, Align::right, Align::left,
-                   Align::right},
-                  "  ");
+  TextTable table(
+      {Align::left, Align::left, Align::left, Align::right, Align::right, Align::right, Align::left, Align::right},
+      "  ");
   table.row({"recording", "channel", "model", "samples", "rms", "MAE", "", "error"});
   for (auto const& one : replay.recordings) add_rows(replay, one, table);
   std::string text = table.text(200);
   text += "  All samples count. error: rms over that of the torque, or of the motion about its mean.\n\n";
   for (auto const& one : replay.recordings) {
-    text += fmt::format("  {}{}\n    loop     {}\n", ink.name(printable(one.name)), one.is_validation ? " (unseen)" : "",
-                        drive_text(one));
+    text += fmt::format("  {}{}\n    loop     {}\n", ink.name(printable(one.name)),
+                        one.is_validation ? " (unseen)" : "", drive_text(one));
     if (std::isfinite(one.horizon_s))
       text += fmt::format("    horizon  {:.4g} s: replicates then differ as much as simulation and recording\n",
                           one.horizon_s);

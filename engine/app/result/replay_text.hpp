@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/app/terminal/colour.hpp"
-#include "engine/rollout/replay.hpp"
+#include "engine/run/replay_workflow.hpp"
 
 namespace torquescope {
 

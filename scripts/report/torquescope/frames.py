@@ -3,6 +3,7 @@
 import numpy as np
 
 from .errors import UsageError
+from .reader.read_result import rolls_out
 
 # dimensions of the datasets of an estimator (engine/store/RESULT_FORMAT.md); others have one number a run
 RUNS = {"parameters": ("run", "parameter"), "standard_error": ("run", "parameter"),
@@ -47,8 +48,13 @@ def _parameters_of_run(result):
 
 
 def _estimators(result):
-    return [{"estimator": name, **{key: one.get(key, np.nan) for key in SUMMARY}}
-            for name, one in result.estimators.items()], "estimator"
+    rows = []
+    for name, one in result.estimators.items():
+        row = {"estimator": name, **{key: one.get(key, np.nan) for key in SUMMARY}}
+        if simulates := rolls_out(one):
+            row["gap_median"] = np.nan  # what the file has there is the fitness
+        rows.append({**row, "errors_of": "simulated samples" if simulates else "rows"})
+    return rows, "estimator"
 
 
 def _parameters_of_diagnosis(result):
@@ -115,6 +121,8 @@ def _variable(group, name, dims):
 def _of_rows(result, data, joint):
     import xarray
     names, attributes = result.model.names, data.attributes()
+    if "regressor" in data:
+        names = names[:data["regressor"].shape[1]]  # effects and loops that are simulated have no column
     if "arm" in result:
         number = joint or 1
         data = getattr(data, f"joint_{number}")

@@ -1,5 +1,7 @@
 """The figures of the page, one by one: matplotlib figures that show themselves in a notebook."""
 
+import re
+
 from .errors import UsageError
 from .page import style
 from .page.diagnosed import figure_name
@@ -31,11 +33,13 @@ class Plots:
 
     def trace(self, number=None, joint=1, narrow=False):
         """Torque over time, and what models leave of it: of a diagnosis of its number-th recording (the last, where
-        none is given), of a run of the unseen recording, or the training one."""
+        none is given), of a run of the unseen recording, or the training one, beside its simulation where nothing
+        else was fitted."""
         if self._study.diagnosis:
             traces = self._study_joint(joint).traces
             return self(self._of_joint(joint, f"trace_{number or len(traces)}"), narrow)
         found = [name for name in self._cases if name.startswith(("torque_trace", "joint_torque"))]
+        found = found or [name for name in self._cases if re.fullmatch(r"replay_\d+", name)]
         return self(found[(number or 1) - 1] if found else "torque_trace", narrow)
 
     def _study_joint(self, joint):

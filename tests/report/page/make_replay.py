@@ -64,7 +64,8 @@ def write_recording(group, name, purpose, rate_hz, signals, *, drive="reference"
                     loop_words=LOOP_WORDS, loop_error=0.031, horizon_s=np.nan, diverged=(), channels=None):
     """signals: time, measured [3][n], simulated [M][3][n]; diverged: indices of models."""
     time, measured, simulated = signals
-    tell(group, name=name, purpose=purpose, rate_hz=float(rate_hz), samples=len(time), drive=drive, window_s=window_s,
+    samples = int(np.isfinite(simulated[0, 0]).sum())
+    tell(group, name=name, purpose=purpose, rate_hz=float(rate_hz), samples=samples, drive=drive, window_s=window_s,
          loop=loop, loop_words=loop_words, loop_error=loop_error, horizon_s=horizon_s)
     put(group, "time", time, "s")
     gone = np.array([at in diverged for at in range(len(simulated))])
@@ -75,17 +76,20 @@ def write_recording(group, name, purpose, rate_hz, signals, *, drive="reference"
 
 
 def write_channel(group, unit, measured, simulated, gone, about_mean):
-    error = measured - simulated
+    """What is not simulated is NaN: all of a model that says nothing, or what the job leaves out."""
+    error, known = measured - simulated, np.isfinite(simulated)
     about = measured - measured.mean() if about_mean else measured
     signal = np.sqrt((about**2).mean())
-    silent = gone | np.isnan(simulated).any(1)
-    rms = np.where(silent, np.nan, np.sqrt((error**2).mean(1)))
+    samples = known.sum(1)
+    mean = lambda values: np.where(  # noqa: E731
+        gone | (samples == 0), np.nan, np.where(known, values, 0.0).sum(1) / np.maximum(samples, 1))
+    rms = np.sqrt(mean(error**2))
     tell(group, unit=unit, signal_rms=signal)
     put(group, "measured", measured, unit)
     put(group, "simulated", simulated, unit)
-    put(group, "samples", np.where(np.isnan(simulated).any(1), 0, len(measured)).astype(np.int64))
+    put(group, "samples", samples.astype(np.int64))
     put(group, "rms", rms, unit)
-    put(group, "mae", np.where(silent, np.nan, np.abs(error).mean(1)), unit)
+    put(group, "mae", mean(np.abs(error)), unit)
     put(group, "relerr", rms / signal)
 
 
@@ -170,6 +174,115 @@ def beside(file):
 
 
 BESIDE = {"named_replayed": "named", "crs_replayed": "crs"}  # what the file is otherwise
+
+# parameters that no row knows: of an effect and of the loop
+MORE = {"stribeck": ("N m", 0.49), "stribeck_speed": ("rad/s", 0.149), "stribeck_exponent": ("1", 2.0),
+        "loop_kp": ("", 4.1e7), "loop_torque_delay_s": ("s", 0.0)}
+LM_TITLE = "Levenberg-Marquardt on rollouts"
+
+
+def add_parameters(file):
+    """To the model; /data keeps the regressor's."""
+    model = file["model"]
+    for name, more, unit in (("names", list(MORE), "1"), ("units", [unit for unit, _ in MORE.values()], "1"),
+                             ("truth", [np.nan] * len(MORE), "SI"), ("lower", [0.0] * len(MORE), "SI"),
+                             ("upper", [1e9] * len(MORE), "SI")):
+        values = [*model[name][()], *(text.encode() if isinstance(text, str) else text for text in more)]
+        del model[name]
+        if name == "truth":
+            values = np.full(len(values), np.nan)
+        put(model, name, values, unit)
+
+
+def errors_of(file, label, purpose, channel):
+    """(mse, relerr, residual's mean and standard deviation, samples) over all samples of these recordings."""
+    replay = file["replay"]
+    at = [name.decode() for name in replay.attrs["models"]].index(label)
+    ones = [one for one in replay.values() if one.attrs["purpose"] == purpose.encode()]
+    left = np.concatenate([one[channel]["measured"][()] - one[channel]["simulated"][at] for one in ones])
+    left = left[np.isfinite(left)]
+    energy = sum(one[channel].attrs["signal_rms"] ** 2 * one[channel]["samples"][at] for one in ones)
+    return (left**2).mean(), np.sqrt((left**2).sum() / energy), left.mean(), left.std(), len(left)
+
+
+def write_rollout_errors(group, file, label, gone=False, channel="torque", unit="N m"):
+    """Of the median run; the others do as well as it."""
+    runs = len(group["parameters"])
+    if gone:
+        mse, relerr, mean, std, samples, unseen = (np.nan,) * 6
+    else:
+        mse, relerr, mean, std, samples = errors_of(file, label, "train", channel)
+        unseen = errors_of(file, label, "validate", channel)[1]
+    for name, value, of in (("mse", mse, f"({unit})2"), ("sse", mse * samples, f"({unit})2"), ("relerr", relerr, "1"),
+                            ("residual_std", std, unit), ("residual_mean", mean, unit),
+                            ("validation_relerr", unseen, "1")):
+        if name in group:
+            del group[name]
+        put(group, name, np.full(runs, value), of)
+    tell(group, mse_median=mse, mse_best=mse, mse_worst=mse, mse_std=0.0, relerr_median=relerr,
+         validation_relerr_median=unseen, residual_std_median=std, median_run=0, rollout_error_unit=unit,
+         remark="errors are of the torque on all samples, simulated in closed loop; of rows they would be others")
+
+
+def write_lm(file, values, at_bounds=(), gone=False, **judged):
+    """/runs/lm as the last estimator; a parameter at its bound has no error."""
+    group = file["runs"].create_group("lm")
+    order = [*file["runs"].attrs["order"], b"lm"] if len(file["runs"]) > 1 else [b"lm"]
+    tell(file["runs"], order=np.array(order))
+    bound = [name.decode() in at_bounds for name in file["model/names"][()]]
+    errors = np.where(bound, np.nan, 0.02 * np.abs(values) + 1e-4)
+    errors[np.abs(values) > 1e6] *= 100
+    tell(group, kind="lm", title=LM_TITLE, runs=1, evaluations_total=312, gap_median=np.nan if gone else 0.314, passes=2.0,
+         at_bounds=np.array([name.encode() for name in at_bounds]) if at_bounds else np.array([], "S1"),
+         parameters_mean=np.array(values))
+    put(group, "parameters", np.array([values]), "SI")
+    put(group, "standard_error", errors[None], "SI")
+    put(group, "ci95", np.stack([values - 1.959964 * errors, values + 1.959964 * errors], axis=-1)[None], "SI")
+    put(group, "gap", [np.nan if gone else 0.314])
+    put(group, "stop_reason", [b"diverged" if gone else b"converged"])
+    write_rollout_errors(group, file, "lm", gone, **judged)
+
+
+def replay_of_run(file, models, **other):
+    """Three recordings, two of them training ones; the first has a stretch that the job leaves out."""
+    group = replay_group(file, models, 0, len(models) - 1)
+    for number, (purpose, seconds) in enumerate((("train", 8), ("train", 6), ("validate", 8)), start=1):
+        time, measured, simulated = recording(seconds, 200, 10 + number, len(models))
+        if number == 1:
+            simulated[:, :, 300:400] = np.nan
+        write_recording(group.create_group(f"recording_{number}"), f"lab_{number}.csv", purpose, 200,
+                        (time, measured, simulated), **other)
+
+
+def rolled(file, at_bounds=("stribeck_exponent",), diverged=False, judged=None, **other):
+    """A run whose only estimator is lm, over more parameters than the regressor has columns."""
+    for name in list(file["runs"]):
+        del file["runs"][name]
+    add_parameters(file)
+    replay_of_run(file, ["by least squares", "lm"], diverged=[1] if diverged else [], **other)
+    values = np.array([INERTIA, VISCOUS, COULOMB, -COULOMB, *(value for _, value in MORE.values())])
+    write_lm(file, values, at_bounds, diverged, **(judged or {}))
+
+
+def rolled_windows(file):
+    """No reference was recorded: errors are of the position."""
+    rolled(file, at_bounds=(), judged={"channel": "position", "unit": "rad"}, drive="windows", window_s=0.05, loop="none",
+           loop_words="", loop_error=np.nan, channels=["position", "velocity"])
+
+
+def rolled_several(file):
+    """Least squares, DE in rows, FADE and lm on rollouts: of the rows' parameters all."""
+    replay_of_run(file, ["by least squares", "fade", "lm"])
+    fade = file["runs/fade"]
+    tell(fade, fitness_used="rollout")
+    write_rollout_errors(fade, file, "fade")
+    fade["gap_history"][:, 0] = np.inf  # what ran away
+    write_lm(file, np.array([INERTIA, VISCOUS, COULOMB, -COULOMB]))
+
+
+# {kind: (what the file is otherwise, the change)}
+ROLLED = {"rolled": ("crs", rolled), "rolled_windows": ("crs", rolled_windows), "rolled_several": ("crs", rolled_several),
+          "rolled_away": ("crs", lambda file: rolled(file, at_bounds=(), diverged=True))}
 
 if __name__ == "__main__":
     alone(sys.argv[2], ALONE[sys.argv[1]])

@@ -50,6 +50,7 @@ VERDICTS = (
 VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 REPLAYS = every_time(make_replay.ALONE, "replayed", "replayed_once")  # of `torquescope replay`
+ROLLED = every_time(make_replay.ROLLED, "rolled", "rolled_several")  # of estimators that fit simulations
 BESIDE = tuple(kind for kind, of in make_replay.BESIDE.items() if of in (*KINDS, *DIAGNOSES))  # beside other results
 COMPARED = ("compared",) if EXAMPLE_WRITER else ()  # results side by side
 needs_diagnoses = unittest.skipUnless(
@@ -73,6 +74,11 @@ def result(kind):
         shutil.copy(result(make_replay.BESIDE[kind]), path)
         with h5py.File(path, "r+") as file:
             make_replay.beside(file)
+    elif kind in make_replay.ROLLED:
+        source, change = make_replay.ROLLED[kind]
+        shutil.copy(result(source), path)
+        with h5py.File(path, "r+") as file:
+            change(file)
     elif kind in make_replay.ALONE:
         make_replay.alone(path, make_replay.ALONE[kind])
     elif kind in make_board.KINDS:

@@ -18,9 +18,9 @@ except ImportError:
     pass
 
 ALL = (support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED + support.REPLAYS
-       + support.BESIDE)
+       + support.BESIDE + support.ROLLED)
 KINDS = tuple(kind for kind in ALL if support.FULL or kind in ("crs", "arm", "named", "unexplained", "minute", "board",
-                                                           "compared", "replayed"))
+                                                           "compared", "replayed", "rolled"))
 FEWEST_FIGURES = {"arm": 6, "insufficient": 5, "board_few": 1, "compared": 1,
                   **{kind: 1 for kind in support.REPLAYS}}
 WIDTHS, THEMES = (1280, 400), ("light", "dark")

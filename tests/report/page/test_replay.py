@@ -1,6 +1,7 @@
 """Recordings beside their simulation: the first pictures of a page whose file has them, and numbers as the file has
 them."""
 
+import itertools
 import json
 import re
 import shutil
@@ -69,6 +70,11 @@ class Order(unittest.TestCase):
         for kind in support.BESIDE:
             self.assertEqual(figures_of(kind)[4:], figures_of(make_replay.BESIDE[kind]))
 
+    @support.needs_diagnoses
+    def test_beside_a_diagnosis_the_replay_stands_for_its_table_of_closed_loops(self):
+        self.assertIn("Simulated from the reference, without noise", text_of("named"))
+        self.assertNotIn("Simulated from the reference, without noise", text_of("named_replayed"))
+
     def test_an_older_file_has_none(self):
         self.assertIsNone(support.study("crs").replay)
         self.assertNotIn('id="replay_', text_of("crs"))
@@ -111,10 +117,22 @@ class Numbers(unittest.TestCase):
 
     def test_every_cell_stands_in_the_page(self):
         for kind in ALONE:
-            text = text_of(kind)
+            text = text_of(kind).replace("\u00a0", " ")
             for row in table(kind):
                 for cell in row:
                     self.assertIn(f">{cell}<", text, kind)
+
+    def test_a_label_of_an_estimator_follows_its_number_with_a_by(self):
+        said = words_of_replay.answer(support.study("rolled"))
+        self.assertRegex(said, r"the position is off by [\d.]+ % by least squares and [\d.]+ % by lm;")
+
+    def test_every_model_has_its_errors_in_the_table(self):
+        rows = {(row[0], row[1]): row for row in table("rolled_several")}
+        one = support.study("rolled_several").replay.recordings[2]
+        self.assertEqual(rows["lab_3.csv, unseen", "torque, fade (N m)"][3:6],
+                         [q.number(one.torque.rms[1]), q.number(one.torque.mae[1]), q.percent(one.torque.relerr[1])])
+        self.assertEqual(rows["lab_3.csv, unseen", "torque (N m)"][3],
+                         f"{q.number(one.torque.rms[0])} → {q.number(one.torque.rms[2])}")
 
     def test_the_title_has_the_error_of_the_unseen_recording(self):
         error = support.study("replayed").replay.recordings[1].position.relerr
@@ -262,6 +280,14 @@ return [...layout.rows.keys()].map((row) => layout.rows[row].lines.map((part) =>
 
 @browser.needs_browser
 class Zoomed(browser.Browser):
+    def test_the_table_of_errors_is_never_cut_off(self):
+        for kind, width in itertools.product(("replayed", "rolled"), (400, 800, 1130, 1280)):
+            self.open(kind, width=width)
+            cut = self.script("return [...document.querySelectorAll('table.wraps :is(td, th)')].map((cell) => "
+                              "cell.getBoundingClientRect().right).filter((right) => right > innerWidth)")
+            self.assertEqual(cut, [], f"{kind} at {width}")
+            self.assertGreater(self.script("return document.querySelectorAll('table.wraps td').length"), 40)
+
     def test_zooming_draws_the_samples_of_the_file(self):
         self.open("replayed")
         self.browser.execute_async_script(

@@ -14,7 +14,7 @@ import jinja2
 
 from ..errors import ResultError
 from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words
-from . import what_now, words_of_arm, words_of_diagnosis, words_of_replay
+from . import what_now, words_of_arm, words_of_diagnosis, words_of_replay, words_of_rollouts
 from .figures import all_cases
 from .study import Study
 
@@ -35,6 +35,7 @@ def page(study):
         all_cases(study),
         study=study,
         replayed=words_of_replay,
+        rollouts=words_of_rollouts,
         tables=tables,
         what_now=what_now,
         **body,

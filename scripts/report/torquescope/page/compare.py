@@ -58,9 +58,11 @@ def _parameters(rows):
 
 def _facts(sides):
     """{"head", "rows"}: what each result is and how well it fits."""
+    errors_of = [side.errors_of for side in sides]
     rows = [["verdict", *(side.verdict for side in sides)], ["job", *(side.job for side in sides)],
             ["error in training", *(q.percent(side.train) for side in sides)],
             ["error unseen", *(q.percent(side.unseen) for side in sides)],
+            *([["errors are of", *(side.errors_of for side in sides)]] if len(set(errors_of)) > 1 else []),
             ["parameters", *(str(len(side.parameters)) for side in sides)],
             ["made", *(side.finished for side in sides)]]
     return {"head": ["", *(side.label for side in sides)], "rows": [row for row in rows if set(row[1:]) != {"–"}],

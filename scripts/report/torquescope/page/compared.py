@@ -7,7 +7,7 @@ from pathlib import Path
 from . import diagnosed, quantities as q, style, words_of_diagnosis
 from ..errors import ResultError
 from ..reader.diagnosis_records import Parameter
-from ..reader.read_result import Result
+from ..reader.read_result import Result, rolls_out
 
 REFERENCES = ("ols", "wls")  # whose estimates a run is compared by, in this order; else the first estimator's
 
@@ -46,6 +46,7 @@ class Side:
             self.parameters = _of_joints(self.diagnosis.joints) if self.diagnosis else _of_estimator(result, estimator)
             self.train, self.unseen = _errors(self.diagnosis, estimator)
             self.estimator = estimator.get("title", "") if estimator else ""
+            self.errors_of = "all samples, simulated" if estimator and rolls_out(estimator) else "rows"
 
     @property
     def verdict(self):

@@ -3,6 +3,7 @@
 import math
 
 MINUS = "\u2212"
+LONGEST = 1e7
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _COUNT_WORDS = "no one two three four five six seven eight nine ten eleven twelve".split()
 
@@ -21,9 +22,11 @@ def number(value, digits=3):
 
 
 def fixed(value, decimals):
-    """The same number of decimals for a whole column; a zero has no sign."""
+    """The same number of decimals for a whole column; a zero has no sign, and what is too long a power of ten."""
     if value is None or not math.isfinite(value):
         return "–"
+    if abs(value) >= LONGEST:
+        return number(value)
     text = f"{value:.{decimals}f}"
     return _minus(text.lstrip("-") if float(text) == 0 else text)
 

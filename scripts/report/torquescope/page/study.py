@@ -9,9 +9,9 @@ import numpy as np
 from . import seed, style
 from .arm import Arm
 from ..errors import ResultError
-from ..reader.read_result import Result
+from ..reader.read_result import Result, rolls_out
 
-LEAST_SQUARES = ("ols", "wls", "irls", "essential", "iv", "tls")
+ONE_RUN = ("ols", "wls", "irls", "essential", "iv", "tls", "lm")  # the others are searches of several runs
 
 
 class View:
@@ -73,6 +73,7 @@ class Estimator(View):
         super().__init__(group)
         self.name = name
         self.controller = View(group.controller) if "controller" in group else None
+        self.rolls_out = rolls_out(group)  # fits simulations of all samples, not rows
         self.colour = self.dashes = None  # given by Study, which knows its neighbours
 
     @property
@@ -87,7 +88,7 @@ class Estimator(View):
 
     @property
     def is_search(self):
-        return self.kind not in LEAST_SQUARES
+        return self.kind not in ONE_RUN
 
     @property
     def chosen(self):
@@ -155,8 +156,34 @@ class Study:
         return next((e for e in self.estimators if e.kind == "ols"), None)
 
     @property
+    def lead(self):
+        """The estimator that sentences and pictures of one are about: OLS, else the first; where all fit simulations,
+        the one whose simulation is closest."""
+        if not self.estimators or not all(e.rolls_out for e in self.estimators):
+            return self.ols or next((e for e in self.estimators if not e.rolls_out), None)
+        return min(self.estimators, key=lambda e: e.mse_median if np.isfinite(e.mse_median) else np.inf)
+
+    @property
     def searches(self):
         return [e for e in self.estimators if e.is_search]
+
+    @property
+    def to_floor(self):
+        """Searches in rows, whose distance from the least-squares optimum is known."""
+        return [e for e in self.searches if not e.rolls_out]
+
+    @property
+    def rolled(self):
+        """Those that fit simulations."""
+        return [e for e in self.estimators if e.rolls_out]
+
+    def error_unit(self, estimator):
+        """Of its errors: those of simulations are of the position where nothing else could be simulated."""
+        return estimator.rollout_error_unit or self.effort_unit
+
+    def error_of(self, estimator):
+        """"torque", "force" or "position"."""
+        return "position" if self.error_unit(estimator) in ("rad", "m") else self.effort
 
     @property
     def is_seed_study(self):

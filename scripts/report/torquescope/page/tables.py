@@ -18,11 +18,10 @@ def parameters(study):
     head = ["parameter", "unit"] + (["truth"] if study.truth_known else [])
     for e in study.estimators:
         head.append(e.label)
-        if e.standard_error is not None:
-            head += ["± 95 %, HAC", "± if white"]
+        head += [words for _, words in _intervals(e)]
     rows = []
     for index, (name, unit) in enumerate(zip(study.model.names, study.model.units)):
-        e = study.ols or study.estimators[0]
+        e = study.lead
         error = words.Z95 * e.standard_error[0][index] if e.standard_error is not None else None
         # enough to show four digits of a value, however wide its interval
         decimals = max(q.decimals_for(error), q.decimals_for(None, e.chosen[index]))
@@ -30,11 +29,15 @@ def parameters(study):
         row += [q.fixed(study.model.truth[index], decimals)] if study.truth_known else []
         for e in study.estimators:
             row.append(q.fixed(e.chosen[index], decimals))
-            if e.standard_error is not None:
-                row += [q.fixed(words.Z95 * e.standard_error[0][index], decimals),
-                        q.fixed(words.Z95 * e.standard_error_naive[0][index], decimals)]
+            row += [q.fixed(words.Z95 * errors[0][index], decimals) for errors, _ in _intervals(e)]
         rows.append(row)
     return {"head": head, "rows": rows}
+
+
+def _intervals(e):
+    """[(standard errors, their column)] that the file has."""
+    known = ((e.standard_error, "± 95 %, HAC"), (e.standard_error_naive, "± if white"))
+    return [(errors, words) for errors, words in known if errors is not None]
 
 
 def joint_form(study):
@@ -53,7 +56,8 @@ def joint_form(study):
 
 
 def correlation(study):
-    names = [name.replace("_", " ") for name in study.model.names]
+    """Of the regressor's columns: parameters of effects and loops have none."""
+    names = [name.replace("_", " ") for name in study.model.names[:len(study.health.correlation)]]
     return {
         "head": [""] + names,
         "rows": [[name] + [q.fixed(value, 2) for value in row] for name, row in zip(names, study.health.correlation)],
@@ -61,21 +65,21 @@ def correlation(study):
 
 
 def estimators(study):
-    square = q.square(study.effort_unit)
-    head = [
-        "estimator",
-        f"MSE, median {square}",
-        "above the floor",
-        "best MSE",
-        "worst MSE",
-        "std over runs",
-        "evaluations",
-        "runs ended by",
-    ]
+    """MSE in one unit, or where simulations are judged by another channel than rows, each with its own; the column of
+    the floor, or of the fitness of simulations, goes where nobody has it."""
+    squares = [q.square(study.error_unit(e)) for e in study.estimators]
+    one = squares[0] if len(set(squares)) == 1 else ""
+    by_floor, by_fitness = len(study.rolled) < len(study.estimators), bool(study.rolled)
+    head = ["estimator", f"MSE, median {one}".strip(), *(["above the floor"] if by_floor else []),
+            *(["fitness"] if by_fitness else []), "best MSE", "worst MSE", "std over runs", "evaluations",
+            "runs ended by"]
     rows = []
-    for e in study.estimators:
+    for e, square in zip(study.estimators, squares):
         several = int(e.runs) > 1
-        rows.append([e.label, q.number(e.mse_median, 4), q.number(max(e.gap_median, 0.0), 2),
+        mse = q.number(e.mse_median, 4)
+        gap, fitness = ("–", q.number(e.gap_median, 4)) if e.rolls_out else (q.number(max(e.gap_median, 0.0), 2), "–")
+        rows.append([e.label, mse if one else f"{mse} {square}".strip(), *([gap] if by_floor else []),
+                     *([fitness] if by_fitness else []),
                      q.number(e.mse_best, 4) if several else "–", q.number(e.mse_worst, 4) if several else "–",
                      q.number(e.mse_std, 2) if several else "–",
                      q.whole(e.evaluations_total) if e.evaluations_total else "–", words.stop_reasons(e)])

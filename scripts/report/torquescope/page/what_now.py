@@ -28,8 +28,8 @@ def blocks_of_joint(study, joint):
 
 
 def blocks_of_study(study):
-    """Of an identification of one joint: the first estimator's median run, as the tables have it."""
-    e = study.ols or study.estimators[0]
+    """Of an identification of one joint: the leading estimator's median run, as the tables have it."""
+    e = study.lead
     model = {str(name): Parameter(str(name), str(unit), float(value), math.nan, math.nan)
              for name, unit, value in zip(study.model.names, study.model.units, e.chosen)}
     fastest = float(np.abs(study.train.velocity).max())

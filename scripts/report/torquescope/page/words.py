@@ -6,7 +6,7 @@ from collections import Counter
 
 import numpy as np
 
-from . import quantities as q
+from . import quantities as q, words_of_rollouts
 
 ARRIVED = 1e-3  # of the MSE: a search this close has the optimum to three digits
 CLOSE_CORRELATION = 0.95  # worth a remark (engine/problem/regressor_health.cpp)
@@ -16,9 +16,11 @@ Z95 = 1.959964  # normal quantile of the stored ci95
 def verdict(study):
     """mark, word, tone ("ink" or "ochre"), sentence, evidence: what was found, in one look."""
     words = study.health.words or ""
-    late = [e for e in study.searches if not has_arrived(e)]
+    late = [e for e in study.to_floor if not has_arrived(e)]
     mark, word, tone, words = standing(_less_than_none(study), words, late)
-    sentence = _search_sentence(study.searches, late) if study.searches else _fit_sentence(study)
+    sentence = _search_sentence(study.to_floor, late) if study.to_floor else _fit_sentence(study)
+    if study.lead.rolls_out and words_of_rollouts.ran_away(study.lead):
+        mark, word, tone, sentence = "▽", "Not simulated", "ochre", "Every simulation of the recordings ran away."
     return {
         "mark": mark,
         "word": word,
@@ -75,12 +77,14 @@ def _search_sentence(searches, late):
 
 
 def _fit_sentence(study):
-    e = study.estimators[0]
+    e = study.lead
     count = q.count_word(len(study.model.names)).capitalize()
     seen = e.validation_relerr_median if study.validate is not None else e.relerr_median
-    where = f"an unseen {study.effort}" if study.validate is not None else f"the {study.effort}"
+    what = study.error_of(e) if e.rolls_out else study.effort
+    where = f"an unseen {what}" if study.validate is not None else f"the {what}"
     if seen < 0.5:
-        return f"{count} parameters reproduce {where} to within {q.percent(seen)}."
+        simulated = f", {words_of_rollouts.how(study)}," if e.rolls_out else ""
+        return f"{count} parameters{simulated} reproduce {where} to within {q.percent(seen)}."
     return f"{count} parameters are found; {q.percent(seen)} of {where} remains unexplained."
 
 
@@ -88,55 +92,68 @@ def _evidence(study, words):
     said = []
     if words:
         said.append(words[0].upper() + words[1:].rstrip(".") + ".")
-    runs = max((int(e.runs) for e in study.searches), default=0)
+    runs = max((int(e.runs) for e in study.to_floor), default=0)
     if runs:
-        gaps = [f"{q.number(e.gap_median, 2)} ({e.short})" for e in study.searches[:3]]
+        gaps = [f"{q.number(e.gap_median, 2)} ({e.short})" for e in study.to_floor[:3]]
         said.append(f"Mean square error above the floor, median of {q.count(runs, 'run')}: {q.listed(gaps)} "
                     f"{q.square(study.effort_unit)}.")
-    e = study.ols or study.estimators[0]
-    said.append(
-        f"{e.short} leaves {q.with_unit(q.number(e.residual_std_median), study.effort_unit)} (standard deviation) on "
-        f"{q.count(study.train.rows, 'sample')}."
-    )
-    return " ".join(said)
+    e = study.lead
+    if not e.rolls_out:
+        said.append(
+            f"{e.short} leaves {q.with_unit(q.number(e.residual_std_median), study.effort_unit)} (standard deviation) "
+            f"on {q.count(study.train.rows, 'sample')}."
+        )
+    return " ".join(said + [words_of_rollouts.evidence(study, one) for one in study.rolled])
 
 
 def big_numbers(study):
     """The first four of: [(number, unit, caption)]."""
-    e = study.ols or study.estimators[0]
+    e = study.lead
     found = []
+    of = f" of the {study.error_of(e)}, simulated by" if e.rolls_out else " of"
     if study.validate is not None:
         found.append((q.percent(e.validation_relerr_median), "",
-                      f"error of {e.short} on the unseen recording; {q.percent(e.relerr_median)} in training"))
+                      f"error{of} {e.short} on the unseen recording; {q.percent(e.relerr_median)} in training"))
     else:
-        found.append((q.percent(e.relerr_median), "", f"error of {e.short} in training; nothing unseen was given"))
+        found.append((q.percent(e.relerr_median), "", f"error{of} {e.short} in training; nothing unseen was given"))
     if study.ols is not None:
         found.append((q.number(e.mse_median), q.square(study.effort_unit), "mean square error of OLS: the floor"))
-    for s in study.searches[:2]:
+    for s in study.to_floor[:2]:
         found.append((q.number(s.gap_median, 2), q.square(study.effort_unit), f"{s.short} above the floor, median of "
                       f"{q.count(int(s.runs), 'run')}"))
+    for s in study.rolled:
+        if s is not e:
+            found.append((q.percent(s.relerr_median), "", f"error of the {study.error_of(s)} in training, simulated by "
+                          f"{s.short}"))
     found.append((q.number(study.health.condition_number), "", "condition number of the regressor"))
-    found.append((q.number(e.residual_std_median), q.unit(study.effort_unit), "standard deviation of the residual"))
+    found.append((q.number(e.residual_std_median), q.unit(study.error_unit(e)), "standard deviation of the residual"))
+    found.append((q.number(e.mse_median), q.square(study.error_unit(e)), f"mean square error of {e.short}"))
     return found[:4]
 
 
 def remarks(study):
     """What closed forms have to say of themselves: "ESSENTIAL: 29 of 47 parameters are kept. "."""
-    return "".join(f"{e.short}: {e.remark}. " for e in study.estimators if e.remark)
+    return "".join(f"{e.short}: {e.remark}. " for e in study.estimators if e.remark and not e.rolls_out)
 
 
 def parameters_answer(study):
     """Which parameters are known, which are not: from the stored intervals."""
-    e = study.ols or next((e for e in study.estimators if e.ci95 is not None), None)
+    e = next((e for e in (study.ols, study.lead, *study.estimators) if e is not None and e.ci95 is not None), None)
     if e is None:
         return "No least squares in this job, so there are no intervals; the spread is that of the runs."
+    names = [name.replace("_", " ") for name in study.model.names]
     low, high = e.ci95[0][:, 0], e.ci95[0][:, 1]
-    open_ones = [name.replace("_", " ") for name, a, b in zip(study.model.names, low, high) if a <= 0 <= b]
+    unknown = [name for name, a, b in zip(names, low, high) if not (math.isfinite(a) and math.isfinite(b))]
+    open_ones = [name for name, a, b in zip(names, low, high) if a <= 0 <= b]
+    said = f"{e.short} has no interval for {q.listed(unknown)}." if unknown else ""
+    if len(unknown) == len(names):
+        return said
     if not open_ones:
-        return f"Every 95 % interval of {e.short} excludes zero: this recording shows each of the parameters."
+        every, each = ("Every other", "these") if unknown else ("Every", "the parameters")
+        return f"{every} 95 % interval of {e.short} excludes zero: this recording shows each of {each}. {said}".strip()
     if len(open_ones) == 1:
-        return f"The 95 % interval of {open_ones[0]} includes zero: this recording does not prove it."
-    return f"The 95 % intervals of {q.listed(open_ones)} include zero: this recording does not prove them."
+        return f"The 95 % interval of {open_ones[0]} includes zero: this recording does not prove it. {said}".strip()
+    return f"The 95 % intervals of {q.listed(open_ones)} include zero: this recording does not prove them. {said}".strip()
 
 
 def health_answer(study):
@@ -159,21 +176,32 @@ def health_answer(study):
 def fit_answer(study):
     if study.validate is None:
         return "Only training data: whether the model holds on another motion, this file cannot say."
-    e = study.ols or study.estimators[0]
-    return (f"{e.short}: {q.percent(e.relerr_median)} relative error in training, "
-            f"{q.percent(e.validation_relerr_median)} on {q.seconds(study.validate.duration_s)} of another motion. "
-            "Data that no fit has seen, so no fit can have learnt its noise.")
+    e = study.lead
+    said = [words_of_rollouts.errors(study, one) for one in study.rolled]
+    if not e.rolls_out:
+        said.insert(0, f"{e.short}: {q.percent(e.relerr_median)} relative error in training, "
+                       f"{q.percent(e.validation_relerr_median)} on {q.seconds(study.validate.duration_s)} of another "
+                       "motion.")
+    return " ".join([*said, "Data that no fit has seen, so no fit can have learnt its noise."])
 
 
 def search_answer(study):
+    one_run = [e.short for e in study.rolled if not e.is_search]
+    stepped = (f"{q.listed(one_run)} goes downhill by the derivatives of the simulation: nothing proves that no other "
+               "start ends lower.") if one_run else ""
     if not study.searches:
-        return "Every estimator of this job solves its equations directly; there is nothing to search."
+        return stepped or "Every estimator of this job solves its equations directly; there is nothing to search."
     total = sum(int(e.evaluations_total) for e in study.searches)
+    if not study.to_floor:
+        return (f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, "
+                f"{q.count(total, 'evaluation')} in all, each a simulation of the recordings: nobody knows the optimum. "
+                f"{stepped}").strip()
     return (
         f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} "
         "in all. "
-        "The problem is linear, so the exact optimum is known: each search is measured by its distance from it."
-    )
+        f"The problem {'in rows ' if study.rolled else ''}is linear, so the exact optimum is known: each search "
+        f"{'in rows ' if study.rolled else ''}is measured by its distance from it. {stepped}"
+    ).strip()
 
 
 def recording_answer(study):
@@ -183,6 +211,7 @@ def recording_answer(study):
         f"{q.seconds(data.duration_s)} {made} at {q.tick(data.rate_hz)} Hz, "
         f"{q.count(data.rows, 'sample')} kept at {q.tick(data.kept_rate_hz)} Hz, {q.count(data.reversals, 'reversal')}."
     )
+    said += words_of_rollouts.recording_note(study)
     warnings = len(data.warned)
     return said + (f" {q.count(warnings, 'warning')}, listed at the top." if warnings else " No warnings.")
 

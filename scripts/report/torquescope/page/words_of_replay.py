@@ -8,6 +8,7 @@ from ..reader.read_replay import YOURS as YOUR_NAME, unseen_first
 
 BEFORE, AFTER, YOURS = "before", "after", "yours"
 FIRST_SHOWN = 2  # recordings; the others are folded
+PHRASES = ("as ", "by ", "with ")  # begin the names of models that are no labels of estimators
 DRIVEN = {"reference": "Simulated in closed loop from the commanded position",
           "command": "Driven by the drive’s recorded command"}
 
@@ -83,10 +84,11 @@ def before_after(replay, one, values, write):
 
 
 def table(study):
-    """{"head", "rows", "caption"}: of every recording and channel, and one row more for your simulator."""
+    """{"head", "rows", "caption"}: of every recording and channel, and one row more for each model that is neither
+    before nor after."""
     replay = study.replay
     head = ["recording", "channel", "samples", "rms", "MAE", "relative error", "loop", "believed until"]
-    yours = next((model for role, model in roles(replay) if role == YOURS), None)
+    others = [model for model in range(len(replay.models)) if model not in (replay.before, replay.after)]
     rows = []
     for _, one in named_recordings(replay):
         until = q.seconds(one.horizon_s) if ends_early(one) else "its end"
@@ -96,13 +98,16 @@ def table(study):
             rows.append([called(one), f"{name} ({unit})", q.whole(samples),
                          *(before_after(replay, one, values, q.number) for values in (channel.rms, channel.mae)),
                          _percents(replay, one, channel.relerr), one.loop, until])
-            if yours is not None:
-                rows.append([called(one), f"{name}, yours ({unit})", q.whole(channel.samples[yours]),
-                             *(figure_of(one, values, yours, write) for values, write in (
+            for model in others:
+                whose = "yours" if model == replay.yours else replay.models[model]
+                rows.append([called(one), f"{name}, {whose} ({unit})", q.whole(channel.samples[model]),
+                             *(figure_of(one, values, model, write) for values, write in (
                                  (channel.rms, q.number), (channel.mae, q.number), (channel.relerr, q.percent))),
                              one.loop, until])
     labels = " → ".join(replay.models[model] for role, model in roles(replay) if role != YOURS)
-    caption = f"Measured minus simulated, over all samples: {labels}" + (f"; yours: {YOUR_NAME}" if yours else "")
+    caption = f"Measured minus simulated, over all samples: {labels}"
+    if replay.yours in others:
+        caption += f"; yours: {YOUR_NAME}"
     return {"head": head, "rows": rows, "caption": f"{caption}. MAE: mean absolute error"}
 
 
@@ -137,7 +142,11 @@ def _off(replay, one, channel):
 
 
 def _with(replay, model):
-    return f"in {YOUR_NAME}" if replay.models[model] == YOUR_NAME else replay.models[model]
+    """As it follows a number: phrases of the engine as they are, labels of estimators with a "by"."""
+    name = replay.models[model]
+    if name == YOUR_NAME:
+        return f"in {YOUR_NAME}"
+    return name if name.startswith(PHRASES) else f"by {name}"
 
 
 def verdict(study):
@@ -174,7 +183,7 @@ def big_numbers(study):
     found = []
     for name, channel in _told(study, one):
         before, after = (figure_of(one, channel.relerr, model, q.percent) for model in (replay.before, replay.after))
-        was = f"; {before} {replay.models[replay.before]}" if replay.after != replay.before else ""
+        was = f"; {before} {_with(replay, replay.before)}" if replay.after != replay.before else ""
         where = "unseen" if one.is_unseen else "training"
         found.append((after, "", kept_together(f"error of the {name}, {where}{was}")))
     found.append((q.whole(one.samples), "", "samples, and all of them count"))

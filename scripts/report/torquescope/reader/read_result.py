@@ -248,6 +248,12 @@ class Result(Group):
         self.close()
 
 
+def rolls_out(estimator):
+    """Whether it fits simulations of the recordings, over all their samples, and not rows: its errors are of these, and
+    its "gap" is the fitness itself."""
+    return estimator.get("kind") == "lm" or estimator.get("fitness_used") == "rollout"
+
+
 def _number(value):
     return "" if value is None or np.isnan(value) else f"{value:.6g}"
 
@@ -297,6 +303,7 @@ def summary(result):
     yield ""
     if result.diagnosis is not None:
         yield from _diagnosis_summary(result.diagnosis)
+        yield ""
     if (replay := result.replay()) is not None and replay.recordings:
         yield from _table(replay_table(replay, _number))
         yield ""
@@ -305,10 +312,14 @@ def summary(result):
     yield from _table(parameter_table(result))
     yield ""
     columns = ["mse_median", "gap_median", "relerr_median", "validation_relerr_median"]
-    rows = [["estimator", "kind", "runs", *columns]]
+    rows = [["estimator", "kind", "runs", *columns, "errors of"]]
     for name, estimator in result.estimators.items():
         runs = str(estimator.get("runs", len(estimator.parameters) if "parameters" in estimator else ""))
-        rows.append([name, estimator.get("kind", ""), runs, *(_number(estimator.get(c)) for c in columns)])
+        numbers = {column: _number(estimator.get(column)) for column in columns}
+        if simulates := rolls_out(estimator):
+            numbers["gap_median"] = ""
+        rows.append([name, estimator.get("kind", ""), runs, *numbers.values(),
+                     "simulated samples" if simulates else "rows"])
     yield from _table(rows)
 
 

@@ -6,11 +6,13 @@ import numpy as np
 from .. import quantities, readings, seed, style
 from . import Case
 
+WIDEST = 150.0  # % of a value: a bar beyond leaves the frame
 
-def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
+
+def draw(names, units, groups, published, axis_words, values, widest=np.inf, width=style.WIDE):
     """groups: [(label, difference [R], half interval [R] or None, inner half interval [R] or None, low [R], high [R],
     colour)], low and high: span over the runs or None. published: [(label, difference [R], colour)], hollow diamonds.
-    values: [R] words at the right."""
+    values: [R] words at the right. widest: a half interval beyond does not widen the frame."""
     narrow = width < style.WIDE
     lanes = len(groups) + len(published)
     row = max(46, 13 * lanes + 22) + (16 if narrow else 0)
@@ -20,7 +22,7 @@ def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
     left, right = (16, width - 16) if narrow else (210, width - 250)
     axes = canvas.axes(left, top, right, top + row * len(names))
     readings.of(axes, ("difference", axis_words[1].split(", ")[-1]), ("", ""), zoom="x")
-    reach = _draw_rows(axes, groups, published, row, 16 if narrow else 0, names)
+    reach = _draw_rows(axes, groups, published, row, 16 if narrow else 0, names, widest)
     axes.axvline(0, color=style.LIGHT["muted"], linewidth=1.2, zorder=1)
     axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(row * len(names), 0), yticks=[])
     axes.set_xlabel(axis_words[1] if narrow else axis_words[0], labelpad=4)
@@ -39,7 +41,7 @@ def draw(names, units, groups, published, axis_words, values, width=style.WIDE):
     return canvas.figure
 
 
-def _draw_rows(axes, groups, published, row, name_room, names):
+def _draw_rows(axes, groups, published, row, name_room, names, widest):
     lanes, count = len(groups) + len(published), len(names)
     reach = 1e-12
     for index in range(count):
@@ -52,7 +54,7 @@ def _draw_rows(axes, groups, published, row, name_room, names):
                     [x - outer[index], x + outer[index]], [y, y], color=colour, linewidth=2.6, solid_capstyle="butt",
                     label=f"_{label}"
                 )
-                reach = max(reach, abs(x) + outer[index])
+                reach = max(reach, abs(x) + min(outer[index], widest)) if np.isfinite(outer[index]) else reach
             if inner is not None:
                 # the interval that white residuals would give: two small posts on the bar
                 for end in (x - inner[index], x + inner[index]):
@@ -61,7 +63,7 @@ def _draw_rows(axes, groups, published, row, name_room, names):
                 axes.plot([low[index], high[index]], [y, y], color=colour, linewidth=1.4, label=f"_{label}")
                 reach = max(reach, abs(low[index]), abs(high[index]))
             axes.plot(x, y, marker="o", markersize=7, color=colour, linestyle="none", label=f"_{label}")
-            half = f" ± {quantities.number(outer[index])}" if outer is not None else ""
+            half = f" ± {quantities.number(outer[index])}" if outer is not None and np.isfinite(outer[index]) else ""
             readings.note(axes, f"{names[index].replace('_', ' ')}, {label}: {quantities.number(x)}{half}", at=(x, y))
         for lane, (label, difference, colour) in enumerate(published, start=len(groups)):
             y = row * index + name_room + (row - name_room) * (lane + 1) / (lanes + 1)
@@ -77,7 +79,7 @@ def _draw_rows(axes, groups, published, row, name_room, names):
 
 
 def cases(study):
-    reference = study.model.truth if study.truth_known else (study.ols or study.estimators[0]).chosen
+    reference = study.model.truth if study.truth_known else study.lead.chosen
     ols = study.ols
     # a lone OLS measured by its own standard errors would draw the same bar for every parameter
     by_errors = ols is not None and (study.truth_known or len(study.estimators) > 1)
@@ -98,23 +100,27 @@ def cases(study):
     if study.is_seed_study:
         published = [(f"{name}, published", (np.array(row) - reference) / size, style.LIGHT[name.lower()])
                      for name, row in seed.TABLE_3.items() if name != "OLS"]
-    origin = "the truth" if study.truth_known else (ols or study.estimators[0]).short
+    origin = "the truth" if study.truth_known else study.lead.short
     unit = "in standard errors of OLS" if by_errors else "% of the value"
     axis_words = (f"difference from {origin}, {unit}", f"minus {origin}, {unit}")
     words = []
     for index in range(len(reference)):
-        e = ols or study.estimators[0]
+        e = study.lead
         error = 1.959964 * e.standard_error[0][index] if e.standard_error is not None else None
         decimals = quantities.decimals_for(error, e.chosen[index])
         words.append(quantities.fixed(e.chosen[index], decimals)
-                     + (f" ± {quantities.fixed(error, decimals)}" if error is not None else ""))
+                     + (f" ± {quantities.fixed(error, decimals)}" if error is not None and np.isfinite(error) else ""))
     arguments = {"names": study.model.names, "units": study.model.units, "groups": groups, "published": published,
-                 "axis_words": axis_words, "values": words}
+                 "axis_words": axis_words, "values": words, "widest": np.inf if by_errors else WIDEST}
     sentence = "Dots: estimates."
     if ols is not None:
         sentence += (
             " Bars: 95 % intervals that allow for a residual with memory (HAC); posts: the same if it were white."
         )
+    elif any(e.standard_error is not None for e in study.estimators):
+        sentence += " Bars: 95 % intervals (HAC)."
+    if not by_errors and any(outer is not None and (outer > WIDEST).any() for _, _, outer, *_ in groups):
+        sentence += f" What leaves the frame is wider than ±{WIDEST:.0f} %."
     if study.searches:
         sentence += " Thin lines: the span of all runs of a search."
     if published:

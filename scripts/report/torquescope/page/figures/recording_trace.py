@@ -33,7 +33,7 @@ def cases(study):
             for key, name, symbol in (("position", "position", "q"), ("velocity", "velocity", "q\u0307"),
                                       ("torque", study.effort, study.symbol))]
     seams = time[data.seams]
-    sentence = "The samples the fit has used, after filtering."
+    sentence = "The rows after filtering." if study.rolled else "The samples the fit has used, after filtering."
     if len(seams):
         sentence += " Recordings are laid end to end, dotted lines between them."
     return {

@@ -45,6 +45,11 @@ def draw(rows, width=style.WIDE):
 def cases(study):
     if study.validate is None:
         return {}
-    rows = [(e.short, e.relerr_median, e.validation_relerr_median, e.ink) for e in study.estimators]
+    rows = [(e.short, e.relerr_median, e.validation_relerr_median, e.ink) for e in study.estimators
+            if np.isfinite(e.relerr_median)]  # a simulation may have run away
+    if not rows:
+        return {}
     sentence = "Norm of the residual over norm of the measured signal; the median run of each search."
+    if study.rolled:
+        sentence += f" Of {quantities.listed(e.short for e in study.rolled)}: of all samples, simulated."
     return {"relative_error": Case(draw, {"rows": rows}, "Training and unseen", sentence, wide=True)}

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from .. import readings, style
+from .. import readings, residuals, style
 from . import Case
 
 
-def draw(residual, recording, step_s, colour=style.LIGHT["ink"], width=style.SMALL):
-    """residual [n] of samples step_s apart; recording [n]: products do not reach across a seam."""
+def draw(residual, stretch, step_s, colour=style.LIGHT["ink"], width=style.SMALL):
+    """residual [n] of samples step_s apart; stretch [n]: products do not reach across a seam."""
     lags = min(60, len(residual) // 4)
     canvas = style.Canvas(width, 240)
     axes = canvas.axes(50, 30, width - 14, 196)
@@ -16,7 +16,7 @@ def draw(residual, recording, step_s, colour=style.LIGHT["ink"], width=style.SMA
     values = np.array(
         [1.0]
         + [
-            float((centred[lag:] * centred[:-lag])[recording[lag:] == recording[:-lag]].sum()) / power
+            float((centred[lag:] * centred[:-lag])[stretch[lag:] == stretch[:-lag]].sum()) / power
             for lag in range(1, lags + 1)
         ]
     )
@@ -34,16 +34,16 @@ def draw(residual, recording, step_s, colour=style.LIGHT["ink"], width=style.SMA
 
 
 def cases(study):
-    e = study.ols or study.estimators[0]
-    data = study.train
-    arguments = {"residual": data.torque - data.prediction(e.chosen), "recording": np.asarray(data.recording),
-                 "step_s": 1 / data.kept_rate_hz, "colour": style.LIGHT["ink"]}
+    found = residuals.of_training(study)
+    if found is None or not np.isfinite(found.step_s):
+        return {}
+    arguments = {"residual": found.left, "stretch": found.stretch, "step_s": found.step_s, "colour": style.LIGHT["ink"]}
     return {
         "residual_autocorrelation": Case(
             draw,
             arguments,
             "Is the residual white?",
-            f"Autocorrelation of what {e.short} leaves in training. Grey: what white noise "
-            "would stay in, 95 %. Above it, naive intervals are too narrow.",
+            f"Autocorrelation of {found.words}. Grey: what white noise would stay in, 95 %."
+            + ("" if found.is_simulated else " Above it, naive intervals are too narrow."),
         )
     }

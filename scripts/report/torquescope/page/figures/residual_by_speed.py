@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, readings, style
+from .. import quantities, readings, residuals, style
 from . import Case
 
 BINS = 24
@@ -33,16 +33,17 @@ def draw(velocity, residual, velocity_unit, unit, colour=style.LIGHT["ink"], wid
 
 
 def cases(study):
-    e = study.ols or study.estimators[0]
-    data = study.train
-    arguments = {"velocity": np.asarray(data.velocity), "residual": data.torque - data.prediction(e.chosen),
-                 "velocity_unit": quantities.unit(data.unit_of("velocity")), "unit": quantities.unit(study.effort_unit)}
+    found = residuals.of_training(study)
+    if found is None or found.velocity is None:
+        return {}
+    arguments = {"velocity": found.velocity, "residual": found.left, "unit": quantities.unit(study.effort_unit),
+                 "velocity_unit": quantities.unit(study.train.unit_of("velocity"))}
     return {
         "residual_by_speed": Case(
             draw,
             arguments,
             "Does the residual depend on speed?",
-            f"Mean of what {e.short} leaves, in bins of equally many samples; grey: ±1 standard "
-            "deviation. A shape here is friction the model lacks.",
+            f"Mean of {found.words}, in bins of equally many samples; grey: ±1 standard deviation. A shape here is "
+            "friction the model lacks.",
         )
     }

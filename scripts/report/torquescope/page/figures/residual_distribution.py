@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import quantities, readings, style
+from .. import quantities, readings, residuals, style
 from . import Case
 
 
@@ -29,14 +29,15 @@ def draw(residual, unit, width=style.SMALL):
 
 
 def cases(study):
-    e = study.ols or study.estimators[0]
-    residual = study.train.torque - study.train.prediction(e.chosen)
+    found = residuals.of_training(study)
+    if found is None:
+        return {}
     return {
         "residual_distribution": Case(
             draw,
-            {"residual": residual, "unit": quantities.unit(study.effort_unit)},
+            {"residual": found.left, "unit": quantities.unit(study.effort_unit)},
             "How large are the errors?",
-            f"Histogram of what {e.short} leaves; the line is the normal curve of the same "
-            "standard deviation. Heavy tails ask for a robust loss.",
+            f"Histogram of {found.words}; the line is the normal curve of the same standard deviation."
+            + ("" if found.is_simulated else " Heavy tails ask for a robust loss."),
         )
     }

@@ -118,7 +118,7 @@ def search_of(estimator):
 
 
 def cases(study):
-    searches = [search for search in map(search_of, study.searches) if search]
+    searches = [search for search in map(search_of, study.to_floor) if search]
     targets = targets_of(searches) if searches else ()
     if not len(targets) or len(set(span_of(searches))) == 1:
         return {}

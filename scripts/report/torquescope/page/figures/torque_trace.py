@@ -46,23 +46,23 @@ def draw(time, measured, predictions, band, window, effort, symbol, unit, width=
 
 def cases(study):
     found = {}
+    of_rows = [(index, e) for index, e in enumerate(study.estimators) if not e.rolls_out]
     for part, data in (("validate", study.validate), ("train", study.train)):
-        if data is None:
+        if data is None or not of_rows:  # simulations are drawn by replay_trace.py
             continue
         time = data.laid_end_to_end
         reversals = np.flatnonzero(np.diff(np.sign(data.velocity)))
         predictions, series = [], {"measured": data.torque}
-        for index, e in enumerate(study.estimators):
+        for index, e in of_rows:
             values = data.prediction(e.chosen)
             deviation = e.residual_std[int(e.median_run or 0)] if part == "train" else np.nan
             predictions.append((e.short, f"e{index}", values, e.ink, e.dashes, deviation))
             series[f"e{index}"] = values
-        reference = study.ols or study.estimators[0]
         arguments = {
             "time": time,
             "measured": data.torque,
             "predictions": predictions,
-            "band": 2 * float(reference.residual_std_median),
+            "band": 2 * float(study.lead.residual_std_median),
             "window": traces.window_with_most(reversals, time),
             "effort": study.effort,
             "symbol": study.symbol,
@@ -72,13 +72,13 @@ def cases(study):
         start, stop = arguments["window"]
         opened = "" if stop - start >= time[-1] - time[0] else " Opened on the six seconds with most reversals."
         sentence = (f"Grey: measured. Below, what each estimate leaves; band: ±2 standard deviations of the "
-                    f"{reference.short} residual in training.{opened}")
+                    f"{study.lead.short} residual in training.{opened}")
         found[f"torque_trace_{part}"] = Case(
             draw,
             arguments,
             f"{study.effort.capitalize()} of {which}",
             sentence,
             wide=True,
-            traces={"time": time, "series": series, "guide": data.torque - series["e0"], "guided_by": "residual"},
+            traces={"time": time, "series": series, "guide": data.torque - series[f"e{of_rows[0][0]}"], "guided_by": "residual"},
         )
     return found
