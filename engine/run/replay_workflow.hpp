@@ -24,6 +24,8 @@ struct ReplayRequest {
 // sources: the models to be simulated
 Experiment load_for_replay(ReplayRequest const& request, std::vector<ReplaySource>& sources);
 
+// Error 73 where something stands there that is no earlier replay
+void refuse_other_output(std::filesystem::path const& output);
 // a result with /job, /model, /data and /replay
 void write_replay_file(Experiment const& experiment, Replay const& replay, std::filesystem::path const& output,
                        ThreadChoice const& threads);

@@ -116,18 +116,20 @@ void write_replay(ResultWriter& writer, Replay const& replay) {
   }
 }
 
+void refuse_other_output(std::filesystem::path const& output) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(output, ignored)) return;
+  ResultReader const there(output);
+  validate(there.exists("/replay") && !there.exists("/runs") && !there.exists("/diagnosis"), [&] {
+    Problem problem{ExitCode::exists, output.string() + " is no earlier replay"};
+    problem.help = "--out another name, or delete it";
+    return problem;
+  });
+}
+
 void write_replay_file(Experiment const& experiment, Replay const& replay, std::filesystem::path const& output,
                        ThreadChoice const& threads) {
   Beginning const beginning;
-  std::error_code ignored;
-  if (std::filesystem::exists(output, ignored)) {
-    ResultReader const there(output);
-    validate(there.exists("/replay") && !there.exists("/runs") && !there.exists("/diagnosis"), [&] {
-      Problem problem{ExitCode::exists, output.string() + " is no earlier replay"};
-      problem.help = "--out another name, or delete it";
-      return problem;
-    });
-  }
   ResultWriter writer(
       output, {.gzip = experiment.parts().output.compression == "gzip", .inputs_sha256 = experiment.inputs_sha256()});
   write_study(writer, experiment);

@@ -3,6 +3,7 @@
 Python reads recordings beside their simulations (/replay) as page/make_replay.py lays them out.
 """
 
+import importlib.util
 import pathlib
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ import numpy as np
 SCRIPTS = sys.argv[1]
 sys.path[:0] = [SCRIPTS, str(pathlib.Path(__file__).resolve().parent / "page")]
 import make_replay  # noqa: E402
+import make_result  # noqa: E402
 import torquescope as ts  # noqa: E402
 from torquescope.reader import Replay, ReplayChannel, ReplayRecording, Result, summary  # noqa: E402
 
@@ -26,6 +28,10 @@ class ReadsReplays(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp())
         for kind, write in make_replay.ALONE.items():
             make_replay.alone(cls.folder / f"{kind}.h5", write)
+        for kind in ("rolled", "rolled_several"):
+            make_result.crs(cls.folder / f"{kind}.h5")
+            with h5py.File(cls.folder / f"{kind}.h5", "r+") as file:
+                make_replay.ROLLED[kind][1](file)
 
     @classmethod
     def tearDownClass(cls):
@@ -119,6 +125,46 @@ class ReadsReplays(unittest.TestCase):
         error = self.replay().recordings[1].position.relerr[1]
         for word in ("with what was named", "your simulator", f"{error:.6g}"):
             self.assertIn(word, text)
+
+    def estimators(self, kind):
+        """{name: cells of its line in the summary}"""
+        with Result(self.folder / f"{kind}.h5") as result:
+            lines = "\n".join(summary(result)).split("estimator ")[1].splitlines()
+        return {line.split()[0]: line.split() for line in lines[1:] if line}
+
+    def test_the_summary_has_no_gap_of_what_fits_simulations(self):
+        lines = self.estimators("rolled_several")
+        self.assertEqual({name: " ".join(cells[-2:]) == "simulated samples" for name, cells in lines.items()},
+                         {"ols": False, "de": False, "fade": True, "lm": True})
+        with Result(self.folder / "rolled_several.h5") as result:
+            for name, cells in lines.items():
+                one = result.estimators[name]
+                gap = [] if name in ("fade", "lm") else [f"{one.gap_median:.6g}"]
+                self.assertEqual(cells[3:6 if not gap else 7],
+                                 [f"{one.mse_median:.6g}", *gap, f"{one.relerr_median:.6g}",
+                                  f"{one.validation_relerr_median:.6g}"])
+
+    def test_parameters_may_be_more_than_the_regressor_has_columns(self):
+        with ts.open(self.folder / "rolled.h5") as result:
+            parameters, text = result.parameters, result.summary()
+            self.assertEqual(len(parameters), 9)
+            self.assertEqual(result.train.regressor.shape[1], 4)
+            self.assertIn("loop_kp", result._repr_html_())
+        self.assertEqual((parameters["loop_kp"].unit, parameters["loop_kp"].value), ("", 4.1e7))
+        self.assertTrue(np.isnan(parameters["stribeck_exponent"].lower))
+        self.assertIn("loop_torque_delay_s", text)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas") and importlib.util.find_spec("xarray"),
+                         "pandas and xarray are not here")
+    def test_frames_of_them(self):
+        with ts.open(self.folder / "rolled_several.h5") as result:
+            table = result.to_frame("estimators")
+            self.assertEqual(table["errors_of"].tolist(), ["rows", "rows", "simulated samples", "simulated samples"])
+            self.assertEqual(table["gap_median"].isna().tolist(), [False, False, True, True])
+        with ts.open(self.folder / "rolled.h5") as result:
+            self.assertEqual(len(result.to_frame()), 9)
+            self.assertEqual(result.to_xarray("train").sizes["parameter"], 4)
+            self.assertEqual(result.to_xarray("lm").sizes["parameter"], 9)
 
     def test_command_line(self):
         script = pathlib.Path(SCRIPTS) / "read_result.py"

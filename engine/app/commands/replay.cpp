@@ -33,6 +33,9 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
   request.threads = choose_threads(arguments.threads);
   std::vector<ReplaySource> sources;
   Experiment const experiment = load_for_replay(request, sources);
+  std::filesystem::path const output = arguments.out.empty() ? std::filesystem::path(experiment.name() + "_replay.h5")
+                                                             : std::filesystem::path(arguments.out);
+  refuse_other_output(output);
   note_start(session, experiment.diagnose_line(), experiment, request.threads);
   Replay const replay = replay_of(experiment.parts(), *experiment.parts().rollout, sources, request.threads.count);
   session.result(replay_text(replay, session.result_ink()));
@@ -44,8 +47,6 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
     file.publish();
     session.note(session.topic_line("wrote", printable(arguments.csv)));
   }
-  std::filesystem::path const output = arguments.out.empty() ? std::filesystem::path(experiment.name() + "_replay.h5")
-                                                             : std::filesystem::path(arguments.out);
   write_replay_file(experiment, replay, output, request.threads);
   note_whereabouts(session, "wrote", output, session.options().json);
   return ExitCode::ok;

@@ -2,7 +2,6 @@
 
 import re
 import shutil
-import types
 import unittest
 
 import h5py
@@ -250,12 +249,6 @@ class Convergence(unittest.TestCase):
 
     def test_lm_has_no_generations(self):
         self.assertFalse({"convergence", "convergence_simulated"} & set(all_cases(support.study("rolled"))))
-
-
-class Namespaces(unittest.TestCase):
-    def test_error_units_fall_back_on_the_torque(self):
-        study = support.study("rolled")
-        self.assertEqual(study.error_unit(types.SimpleNamespace(rollout_error_unit=None)), "N m")
 
 
 if __name__ == "__main__":
