@@ -147,7 +147,10 @@ RecordingReplay replay_recording(Recording const& recording, RolloutTrack const&
   for (std::size_t c = 0; c < replay_channels; ++c) {
     auto& channel = replay.channels[c];
     if (channel.measured.size() == 0) continue;
-    channel.signal_rms = rms_of_signal(channel.measured, is_in, c != static_cast<std::size_t>(ReplayChannel::torque));
+    auto const which = static_cast<ReplayChannel>(c);
+    channel.signal_rms = which == ReplayChannel::position
+                             ? rms_of_signal(untold_positions(track), is_in, false)
+                             : rms_of_signal(channel.measured, is_in, which == ReplayChannel::velocity);
     for (std::size_t m = 0; m < all.size(); ++m) {
       bool const says_it = all[m].channels[c].size() > 0;
       channel.simulated.push_back(says_it ? all[m].channels[c]

@@ -2,7 +2,7 @@
 // A recording beside its simulation by several models, channel by channel, on every sample.
 //
 // Channels   position, velocity (where it was measured or derived), torque; errors are measured - simulated, relative
-//            to the rms of the torque, or of the position or velocity about its mean
+//            to the rms of the torque, of the velocity about its mean, or of untold_positions() (track.hpp)
 // Left out   samples of the recording's gaps: NaN in a simulation, and in no number; `samples` counts the others
 // Horizon    sixteen replicates, whose encoders lie elsewhere within a step and which begin within one: the first half
 //            second in which they differ among themselves by as much as the simulation from the recording, and by two

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
 #include "engine/data/signal_facts.hpp"
 
@@ -14,21 +15,23 @@ namespace {
 constexpr Eigen::Index fewest_samples = 8;
 constexpr double most_ticks_per_sample = 200.0;  // below chunk_ticks of loop_lanes.hpp
 
-// slope of a line through the samples around `at`, none of them before `first`; rest where they cover less than a step
+// Slope at `at` of the parabola through the samples around it, none of them before `first`: a joint that starts changes
+// its speed at once. Of a line where the bend is lost in the steps of the encoder; rest where the way is
 double velocity_at(RolloutTrack const& track, Eigen::Index first, Eigen::Index at, Eigen::Index end) {
   constexpr double seconds = 0.02;
   auto const reach = std::max<Eigen::Index>(2, std::llround(0.5 * seconds * track.rate_hz));
-  Eigen::Index const from = std::max(first, at - reach), until = std::min(end, std::max(at + reach, from + 3));
-  double const middle = 0.5 * static_cast<double>(until - 1 - from);
-  double numerator = 0.0, denominator = 0.0;
-  for (Eigen::Index k = from; k < until; ++k) {
-    double const x = static_cast<double>(k - from) - middle;
-    numerator += x * (track.position[k] - track.position[from]);
-    denominator += x * x;
-  }
-  if (!(denominator > 0.0)) return 0.0;
-  double const slope = numerator / denominator;
-  return std::abs(slope) * static_cast<double>(until - 1 - from) <= track.encoder_step ? 0.0 : slope * track.rate_hz;
+  Eigen::Index const from = std::max(first, at - reach), until = std::min(end, std::max(at + reach, from + 4));
+  Eigen::Index const n = until - from;
+  if (n < 3) return 0.0;
+  Eigen::MatrixXd powers(n, 3);
+  powers.col(0).setOnes();
+  for (Eigen::Index k = 0; k < n; ++k) powers(k, 1) = static_cast<double>(from + k - at);
+  powers.col(2) = powers.col(1).cwiseProduct(powers.col(1));
+  Eigen::VectorXd const q = track.position.segment(from, n);
+  auto const line = solve_pivoted(powers.leftCols(2), q), parabola = solve_pivoted(powers, q);
+  double const half = 0.5 * static_cast<double>(n - 1), bend = std::abs(parabola[2]) * half * half;
+  if (std::abs(line[1]) * static_cast<double>(n - 1) <= track.encoder_step && bend <= track.encoder_step) return 0.0;
+  return (bend > track.encoder_step ? parabola[1] : line[1]) * track.rate_hz;
 }
 
 // runs of samples outside every stretch that was left out
@@ -64,6 +67,17 @@ Eigen::Index RolloutTrack::samples() const {
   Eigen::Index sum = 0;
   for (auto const& segment : segments) sum += segment.samples;
   return sum;
+}
+
+Eigen::VectorXd untold_positions(RolloutTrack const& track) {
+  bool const in_windows = track.drive == TrackDrive::torque && track.segments.size() > 1;
+  if (!in_windows) return (track.position.array() - track.position.mean()).matrix();
+  Eigen::VectorXd untold = Eigen::VectorXd::Zero(track.position.size());
+  for (auto const& segment : track.segments)
+    for (Eigen::Index k = 0; k < segment.samples; ++k)
+      untold[segment.first + k] = track.position[segment.first + k] - segment.position -
+                                  segment.velocity * static_cast<double>(k) / track.rate_hz;
+  return untold;
 }
 
 RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {

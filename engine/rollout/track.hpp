@@ -48,6 +48,10 @@ struct TrackOptions {
   double window_s = 0.05;  // of a track without a reference
 };
 
+// What a simulation of the positions has to tell, [n]: measured less what is known anyhow. That is their mean; in
+// windows, which begin at the measured state, the straight way on from there
+Eigen::VectorXd untold_positions(RolloutTrack const& track);
+
 // Errors     Error 65 where no run of samples is long enough to be simulated
 RolloutTrack track_of(Recording const& recording, TrackOptions const& options);
 

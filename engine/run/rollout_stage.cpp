@@ -32,13 +32,12 @@ std::vector<PredictionMetrics> metrics_on(RolloutParts const& rollout, RolloutDa
     double n = 0.0, sum = 0.0, squares = 0.0, energy = 0.0;
     for (std::size_t t = 0; t < residuals.size(); ++t) {
       auto const& left = residuals[t].samples[channel];
-      Eigen::VectorXd const& signal = channel == of_torque ? data.tracks[t].torque : data.tracks[t].position;
-      double const mean = channel == of_torque ? 0.0 : signal.mean();
+      Eigen::VectorXd const signal = channel == of_torque ? data.tracks[t].torque : untold_positions(data.tracks[t]);
       n += static_cast<double>(left.size());
       sum += left.sum();
       squares += left.squaredNorm();
       for (auto const& segment : data.tracks[t].segments)
-        energy += (signal.segment(segment.first, segment.samples).array() - mean).square().sum();
+        energy += signal.segment(segment.first, segment.samples).squaredNorm();
     }
     double const average = sum / n, mse = squares / n;
     if (!std::isfinite(mse)) {

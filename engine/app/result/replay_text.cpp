@@ -67,7 +67,12 @@ std::string replay_text(Replay const& replay, Ink const& ink) {
   table.row({"recording", "channel", "model", "samples", "rms", "MAE", "", "error"});
   for (auto const& one : replay.recordings) add_rows(replay, one, table);
   std::string text = table.text(200);
-  text += "  All samples count. error: rms over that of the torque, or of the motion about its mean.\n\n";
+  bool const any_windows = std::any_of(replay.recordings.begin(), replay.recordings.end(), [](auto const& one) {
+    return one.drive == TrackDrive::torque && one.window_s > 0.0;
+  });
+  text += "  All samples count. error: rms over that of the torque, or of the motion about its mean" +
+          std::string(any_windows ? ";\n  in windows of the position: over how far it leaves the straight way on.\n\n"
+                                  : ".\n\n");
   for (auto const& one : replay.recordings) {
     text += fmt::format("  {}{}\n    loop     {}\n", ink.name(printable(one.name)),
                         one.is_validation ? " (unseen)" : "", drive_text(one));

@@ -232,8 +232,8 @@ def write_lm(file, values, at_bounds=(), gone=False, **judged):
     bound = [name.decode() in at_bounds for name in file["model/names"][()]]
     errors = np.where(bound, np.nan, 0.02 * np.abs(values) + 1e-4)
     errors[np.abs(values) > 1e6] *= 100
-    tell(group, kind="lm", title=LM_TITLE, runs=1, evaluations_total=312, gap_median=np.nan if gone else 0.314, passes=2.0,
-         at_bounds=np.array([name.encode() for name in at_bounds]) if at_bounds else np.array([], "S1"),
+    tell(group, kind="lm", title=LM_TITLE, runs=1, evaluations_total=312, gap_median=np.nan if gone else 0.314,
+         passes=2.0, at_bounds=np.array([name.encode() for name in at_bounds]) if at_bounds else np.array([], "S1"),
          parameters_mean=np.array(values))
     put(group, "parameters", np.array([values]), "SI")
     put(group, "standard_error", errors[None], "SI")
@@ -266,8 +266,8 @@ def rolled(file, at_bounds=("stribeck_exponent",), diverged=False, judged=None, 
 
 def rolled_windows(file):
     """No reference was recorded: errors are of the position."""
-    rolled(file, at_bounds=(), judged={"channel": "position", "unit": "rad"}, drive="windows", window_s=0.05, loop="none",
-           loop_words="", loop_error=np.nan, channels=["position", "velocity"])
+    rolled(file, at_bounds=(), judged={"channel": "position", "unit": "rad"}, drive="windows", window_s=0.05,
+           loop="none", loop_words="", loop_error=np.nan, channels=["position", "velocity"])
 
 
 def rolled_several(file):
@@ -281,7 +281,8 @@ def rolled_several(file):
 
 
 # {kind: (what the file is otherwise, the change)}
-ROLLED = {"rolled": ("crs", rolled), "rolled_windows": ("crs", rolled_windows), "rolled_several": ("crs", rolled_several),
+ROLLED = {"rolled": ("crs", rolled), "rolled_windows": ("crs", rolled_windows),
+          "rolled_several": ("crs", rolled_several),
           "rolled_away": ("crs", lambda file: rolled(file, at_bounds=(), diverged=True))}
 
 if __name__ == "__main__":

@@ -132,8 +132,8 @@ class Words(unittest.TestCase):
     def test_without_a_reference_errors_are_of_the_position(self):
         study = support.study("rolled_windows")
         self.assertIn("reproduce an unseen position to within", words.verdict(study)["sentence"])
-        self.assertIn(" rad of the position (standard deviation) on 2700 samples, simulated from the recorded torque, in "
-                      "windows.", words.verdict(study)["evidence"])
+        self.assertIn(" rad of the position (standard deviation) on 2700 samples, simulated from the recorded torque, "
+                      "in windows.", words.verdict(study)["evidence"])
         self.assertIn("Does the model follow the position?", said("rolled_windows"))
         self.assertIn("rad²", tables.estimators(study)["head"][1])
 
@@ -211,8 +211,8 @@ class Tables(unittest.TestCase):
         self.assertNotIn("fitness", tables.estimators(support.study("crs"))["head"])
 
     def test_below_it_stands_what_errors_are_of(self):
-        self.assertIn("FADE and LM fit simulations of the recordings: errors are of all samples, simulated in closed loop. "
-                      "Other errors are of rows.", said("rolled_several"))
+        self.assertIn("FADE and LM fit simulations of the recordings: errors are of all samples, simulated in closed "
+                      "loop. Other errors are of rows.", said("rolled_several"))
         self.assertNotIn("Other errors", said("rolled"))
 
     def test_the_forest_has_every_parameter_and_wide_bars_leave_it(self):

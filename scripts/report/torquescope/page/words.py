@@ -153,7 +153,8 @@ def parameters_answer(study):
         return f"{every} 95 % interval of {e.short} excludes zero: this recording shows each of {each}. {said}".strip()
     if len(open_ones) == 1:
         return f"The 95 % interval of {open_ones[0]} includes zero: this recording does not prove it. {said}".strip()
-    return f"The 95 % intervals of {q.listed(open_ones)} include zero: this recording does not prove them. {said}".strip()
+    return (f"The 95 % intervals of {q.listed(open_ones)} include zero: this recording does not prove them. "
+            f"{said}").strip()
 
 
 def health_answer(study):
@@ -194,8 +195,8 @@ def search_answer(study):
     total = sum(int(e.evaluations_total) for e in study.searches)
     if not study.to_floor:
         return (f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, "
-                f"{q.count(total, 'evaluation')} in all, each a simulation of the recordings: nobody knows the optimum. "
-                f"{stepped}").strip()
+                f"{q.count(total, 'evaluation')} in all, each a simulation of the recordings: nobody knows the "
+                f"optimum. {stepped}").strip()
     return (
         f"{q.count(max(int(e.runs) for e in study.searches), 'run')} of each search, {q.count(total, 'evaluation')} "
         "in all. "

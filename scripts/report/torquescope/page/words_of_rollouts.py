@@ -30,8 +30,8 @@ def evidence(study, e):
     bounds = [name.replace("_", " ") for name in (e.at_bounds if e.at_bounds is not None else ())]
     if bounds:
         them = "it is" if len(bounds) == 1 else "they are"
-        said.append(f"{e.short} ends on the bound{'' if len(bounds) == 1 else 's'} of {q.listed(bounds)}: the recordings "
-                    f"do not say what {them}.")
+        said.append(f"{e.short} ends on the bound{'' if len(bounds) == 1 else 's'} of {q.listed(bounds)}: the "
+                    f"recordings do not say what {them}.")
     return " ".join(said)
 
 
@@ -40,8 +40,8 @@ def errors(study, e):
     if ran_away(e):
         return evidence(study, e)
     unseen = "" if study.validate is None else f", {q.percent(e.validation_relerr_median)} unseen"
-    return (f"{e.short}: {q.percent(e.relerr_median)} relative error of the {study.error_of(e)} in training{unseen}, over "
-            f"all samples, {how(study)}.")
+    return (f"{e.short}: {q.percent(e.relerr_median)} relative error of the {study.error_of(e)} in training{unseen}, "
+            f"over all samples, {how(study)}.")
 
 
 def note(study):
@@ -49,8 +49,9 @@ def note(study):
     them = q.listed(e.short for e in study.rolled)
     verb = "fits" if len(study.rolled) == 1 else "fit"
     others = " Other errors are of rows." if len(study.rolled) < len(study.estimators) else ""
-    return (f"{them} {verb} simulations of the recordings: errors are of all samples, {how(study)}.{others} Fitness: the "
-            "squared error of what is fitted, over that of the model where the fit begins; nobody knows its least value.")
+    return (f"{them} {verb} simulations of the recordings: errors are of all samples, {how(study)}.{others} Fitness: "
+            "the squared error of what is fitted, over that of the model where the fit begins; nobody knows its least "
+            "value.")
 
 
 def recording_note(study):

@@ -72,8 +72,8 @@ def cases(study):
         sentence = f"Each thin line is one run{some}, the thick line the median of all."
         if searches is simulated:
             sentence += " 1: what the model they began with leaves, or where that ran away, the whole signal."
-            found[name] = Case(draw, {"histories": histories, "unit": "", "what": FITNESS}, "Convergence of simulations",
-                               sentence)
+            arguments = {"histories": histories, "unit": "", "what": FITNESS}
+            found[name] = Case(draw, arguments, "Convergence of simulations", sentence)
         else:
             found[name] = Case(draw, {"histories": histories, "unit": quantities.square(study.effort_unit)}, TITLE,
                                f"{sentence} A straight fall is a rate.")

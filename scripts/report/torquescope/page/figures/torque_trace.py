@@ -79,6 +79,6 @@ def cases(study):
             f"{study.effort.capitalize()} of {which}",
             sentence,
             wide=True,
-            traces={"time": time, "series": series, "guide": data.torque - series[f"e{of_rows[0][0]}"], "guided_by": "residual"},
+            traces={"time": time, "series": series, "guide": data.torque - predictions[0][2], "guided_by": "residual"},
         )
     return found
