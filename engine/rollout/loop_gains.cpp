@@ -1,6 +1,7 @@
 #include "engine/rollout/loop_gains.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/dense_solvers.hpp"
@@ -59,9 +60,20 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
   return answers;
 }
 
-// least squares on all tracks; columns: numbers with one gain of 1 each. An integral is told up to a constant
-Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNumbers const& fixed,
-                                 std::size_t speed_samples, std::vector<RolloutTrack> const& tracks) {
+// normal equations of the torque on columns
+struct Normal {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd right;
+
+  Eigen::VectorXd gains() const { return solve_shortest(gram, right); }
+  // [k][columns]: k sums of columns in their place
+  Normal of(Eigen::MatrixXd const& sums) const { return {sums * gram * sums.transpose(), sums * right}; }
+  double explained() const { return right.dot(gains()); }
+};
+
+// on all tracks; columns: numbers with one gain of 1 each. An integral is told up to a constant
+Normal normal_of_columns(std::vector<LoopNumbers> const& columns, LoopNumbers const& fixed, std::size_t speed_samples,
+                         std::vector<RolloutTrack> const& tracks) {
   constexpr double near_limit = 0.98;
   auto const p = static_cast<Index>(columns.size());
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p, p);
@@ -87,7 +99,36 @@ Eigen::VectorXd gains_of_columns(std::vector<LoopNumbers> const& columns, LoopNu
       right += phi.transpose() * tau;
     }
   }
-  return solve_shortest(gram, right);
+  return {gram, right};
+}
+
+// u = kv (kp e + s) + ki (integral of kp e + s): {kp, kv, ki} by the kp that explains most of the torque.
+// columns: e, s, and the integral of each
+std::array<double, 3> cascade_gains(Normal const& normal) {
+  constexpr double least = 1e-2, most = 1e5;  // 1/s
+  constexpr int n_tried = 200, n_halved = 60;
+  auto const at = [&](double kp) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2, 4);
+    sums << kp, 1.0, 0.0, 0.0, 0.0, 0.0, kp, 1.0;
+    return normal.of(sums / kp);
+  };
+  double const apart = std::log(most / least) / n_tried;
+  double best = least;
+  for (int i = 1; i <= n_tried; ++i) {
+    double const kp = least * std::exp(apart * i);
+    if (at(kp).explained() > at(best).explained()) best = kp;
+  }
+  double low = best * std::exp(-apart), high = best * std::exp(apart);
+  for (int i = 0; i < n_halved; ++i) {
+    double const third = (high - low) / 3.0;
+    if (at(low + third).explained() < at(high - third).explained())
+      low += third;
+    else
+      high -= third;
+  }
+  best = 0.5 * (low + high);
+  Eigen::VectorXd const gains = at(best).gains() / best;
+  return {best, gains[0], gains[1]};
 }
 
 }  // namespace
@@ -100,6 +141,7 @@ LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKe
   LoopNumbers bare = numbers_of(LoopForm::none, values);
   LoopNumbers empty = bare;
   empty.added_gain = 0.0;
+  empty.feed_acceleration = 0.0;
   bool const is_cascade = form == LoopForm::p_velocity || form == LoopForm::p_pi;
   auto const column = [&](double LoopNumbers::*gain) {
     LoopNumbers one = empty;
@@ -113,11 +155,17 @@ LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKe
   bool const has_integral = form == LoopForm::pi || form == LoopForm::pid || form == LoopForm::p_pi;
   if (has_speed) columns.push_back(column(&LoopNumbers::kd));
   if (has_integral) columns.push_back(column(&LoopNumbers::ki));
-  Eigen::VectorXd const found = gains_of_columns(columns, bare, speed_samples, tracks);
+  if (form == LoopForm::p_pi) columns.push_back(column(&LoopNumbers::ki_speed));
+  Normal const normal = normal_of_columns(columns, bare, speed_samples, tracks);
+  Eigen::VectorXd found = normal.gains();
+  if (form == LoopForm::p_pi) {
+    auto const [outer, inner, sum] = cascade_gains(normal);
+    found << outer * inner, inner, outer * sum, sum;
+  }
   constexpr double least_share = 1e-3;
   auto const positive = [&](double gain, double beside) { return std::max(gain, least_share * std::abs(beside)); };
   double const by_error = std::max(found[0], 1e-9), by_speed = has_speed ? positive(found[1], 1e-3 * by_error) : 0.0;
-  double const by_integral = has_integral ? positive(found[found.size() - 1], by_error) : 0.0;
+  double const by_integral = has_integral ? positive(found[has_speed ? 2 : 1], by_error) : 0.0;
   auto const set = [&](LoopKey key, double value) {
     if (std::find(wanted.begin(), wanted.end(), key) != wanted.end()) values[key] = value;
   };

@@ -37,7 +37,8 @@ HWY_INLINE V led_goal(LaneLoops const& loops, V wanted, LaneLoopState& loop, std
   V const step = clamped(target, hn::Sub(before, most_change), hn::Add(before, most_change));
   V const chosen = hn::IfThenElse(is_free, target, step);
   store(chosen, loop.goal_speed, lane);
-  return hn::Add(goal, chosen);
+  // the whole way is no sum: a lane without limits sees its reference itself
+  return hn::IfThenElse(hn::Eq(chosen, way), wanted, hn::Add(goal, chosen));
 }
 
 // the torque that was asked for late_ticks and a share of a tick ago, on average over the tick
@@ -290,7 +291,8 @@ void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double
     for (std::size_t k = 0; k < loops.speed_samples; ++k)
       reads[k][lane] = joint.q[lane] - joint.dq[lane] * loops.period_s * static_cast<double>(loops.speed_samples - k);
     double const rest = loops.kp[lane] * (first_goal[lane] - joint.q[lane]) - loops.kd[lane] * joint.dq[lane];
-    integral[lane] = loops.has_integral ? torque - rest : 0.0;
+    bool const sums = loops.ki[lane] != 0.0 || loops.ki_speed[lane] != 0.0;
+    integral[lane] = sums ? torque - rest : 0.0;
     command[lane] = lagged[lane] = logged[lane] = torque;
   }
   for (auto& row : commands) std::fill_n(row, twin_lanes, torque);

@@ -113,6 +113,12 @@ void check_loop(LoopOptions const& options, Section const& section, std::vector<
                                     "write keys of [loop] (torquescope describe loop)"));
       continue;
     }
+    if (is_gain(*key) && std::find(gains.begin(), gains.end(), *key) == gains.end()) {
+      problems.push_back(problem_at(section, "fit",
+                                    fmt::format("fit: {} is no gain of controller = \"{}\"", name, word(form)),
+                                    "remove it, or name the controller that has it: p, pi, pd, pid, p_velocity, p_pi"));
+      continue;
+    }
     bool const has_no_start = std::isnan(given(options, *key)) && !std::isfinite(facts_of(*key).none);
     if (has_no_start)
       problems.push_back(problem_at(section, "fit", fmt::format("fit: {} has no value to begin at", name),

@@ -146,7 +146,11 @@ TickSteps tick_steps(double tick_s, std::size_t steps) {
 class SlowSegment {
  public:
   SlowSegment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes)
-      : track_(track), lanes_(lanes), motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
+      : track_(track),
+        lanes_(lanes),
+        start_s_(track.time_s.size() > 0 ? track.time_s[segment.first]
+                                         : static_cast<double>(segment.first) / track.rate_hz),
+        motion_(lanes.rolled.dry, lanes.makers, tick_steps(track.tick_s(), lanes.steps)) {
     for (auto const& effect : motion_.effects()) shifts_channels_ = shifts_channels_ || effect->shifts_channels();
     if (!track.law) return;
     law_.emplace(*track.law, segment.position, segment.velocity, track.rate_hz);
@@ -161,7 +165,7 @@ class SlowSegment {
             TickOutputs const& out) {
     alignas(64) double read[twin_lanes], held[twin_lanes], logged[twin_lanes], acts[twin_lanes];
     for (std::size_t row = 0; row < ticks; ++row) {
-      double const time_s = static_cast<double>(first_tick + row) * track_.tick_s();
+      double const time_s = start_s_ + static_cast<double>(first_tick + row) * track_.tick_s();
       std::copy_n(state.q, twin_lanes, read);
       if (shifts_channels_) {
         LaneInstant const at = instant_of(state, time_s, track_.tick_s(), motor_);
@@ -198,6 +202,7 @@ class SlowSegment {
 
   RolloutTrack const& track_;
   Lanes const& lanes_;
+  double start_s_;  // by the recording's clock, as effects of the time see it
   LaneMotion motion_;
   bool shifts_channels_ = false;
   std::optional<LaneController> law_{};
