@@ -71,7 +71,11 @@ Eigen::Index RolloutTrack::samples() const {
 
 Eigen::VectorXd untold_positions(RolloutTrack const& track) {
   bool const in_windows = track.drive == TrackDrive::torque && track.segments.size() > 1;
-  if (!in_windows) return (track.position.array() - track.position.mean()).matrix();
+  if (!in_windows) {
+    double sum = 0.0;
+    for (auto const& segment : track.segments) sum += track.position.segment(segment.first, segment.samples).sum();
+    return (track.position.array() - sum / static_cast<double>(track.samples())).matrix();
+  }
   Eigen::VectorXd untold = Eigen::VectorXd::Zero(track.position.size());
   for (auto const& segment : track.segments)
     for (Eigen::Index k = 0; k < segment.samples; ++k)
