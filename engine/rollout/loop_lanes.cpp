@@ -102,8 +102,9 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
     if (in.added != nullptr) asked = hn::Add(asked, hn::Mul(load(loops.added_gain, lane), hn::Set(d, in.added[row])));
     V const least = load(loops.least, lane), most = load(loops.most, lane);
     if (loops.has_integral) {
-      V const grown = hn::Mul(hn::Set(d, loops.period_s),
+      V grown = hn::Mul(hn::Set(d, loops.period_s),
                               hn::Add(hn::Mul(load(loops.ki, lane), error), hn::Mul(load(loops.ki_speed, lane), slip)));
+      if (in.enabled != nullptr) grown = hn::Mul(grown, hn::Set(d, in.enabled[row]));
       V const before = load(loop.integral, lane);
       V const whole = hn::Add(asked, hn::Add(before, grown));
       V const beyond = hn::Sub(whole, clamped(whole, least, most));

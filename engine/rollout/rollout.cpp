@@ -197,7 +197,11 @@ class SlowSegment {
     std::size_t const tick = first_tick + row;
     auto const k = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
     if (tick % track_.ticks_per_sample == 0) law_->command(read, open_[k], wanted_[k], command_);
-    pass_on_tick(lanes_.loops, inputs, row, command_, loop, held, logged);
+    alignas(64) double whole[twin_lanes];
+    double const added = inputs.added != nullptr ? inputs.added[row] : 0.0;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+      whole[lane] = command_[lane] + lanes_.loops.added_gain[lane] * added;
+    pass_on_tick(lanes_.loops, inputs, row, whole, loop, held, logged);
   }
 
   RolloutTrack const& track_;

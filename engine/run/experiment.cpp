@@ -266,6 +266,11 @@ std::vector<CheckLine> Experiment::check(int threads) const {
     lines.push_back({told.all_seen ? Level::ok : Level::warn, "identifiable", told.words});
   }
 
+  if (parts_->rollout)
+    for (auto const* data : {&parts_->rollout->train, &parts_->rollout->validate})
+      for (std::size_t k = 0; k < data->tracks.size(); ++k)
+        lines.push_back({Level::note, "loop", fmt::format("{}: {}", data->tracks[k].name, data->loop_words[k])});
+
   if (parts_->job.find("diagnose") != nullptr)
     lines.push_back({Level::ok, "diagnosis",
                      fmt::format("{}, {}", counted(parts_->effects.size(), "effect"),

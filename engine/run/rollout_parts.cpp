@@ -181,8 +181,11 @@ RolloutData rollout_data(std::vector<Recording> recordings, LoopOptions const& l
                   ? "no controller: the recorded torque drives the joint"
                   : "no reference was recorded: the recorded torque drives the joint; record the commanded position";
     } else if (form == LoopForm::identified) {
+      Eigen::VectorXd torque = recording.torque;
+      double const gain = loop_setting(loop, recording.rate_hz).values[LoopKey::added_command_gain];
+      if (recording.added_command.size() > 0) torque -= gain * recording.added_command;
       ControllerFit const fit =
-          fit_controller({recording.time_s, recording.reference, recording.position, recording.torque, nullptr});
+          fit_controller({recording.time_s, recording.reference, recording.position, torque, nullptr});
       track.law = fit.law;
       origin = fit.is_white ? LoopOrigin::identified : LoopOrigin::approximated;
       words = fit.remark;
@@ -229,6 +232,13 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
       return std::find(gains.begin(), gains.end(), key) != gains.end();
     });
   }
+  for (auto* data : {&rollout.train, &rollout.validate})
+    for (auto& words : data->loop_words)
+      if (loop.rate_hz > 0.0 && !words.empty()) {
+        auto const& track = rollout.train.tracks.front();
+        double const slower = static_cast<double>(setting.hold_ticks);
+        words += fmt::format(", at {:g} Hz", 1.0 / (track.tick_s() * slower));
+      }
   for (auto* data : {&rollout.train, &rollout.validate})
     for (std::size_t k = 0; k < data->tracks.size(); ++k)
       if (data->origins[k] == LoopOrigin::given || data->origins[k] == LoopOrigin::fitted)

@@ -93,11 +93,12 @@ std::string rollout_error_unit(Experiment::Parts const& parts) {
 
 void write_rollout_errors(ResultWriter& writer, std::string const& label, Experiment::Parts const& parts) {
   bool const of_force = judges_torque(*parts.rollout), slides = parts.regressor->joint() == JointKind::prismatic;
+  bool const has_loop = parts.rollout->train.tracks.front().drive == TrackDrive::reference;
+  char const* const how = has_loop ? "in closed loop" : "from the recorded torque";
   writer.attribute("/runs/" + label, "rollout_error_unit", rollout_error_unit(parts));
   writer.attribute("/runs/" + label, "remark",
-                   fmt::format("errors are of the {} on all samples, simulated in closed loop; of rows they would be "
-                               "others",
-                               of_force ? (slides ? "force" : "torque") : "position"));
+                   fmt::format("errors are of the {} on all samples, simulated {}; of rows they would be others",
+                               of_force ? (slides ? "force" : "torque") : "position", how));
 }
 
 }  // namespace torquescope

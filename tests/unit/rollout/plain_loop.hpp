@@ -144,11 +144,12 @@ class PlainLoop {
           c_.feed_acceleration * goal_acceleration + c_.added_gain * channel(in_.added, sample, 0.0);
       if (c_.form == "p") command_ = limited(c_.kp * e + beside);
       if (c_.form == "pd") command_ = limited(c_.kp * e + c_.kd * (wanted - v) + beside);
-      if (c_.form == "pi") command_ = with_integral(c_.kp * e + beside, c_.ki * e * period_s);
-      if (c_.form == "pid") command_ = with_integral(c_.kp * e + c_.kd * (wanted - v) + beside, c_.ki * e * period_s);
+      double const on = channel(in_.enabled, sample, 1.0);
+      if (c_.form == "pi") command_ = with_integral(c_.kp * e + beside, c_.ki * e * period_s * on);
+      if (c_.form == "pid") command_ = with_integral(c_.kp * e + c_.kd * (wanted - v) + beside, c_.ki * e * period_s * on);
       double const slip = c_.kp * e + wanted - v;
       if (c_.form == "p_velocity") command_ = limited(c_.kv * slip + beside);
-      if (c_.form == "p_pi") command_ = with_integral(c_.kv * slip + beside, c_.ki * slip * period_s);
+      if (c_.form == "p_pi") command_ = with_integral(c_.kv * slip + beside, c_.ki * slip * period_s * on);
     }
     double const sent = command_ * channel(in_.enabled, sample, 1.0);
     sent_.push_back(sent);
