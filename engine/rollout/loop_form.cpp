@@ -6,7 +6,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double largest = 1e9;
 
 constexpr std::array<std::pair<LoopForm, char const*>, 8> forms{{{LoopForm::identified, "identified"},
@@ -26,11 +26,11 @@ constexpr std::array<LoopKeyFacts, loop_keys> facts{{
     {LoopKey::feed_speed, "feed_speed", "1", "1", 0.0, -2.0, 2.0},
     {LoopKey::feed_acceleration, "feed_acceleration", "kg m2", "kg", 0.0, -largest, largest},
     {LoopKey::added_command_gain, "added_command_gain", "N m per unit", "N per unit", 1.0, -largest, largest},
-    {LoopKey::torque_limit, "torque_limit", "N m", "N", infinite, 0.0, largest},
+    {LoopKey::torque_limit, "torque_limit", "N m", "N", no_limit, 0.0, largest},
     {LoopKey::speed_lag_s, "speed_lag_s", "s", "s", 0.0, 0.0, 1.0},
     {LoopKey::back_emf, "back_emf", "N m s/rad", "N s/m", 0.0, 0.0, largest},
-    {LoopKey::goal_speed_limit, "goal_speed_limit", "rad/s", "m/s", infinite, 1e-6, largest},
-    {LoopKey::goal_acceleration_limit, "goal_acceleration_limit", "rad/s2", "m/s2", infinite, 1e-6, largest},
+    {LoopKey::goal_speed_limit, "goal_speed_limit", "rad/s", "m/s", no_limit, 1e-6, largest},
+    {LoopKey::goal_acceleration_limit, "goal_acceleration_limit", "rad/s2", "m/s2", no_limit, 1e-6, largest},
     {LoopKey::command_delay_s, "command_delay_s", "s", "s", 0.0, 0.0, 0.25},
     {LoopKey::torque_delay_s, "torque_delay_s", "s", "s", 0.0, 0.0, 0.25},
     {LoopKey::torque_lag_s, "torque_lag_s", "s", "s", 0.0, 0.0, 1.0},

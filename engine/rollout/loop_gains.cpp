@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/dense_solvers.hpp"
+#include "engine/rollout/chunk_inputs.hpp"
 #include "engine/rollout/loop_lanes.hpp"
 #include "engine/simulate/lane_controller.hpp"
 
@@ -19,21 +20,13 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
   LaneLoops loops(track.tick_s(), 1, speed_samples);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) loops.set(lane, numbers);
   double const delay = numbers.command_delay_s / track.tick_s();
-  auto const goal_at = [&](double tick) {
-    double const last = static_cast<double>(segment.samples - 1);
-    double const sample = std::clamp(tick / static_cast<double>(track.ticks_per_sample), 0.0, last);
-    auto const before = static_cast<Index>(sample);
-    double const share = sample - static_cast<double>(before);
-    Index const at = segment.first + before;
-    return share > 0.0 ? track.reference[at] + share * (track.reference[at + 1] - track.reference[at])
-                       : track.reference[at];
-  };
+  SegmentReference const reference(track, segment);
   double goal[twin_lanes], read[twin_lanes], speed[twin_lanes], held[twin_lanes], logged[twin_lanes];
   LaneState state;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     state.q[lane] = segment.position;
     state.dq[lane] = segment.velocity;
-    goal[lane] = goal_at(-delay);
+    goal[lane] = reference.at(-delay);
   }
   LaneLoopState loop;
   loop.start(loops, state, goal, segment.torque);
@@ -49,8 +42,8 @@ Eigen::VectorXd answer_to(LoopNumbers const& numbers, std::size_t speed_samples,
       double const share = static_cast<double>(tick) / static_cast<double>(track.ticks_per_sample);
       std::fill_n(read, twin_lanes, track.position[at] + share * (next - track.position[at]));
       std::fill_n(goal, twin_lanes,
-                  goal_at(static_cast<double>(k) * static_cast<double>(track.ticks_per_sample) +
-                          static_cast<double>(tick) - delay));
+                  reference.at(static_cast<double>(k) * static_cast<double>(track.ticks_per_sample) +
+                               static_cast<double>(tick) - delay));
       double const added = track.added.size() > 0 ? track.added[at] : 0.0;
       double const enabled = track.enabled.size() > 0 ? track.enabled[at] : 1.0;
       answer_tick(loops, {goal, twin_lanes, &added, nullptr, &enabled}, 0, read, speed, loop, held, logged);

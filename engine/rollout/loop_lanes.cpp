@@ -103,7 +103,7 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
     V const least = load(loops.least, lane), most = load(loops.most, lane);
     if (loops.has_integral) {
       V grown = hn::Mul(hn::Set(d, loops.period_s),
-                              hn::Add(hn::Mul(load(loops.ki, lane), error), hn::Mul(load(loops.ki_speed, lane), slip)));
+                        hn::Add(hn::Mul(load(loops.ki, lane), error), hn::Mul(load(loops.ki_speed, lane), slip)));
       if (in.enabled != nullptr) grown = hn::Mul(grown, hn::Set(d, in.enabled[row]));
       V const before = load(loop.integral, lane);
       V const whole = hn::Add(asked, hn::Add(before, grown));

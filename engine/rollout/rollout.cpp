@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/contract.hpp"
+#include "engine/rollout/chunk_inputs.hpp"
 #include "engine/rollout/loop_lanes.hpp"
 #include "engine/simulate/lane_controller.hpp"
 #include "engine/simulate/lane_motion.hpp"
@@ -15,66 +16,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-// inputs of a segment at its ticks, one chunk at a time
-class ChunkInputs {
- public:
-  ChunkInputs(RolloutTrack const& track, TrackSegment const& segment, std::vector<double> const& delay_ticks)
-      : track_(track), segment_(segment), delay_ticks_(delay_ticks), goal_(chunk_ticks * twin_lanes) {
-    is_same_ = std::all_of(delay_ticks.begin(), delay_ticks.end(), [&](double one) { return one == delay_ticks[0]; });
-    for (auto* row : {&added_, &outside_, &enabled_}) row->assign(chunk_ticks, 0.0);
-  }
-
-  TickInputs at(std::size_t first_tick, std::size_t ticks) {
-    for (std::size_t row = 0; row < ticks; ++row)
-      if (is_same_)
-        goal_[row] = goal_at(static_cast<double>(first_tick + row) - delay_ticks_[0]);
-      else
-        for (std::size_t lane = 0; lane < twin_lanes; ++lane)
-          goal_[row * twin_lanes + lane] = goal_at(static_cast<double>(first_tick + row) - delay_ticks_[lane]);
-    auto const filled = [&](Eigen::VectorXd const& channel, std::vector<double>& rows) -> double const* {
-      if (channel.size() == 0) return nullptr;
-      for (std::size_t row = 0; row < ticks; ++row) rows[row] = channel[sample_of(first_tick + row)];
-      return rows.data();
-    };
-    return {goal_.data(), is_same_ ? 1 : twin_lanes, filled(track_.added, added_), filled(track_.outside, outside_),
-            filled(track_.enabled, enabled_)};
-  }
-
-  // as the loop sees it before anything is delayed
-  double goal_at(double tick) const {
-    if (track_.reference.size() == 0) return segment_.position;
-    double const last = static_cast<double>(segment_.samples) * static_cast<double>(track_.ticks_per_sample) - 1.0;
-    double const within = std::clamp(tick, 0.0, last);
-    auto const before = static_cast<std::size_t>(within);
-    double const share = within - static_cast<double>(before);
-    double const from = reference_at(before);
-    return share > 0.0 ? from + share * (reference_at(before + 1) - from) : from;
-  }
-
- private:
-  Eigen::Index sample_of(std::size_t tick) const {
-    auto const sample = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
-    return segment_.first + std::min(sample, segment_.samples - 1);
-  }
-
-  double reference_at(std::size_t tick) const {
-    Eigen::Index const sample = sample_of(tick);
-    double const here = track_.reference[sample];
-    std::size_t const within = tick % track_.ticks_per_sample;
-    if (!track_.straight_reference || within == 0 || sample + 1 >= segment_.first + segment_.samples) return here;
-    double const share = static_cast<double>(within) / static_cast<double>(track_.ticks_per_sample);
-    return here + share * (track_.reference[sample + 1] - here);
-  }
-
-  RolloutTrack const& track_;
-  TrackSegment const& segment_;
-  std::vector<double> delay_ticks_;
-  bool is_same_ = true;
-  kernels::AlignedDoubles goal_;  // on cache lines: rows are one each
-  std::vector<double> added_, outside_, enabled_;
-};
+constexpr double lost = std::numeric_limits<double>::quiet_NaN();
 
 // sixteen trials as lanes; those beyond the last repeat the first
 class Lanes {
@@ -235,7 +177,7 @@ class Watch {
       state.q[lane] = middle_;  // out of the way: no overflow slows the others down
       state.dq[lane] = state.ddq[lane] = 0.0;
       for (std::size_t row = 0; row < ticks; ++row)
-        for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque}) (*values)[row * twin_lanes + lane] = nan;
+        for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque}) (*values)[row * twin_lanes + lane] = lost;
     }
   }
 
@@ -280,7 +222,8 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes 
   }
   LaneLoopState loop;
   double first_goal[twin_lanes];
-  for (std::size_t lane = 0; lane < twin_lanes; ++lane) first_goal[lane] = inputs.goal_at(-lanes.delay_ticks[lane]);
+  for (std::size_t lane = 0; lane < twin_lanes; ++lane)
+    first_goal[lane] = inputs.reference().at(-lanes.delay_ticks[lane]);
   loop.start(lanes.loops, state, first_goal, segment.torque);
   std::optional<SlowSegment> slow;
   if (!lanes.is_fast()) slow.emplace(track, segment, lanes);

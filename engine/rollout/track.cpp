@@ -92,9 +92,9 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
   track.drive = recording.reference.size() == n ? TrackDrive::reference : TrackDrive::torque;
   track.straight_reference = options.straight_reference;
   validate(options.controller_rate_hz <= most_ticks_per_sample * recording.rate_hz, [&] {
-    Problem problem{ExitCode::bad_job, fmt::format("loop.rate_hz = {:g} is more than {:g} times the {:g} Hz of {}",
-                                                   options.controller_rate_hz, most_ticks_per_sample, recording.rate_hz,
-                                                   recording.name)};
+    Problem problem{ExitCode::bad_job,
+                    fmt::format("loop.rate_hz = {:g} is more than {:g} times the {:g} Hz of {}",
+                                options.controller_rate_hz, most_ticks_per_sample, recording.rate_hz, recording.name)};
     problem.help = "a lower rate says the same: 1000 Hz is enough for most joints";
     return problem;
   });

@@ -30,7 +30,7 @@ def reference(t, phase):
 
 
 def recorded(phase, seed, pulses=False):
-    """Rows of t, reference, position, torque, added command: fine steps of a twentieth of a tick, friction that holds."""
+    """Rows of t, reference, position, torque, added command: steps of a twentieth of a tick, friction that holds."""
     noise, rows = random.Random(seed), []
     q = before = dq = 0.0
     for k in range(SECONDS * RATE_HZ):
@@ -150,7 +150,8 @@ class Replay(run_cli.Folder):
             self.assertEqual(file["runs/de"].attrs["fitness_used"], b"rollout")
 
     def test_added_commands_act_where_they_are_added(self):
-        columns = {"time": "t_s", "reference": "r_rad", "position": "q_rad", "torque": "u_Nm", "added_command": "added_V"}
+        columns = {"time": "t_s", "reference": "r_rad", "position": "q_rad", "torque": "u_Nm",
+                   "added_command": "added_V"}
         given = "[model.given]\n" + "".join(f"{key} = {value}\n" for key, value in TRUTH.items())
         loop = f'[loop]\ncontroller = "pd"\nkp = {KP}\nkd = {KD}\n'
         with_it = self.replayed(self.job(given, loop + "added_command_gain = 1.5\n", columns=columns,
@@ -210,7 +211,8 @@ class Replay(run_cli.Folder):
                          '[[estimator]]\nname = "lm"\n')
         self.assert_refused(self.run_here("run", mixed), 78, ["fits rows"])
         columns = {"time": "t_s", "reference": "r_rad", "position": "q_rad", "torque": "u_Nm", "enabled": "on"}
-        self.assert_refused(self.run_here("replay", self.job(columns=columns)), 78, ['no recording has the column "on"'])
+        self.assert_refused(self.run_here("replay", self.job(columns=columns)), 78,
+                            ['no recording has the column "on"'])
 
     def test_other_files_under_the_name_of_the_result_stay(self):
         job = self.job('[loop]\ncontroller = "pd"\n', '[[estimator]]\nname = "lm"\n')

@@ -49,7 +49,8 @@ TEST(Emps, GivesThePublishedParametersAndErrors) {
     EXPECT_NEAR(result.attribute<double>("/runs/" + label, "relerr_median"), train, 1e-5) << label;
 }
 
-// Published, simulated in closed loop: 5.85 % of the force in training, 8.94 % on the pulses (Janot, Gautier, Brunot 2019)
+// Published, simulated in closed loop: 5.85 % of the force in training, 8.94 % on the pulses (Janot, Gautier, Brunot
+// 2019)
 TEST(Emps, IsSimulatedInItsLoopOnEverySample) {
   fs::path const recordings = test::recordings_folder();
   SKIP_WITHOUT(recordings / "emps/emps_train.csv.gz");

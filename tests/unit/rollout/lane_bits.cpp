@@ -125,8 +125,7 @@ TEST(LaneBits, OfSumsAndResidualsAreTheSameOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t channel = 0; channel < n_channels; ++channel) {
       double sum = 0.0;
-      for (auto const& track : residuals)
-        sum += track.samples[channel].col(static_cast<Eigen::Index>(i)).squaredNorm();
+      for (auto const& track : residuals) sum += track.samples[channel].col(static_cast<Eigen::Index>(i)).squaredNorm();
       EXPECT_NEAR(sums[i][channel], sum, 1e-12 * sum);
     }
 }

@@ -75,12 +75,11 @@ TEST(LoopOptions, RefuseGainsOfAnotherController) {
     char const* controller;
     char const* gain;
     bool belongs;
-  } const cases[] = {{"p", "kp", true},          {"p", "kd", false},       {"p", "ki", false},
-                     {"pi", "ki", true},         {"pi", "kv", false},      {"pd", "kd", true},
-                     {"pd", "ki", false},        {"pid", "ki", true},      {"pid", "kv", false},
-                     {"p_velocity", "kv", true}, {"p_velocity", "kd", false}, {"p_velocity", "ki", false},
-                     {"p_pi", "ki", true},       {"p_pi", "kd", false},    {"identified", "kp", false},
-                     {"none", "kv", false}};
+  } const cases[] = {
+      {"p", "kp", true},    {"p", "kd", false},         {"p", "ki", false},          {"pi", "ki", true},
+      {"pi", "kv", false},  {"pd", "kd", true},         {"pd", "ki", false},         {"pid", "ki", true},
+      {"pid", "kv", false}, {"p_velocity", "kv", true}, {"p_velocity", "kd", false}, {"p_velocity", "ki", false},
+      {"p_pi", "ki", true}, {"p_pi", "kd", false},      {"identified", "kp", false}, {"none", "kv", false}};
   for (auto const& [controller, gain, belongs] : cases) {
     auto const problems = read({{"controller", text(controller)}, {gain, 2.0}}).problems;
     ASSERT_EQ(problems.size(), belongs ? 0u : 1u) << controller << " " << gain;

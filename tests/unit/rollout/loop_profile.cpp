@@ -58,8 +58,8 @@ TEST(LoopProfile, OfAStepIsATrapezoidThatArrivesInItsTime) {
   struct {
     Limits limits;
     double way;
-  } const cases[] = {{{0.5, 4.0}, 0.3}, {{0.5, 4.0}, -0.3}, {{0.5, 3.7}, 0.01}, {{infinite, 6.1}, 0.37},
-                     {{0.7, infinite}, -0.2}, {{0.333, 2.71}, 0.12345}};
+  } const cases[] = {{{0.5, 4.0}, 0.3},       {{0.5, 4.0}, -0.3},      {{0.5, 3.7}, 0.01},
+                     {{infinite, 6.1}, 0.37}, {{0.7, infinite}, -0.2}, {{0.333, 2.71}, 0.12345}};
   for (auto const& [limits, way] : cases) {
     auto const goals = led(std::vector<double>(2000, way), limits);
     expect_within(goals, limits);

@@ -22,7 +22,7 @@ struct PlainJoint {
   double inertia = 0.05, viscous = 0.15, gravity_sin = 0.0, gravity_cos = 0.0;
   double forward = 0.0, backward = 0.0, offset = 0.0;
   std::function<double(double time_s, double q)> smooth{};  // torque it needs beside
-  std::function<double(double speed)> sliding{};              // friction beside, of a size of speed
+  std::function<double(double speed)> sliding{};            // friction beside, of a size of speed
 };
 
 struct PlainController {
@@ -140,13 +140,13 @@ class PlainLoop {
       last_goal_ = goal;
       last_goal_speed_ = goal_speed;
       double const wanted = c_.feed_speed * goal_speed;
-      double const beside =
-          c_.feed_acceleration * goal_acceleration + c_.added_gain * channel(in_.added, sample, 0.0);
+      double const beside = c_.feed_acceleration * goal_acceleration + c_.added_gain * channel(in_.added, sample, 0.0);
       if (c_.form == "p") command_ = limited(c_.kp * e + beside);
       if (c_.form == "pd") command_ = limited(c_.kp * e + c_.kd * (wanted - v) + beside);
       double const on = channel(in_.enabled, sample, 1.0);
       if (c_.form == "pi") command_ = with_integral(c_.kp * e + beside, c_.ki * e * period_s * on);
-      if (c_.form == "pid") command_ = with_integral(c_.kp * e + c_.kd * (wanted - v) + beside, c_.ki * e * period_s * on);
+      if (c_.form == "pid")
+        command_ = with_integral(c_.kp * e + c_.kd * (wanted - v) + beside, c_.ki * e * period_s * on);
       double const slip = c_.kp * e + wanted - v;
       if (c_.form == "p_velocity") command_ = limited(c_.kv * slip + beside);
       if (c_.form == "p_pi") command_ = with_integral(c_.kv * slip + beside, c_.ki * slip * period_s * on);

@@ -160,8 +160,8 @@ TEST(Replay, OfAStableJointHasNoHorizon) {
   PlainJoint const joint = dry_joint();
   PlainController const controller = controller_of("pd");
   Case const one = recorded_case(joint, controller, {});
-  EXPECT_TRUE(std::isnan(
-      replay_recording(one.recording, one.track, one.velocity, {model_of(joint, controller)}).horizon_s));
+  EXPECT_TRUE(
+      std::isnan(replay_recording(one.recording, one.track, one.velocity, {model_of(joint, controller)}).horizon_s));
 }
 
 // an arm held upside down by a weak loop: a step of its encoder decides to which side it falls

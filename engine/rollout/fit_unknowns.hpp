@@ -1,0 +1,53 @@
+#pragma once
+// What a fit by simulation searches: the parameters of a model, and where every track begins beside its measured state.
+//
+// Starts     position and speed at the first sample of each track that is one segment in a loop; windows and tracks
+//            with gaps begin as measured
+// Scale      of a parameter that cannot be negative: at most its own size, so that a difference does not pass its end
+// Units      SI
+// Threads    const object; residuals_at() spreads trials over `threads`
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/rollout/rollout_model.hpp"
+#include "engine/rollout/rollout_residuals.hpp"
+
+namespace torquescope {
+
+struct FitPoint {
+  Eigen::VectorXd parameters, starts;
+
+  double& operator[](Eigen::Index k) { return k < parameters.size() ? parameters[k] : starts[k - parameters.size()]; }
+};
+
+class FitUnknowns {
+ public:
+  // model and tracks outlive this
+  FitUnknowns(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
+              bool fits_starts);
+
+  RolloutModel const& model() const { return model_; }
+  std::vector<RolloutTrack> const& tracks() const { return task_.tracks; }
+  Eigen::Index size() const { return parameters() + n_starts_; }
+  Eigen::Index parameters() const { return static_cast<Eigen::Index>(model_.size()); }
+  FitPoint begin_at(Eigen::VectorXd const& parameters) const;
+  // within its bounds
+  double clipped(Eigen::Index k, double value) const;
+  double scale(FitPoint const& at, Eigen::Index k) const;
+  bool is_at_bound(FitPoint const& at, Eigen::Index k) const;
+
+  // one per track, [samples][points]
+  std::vector<TrackResiduals> residuals_at(std::vector<FitPoint> const& points, int threads) const;
+
+ private:
+  std::vector<RolloutTrial> trials_on(std::size_t track, std::vector<FitPoint> const& points) const;
+  double scale_of_start(Eigen::Index start) const;
+
+  RolloutModel const& model_;
+  RolloutTask task_;
+  std::vector<Eigen::Index> first_start_{};  // of each track; -1: it begins as measured
+  Eigen::Index n_starts_ = 0;
+};
+
+}  // namespace torquescope
