@@ -16,7 +16,7 @@
 namespace torquescope {
 namespace {
 
-constexpr double lost = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // sixteen trials as lanes; those beyond the last repeat the first
 class Lanes {
@@ -177,7 +177,8 @@ class Watch {
       state.q[lane] = middle_;  // out of the way: no overflow slows the others down
       state.dq[lane] = state.ddq[lane] = 0.0;
       for (std::size_t row = 0; row < ticks; ++row)
-        for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque}) (*values)[row * twin_lanes + lane] = lost;
+        for (auto* values : {&chunk.position, &chunk.velocity, &chunk.torque})
+          (*values)[row * twin_lanes + lane] = no_number;
     }
   }
 
