@@ -16,6 +16,18 @@ FitUnknowns::FitUnknowns(RolloutModel const& model, std::vector<RolloutTrack> co
     first_start_.push_back(is_free ? n_starts_ : -1);
     if (is_free) n_starts_ += 2;
   }
+  auto const& all = model.parameters();
+  auto const offset = std::find_if(all.begin(), all.end(), [](auto const& one) { return one.name == "offset"; });
+  if (!fits_starts || offset == all.end() || tracks.size() < 2) return;
+  first_offset_ = n_starts_;
+  offset_scale_ = offset->scale;
+  n_starts_ += static_cast<Index>(tracks.size()) - 1;
+}
+
+double FitUnknowns::offset_step(std::size_t track, FitPoint const& point) const {
+  if (first_offset_ < 0) return 0.0;
+  if (track == 0) return -point.starts.tail(n_starts_ - first_offset_).sum();
+  return point.starts[first_offset_ + static_cast<Index>(track) - 1];
 }
 
 FitPoint FitUnknowns::begin_at(Eigen::VectorXd const& parameters) const {
@@ -35,6 +47,7 @@ bool FitUnknowns::is_at_bound(FitPoint const& at, Index k) const {
 }
 
 double FitUnknowns::scale_of_start(Index start) const {
+  if (first_offset_ >= 0 && start >= first_offset_) return offset_scale_;
   // a step of the encoder, or a thousandth of the way; and ten of them a second
   constexpr double thousandth = 1e-3, ten = 10.0, hundred = 100.0;
   for (std::size_t t = 0; t < first_start_.size(); ++t) {
@@ -60,6 +73,7 @@ std::vector<RolloutTrial> FitUnknowns::trials_on(std::size_t track, std::vector<
   std::vector<RolloutTrial> trials;
   for (auto const& point : points) {
     trials.push_back(model_.trial(point.parameters));
+    trials.back().offset += offset_step(track, point);
     if (first_start_[track] < 0) continue;
     trials.back().position_step = point.starts[first_start_[track]];
     trials.back().velocity_step = point.starts[first_start_[track] + 1];

@@ -1,8 +1,10 @@
 #pragma once
-// What a fit by simulation searches: the parameters of a model, and where every track begins beside its measured state.
+// What a fit by simulation searches: the parameters of a model, and what each track has of its own: where it begins
+// beside its measured state, and its offset beside the mean one of all.
 //
 // Starts     position and speed at the first sample of each track that is one segment in a loop; windows and tracks
 //            with gaps begin as measured
+// Offset     of the model is the mean over the tracks; each has its own where the model has one and tracks are several
 // Scale      of a parameter that cannot be negative: at most its own size, so that a difference does not pass its end
 // Units      SI
 // Threads    const object; residuals_at() spreads trials over `threads`
@@ -43,10 +45,13 @@ class FitUnknowns {
  private:
   std::vector<RolloutTrial> trials_on(std::size_t track, std::vector<FitPoint> const& points) const;
   double scale_of_start(Eigen::Index start) const;
+  double offset_step(std::size_t track, FitPoint const& point) const;
 
   RolloutModel const& model_;
   RolloutTask task_;
   std::vector<Eigen::Index> first_start_{};  // of each track; -1: it begins as measured
+  Eigen::Index first_offset_ = -1;  // of the second track; the first makes up for the others; -1: all share one
+  double offset_scale_ = 1.0;
   Eigen::Index n_starts_ = 0;
 };
 

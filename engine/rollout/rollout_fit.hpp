@@ -8,7 +8,7 @@
 // Jacobian   central differences of `width` of a parameter's scale, all trials side by side; four times wider when no
 //            step is accepted, because dry friction makes the sum rough
 // Step       sixteen dampings at once, the best of them; parameters stay within their bounds
-// Nuisances  start of every segment (position, speed) beside the measured one
+// Nuisances  what each recording has of its own (fit_unknowns.hpp): its start, its offset
 // Intervals  95 %, Newey-West on the scores of all samples (problem/hac.hpp), the nuisances beside them
 // Failed     a fit that ends above its start, or never finds a finite sum: `failed`, with the start's numbers
 // Units      SI

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/effects/fitted_baseline.hpp"
 #include "engine/problem/plain_least_squares.hpp"
+#include "engine/rollout/effect_starts.hpp"
 #include "engine/rollout/loop_gains.hpp"
 #include "engine/rollout/loop_lanes.hpp"
 #include "engine/run/job_sections.hpp"
@@ -222,6 +223,13 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   for (std::size_t k = 0; k < names.size(); ++k)
     if (auto const given = rollout.plan.given.find(names[k]); given != rollout.plan.given.end())
       start[static_cast<Eigen::Index>(k)] = given->second;
+  std::vector<ModelEffect> effects = rollout.plan.effects;
+  if (!effects.empty()) {
+    FittedBaseline const baseline =
+        fitted_baseline(regressor, {start.data(), static_cast<std::size_t>(start.size())}, motion,
+                        filter.parallel_cutoff_hz, encoder_step);
+    effects = with_first_shapes(std::move(effects), motion, baseline, motion.torque - baseline.model_torque);
+  }
   LoopSetting setting = loop_setting(loop, first.rate_hz);
   setting = with_loop_of(std::move(setting), loop, rollout.train.tracks);
   // of recordings without a reference there is no controller, whatever the job says
@@ -246,7 +254,7 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
                                    ? ", which sees the joint's speed"
                                    : fmt::format(", whose speed is a difference over {} sample{}",
                                                  setting.speed_samples, setting.speed_samples == 1 ? "" : "s");
-  rollout.model.emplace(regressor, start, scales_with(start), rollout.plan.effects, setting);
+  rollout.model.emplace(regressor, start, scales_with(start), effects, setting);
   RolloutTask task{rollout.train.tracks, {}, channels_of(loop)};
   for (auto const& track : task.tracks)
     task.structures.push_back(rollout.model->structure_for(rollout.model->start(), track.tick_s()));

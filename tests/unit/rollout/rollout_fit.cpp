@@ -60,6 +60,23 @@ TEST(RolloutFit, FindsJointAndGainsInEveryLoop) {
   }
 }
 
+// a zero of the torque that moves from day to day is no friction of either
+TEST(RolloutFit, GivesEveryRecordingAnOffsetOfItsOwn) {
+  PlainController const controller = controller_of("pd");
+  PlainJoint monday = dry_joint(), tuesday = dry_joint();
+  monday.offset = 0.2;
+  tuesday.offset = -0.1;
+  std::vector<RolloutTrack> const tracks{recorded(monday, controller, moved(samples), {}),
+                                         recorded(tuesday, controller, moved(samples), {5e-5, 0.02, 2})};
+  RolloutModel const model = model_of(monday, free_loop(controller, {tracks[0]}), tracks[0]);
+  RolloutFit const fit = fit_rollouts(model, tracks, both, {}, 1, 1);
+  ASSERT_FALSE(fit.failed);
+  EXPECT_NEAR(fit.parameters[3], 0.05, 0.01);  // their mean
+  EXPECT_NEAR(fit.parameters[0], monday.inertia, 0.03 * monday.inertia);
+  EXPECT_NEAR(fit.parameters[2], monday.forward, 0.03 * monday.forward);
+  EXPECT_NEAR(std::sqrt(fit.sums[1] / (2.0 * samples)), 0.02, 0.005);
+}
+
 struct UnknownEffect {
   std::string name;
   std::vector<double> truth;  // of those that are searched
