@@ -225,9 +225,8 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
       start[static_cast<Eigen::Index>(k)] = given->second;
   std::vector<ModelEffect> effects = rollout.plan.effects;
   if (!effects.empty()) {
-    FittedBaseline const baseline =
-        fitted_baseline(regressor, {start.data(), static_cast<std::size_t>(start.size())}, motion,
-                        filter.parallel_cutoff_hz, encoder_step);
+    FittedBaseline const baseline = fitted_baseline(regressor, {start.data(), static_cast<std::size_t>(start.size())},
+                                                    motion, filter.parallel_cutoff_hz, encoder_step);
     effects = with_first_shapes(std::move(effects), motion, baseline, motion.torque - baseline.model_torque);
   }
   LoopSetting setting = loop_setting(loop, first.rate_hz);
