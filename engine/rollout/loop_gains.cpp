@@ -214,4 +214,48 @@ double loop_error(LoopLaw const& law, RolloutTrack const& track) {
   return share_left(track, answers);
 }
 
+namespace {
+
+// mean square of what the loop leaves of the torque, less what rounding of the measured positions makes of its speed
+struct SpanError {
+  double mean_square = 0.0, standard_error = 0.0;
+};
+
+SpanError error_of_span(LoopNumbers numbers, std::size_t span, std::vector<RolloutTrack> const& tracks) {
+  numbers.ki = numbers.ki_speed = 0.0;
+  double energy = 0.0, rounding = 0.0, n = 0.0;
+  for (auto const& track : tracks) {
+    if (track.drive != TrackDrive::reference) continue;
+    double torque = 0.0;
+    for (auto const& segment : track.segments)
+      torque += track.torque.segment(segment.first, segment.samples).squaredNorm();
+    auto const samples = static_cast<double>(track.samples());
+    double const share = loop_error(numbers, span, track);
+    // a difference of two readings, each off by a twelfth of the step squared; within a sample positions are straight
+    double const apart =
+        std::max(1.0, static_cast<double>(span) / static_cast<double>(track.ticks_per_sample)) / track.rate_hz;
+    double const of_rounding = numbers.kd * track.encoder_step / apart;
+    energy += share * share * torque;
+    rounding += samples * of_rounding * of_rounding / 6.0;
+    n += samples;
+  }
+  return {(energy - rounding) / n, std::sqrt(2.0 / n) * energy / n};
+}
+
+}  // namespace
+
+std::size_t speed_span(LoopForm form, LoopValues const& values, std::vector<LoopKey> const& wanted,
+                       std::vector<RolloutTrack> const& tracks) {
+  constexpr double standard_errors = 3.0;
+  std::vector<SpanError> errors;
+  for (std::size_t span = 1; span <= most_speed_samples; ++span)
+    errors.push_back(
+        error_of_span(numbers_of(form, with_first_gains(form, values, wanted, span, tracks)), span, tracks));
+  auto const least = std::min_element(errors.begin(), errors.end(),
+                                      [](auto const& a, auto const& b) { return a.mean_square < b.mean_square; });
+  std::size_t fewest = 0;
+  while (errors[fewest].mean_square - standard_errors * errors[fewest].standard_error > least->mean_square) ++fewest;
+  return fewest + 1;
+}
+
 }  // namespace torquescope

@@ -18,6 +18,12 @@ namespace torquescope {
 LoopValues with_first_gains(LoopForm form, LoopValues values, std::vector<LoopKey> const& wanted,
                             std::size_t speed_samples, std::vector<RolloutTrack> const& tracks);
 
+// Samples that the difference spans which a controller takes for the speed: the fewest with which it answers as the
+// recorded torque does. What rounding of the positions makes of the difference is taken off; three standard errors of
+// the mean square decide
+std::size_t speed_span(LoopForm form, LoopValues const& values, std::vector<LoopKey> const& wanted,
+                       std::vector<RolloutTrack> const& tracks);
+
 // the loop's own answer to the measured positions beside the recorded torque; NaN of one with an integral
 double loop_error(LoopNumbers const& numbers, std::size_t speed_samples, RolloutTrack const& track);
 double loop_error(LoopLaw const& law, RolloutTrack const& track);

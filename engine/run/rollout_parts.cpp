@@ -10,7 +10,6 @@
 #include "engine/problem/plain_least_squares.hpp"
 #include "engine/rollout/effect_starts.hpp"
 #include "engine/rollout/loop_gains.hpp"
-#include "engine/rollout/loop_lanes.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/simulate/controller_fit.hpp"
 
@@ -89,30 +88,14 @@ void share_law(RolloutData const& train, RolloutData& data) {
   }
 }
 
-// what can be held against measured positions
-LoopNumbers without_integral(LoopForm form, LoopValues const& values) {
-  LoopNumbers numbers = numbers_of(form, values);
-  numbers.ki = numbers.ki_speed = 0.0;
-  return numbers;
-}
-
-// gains that the job leaves out, and the samples that the controller's speed spans: those of the least error
+// gains that the job leaves out, and the samples that the controller's speed spans
 LoopSetting with_loop_of(LoopSetting setting, LoopOptions const& loop, std::vector<RolloutTrack> const& tracks) {
   if (gains_of(setting.form).empty() || tracks.front().drive != TrackDrive::reference) return setting;
-  bool const is_open = setting.speed_samples > 0 && loop.speed_samples == 0;
-  std::size_t const first = is_open ? 1 : setting.speed_samples, last = is_open ? most_speed_samples : first;
-  LoopSetting best = setting;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t span = first; span <= last; ++span) {
-    LoopValues const values = with_first_gains(setting.form, setting.values, missing_gains(loop), span, tracks);
-    double error = 0.0;
-    for (auto const& track : tracks) error += loop_error(without_integral(setting.form, values), span, track);
-    if (span > first && !(error < least)) continue;
-    least = error;
-    best.values = values;
-    best.speed_samples = span;
-  }
-  return best;
+  auto const missing = missing_gains(loop);
+  if (setting.speed_samples > 0 && loop.speed_samples == 0)
+    setting.speed_samples = speed_span(setting.form, setting.values, missing, tracks);
+  setting.values = with_first_gains(setting.form, setting.values, missing, setting.speed_samples, tracks);
+  return setting;
 }
 
 }  // namespace

@@ -99,4 +99,19 @@ TEST(LoopError, OfAnIdentifiedLawIsNearNothing) {
   EXPECT_LT(loop_error(law, track), 1e-9);
 }
 
+// rounding makes long differences look better than the one that the controller takes
+TEST(LoopGains, TellTheSpanOfTheSpeedInSpiteOfRounding) {
+  for (int const span : {1, 2, 5})
+    for (double const step : {1e-7, 1e-4}) {
+      PlainController controller = controller_of("pd");
+      controller.span = span;
+      Sensors const sensors{step, 1e-3, 3};
+      std::vector<RolloutTrack> const tracks{recorded(dry_joint(), controller, moved(3000), sensors)};
+      LoopValues const values = values_of(controller);
+      std::size_t const found = speed_span(LoopForm::pd, values, {}, tracks);
+      // the controller itself reads by steps: what it answered is no rounding of the recording
+      EXPECT_EQ(found, static_cast<std::size_t>(span)) << step;
+    }
+}
+
 }  // namespace loop_gains_test
