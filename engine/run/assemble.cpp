@@ -286,7 +286,8 @@ void begin_rollouts_of(Experiment::Parts& parts, Experiment::Purpose purpose, st
   auto const& plans = parts.estimators;
   auto const rolls_out = [](EstimatorPlan const& one) { return one.rolls_out(); };
   bool const any = std::any_of(plans.begin(), plans.end(), rolls_out);
-  if (!problems.empty() || (!any && purpose != Experiment::Purpose::replay)) return;
+  if (!problems.empty() || purpose == Experiment::Purpose::diagnose || (!any && purpose != Experiment::Purpose::replay))
+    return;
   parts.rollout = begin_rollouts(std::move(plan), *parts.regressor);
   bool const has_more = parts.parameters() > parts.row_parameters();
   if (!any || !has_more || purpose == Experiment::Purpose::replay) return;
@@ -299,6 +300,20 @@ void begin_rollouts_of(Experiment::Parts& parts, Experiment::Purpose purpose, st
                                  "by rollouts",
                                  plans[i].label),
                      "give it a job of its own, or write fitness = \"rollout\""));
+}
+
+// an arm is not simulated joint by joint
+void refuse_rollouts_of_arm(Experiment::Parts const& parts, std::vector<Problem>& problems) {
+  char const* const help = "rollouts are of one joint: name its columns in a job with model.terms";
+  for (char const* name : {"loop", "model.effects", "model.given"})
+    if (Section const* section = parts.job.find(name))
+      problems.push_back(problem_at(*section, "", fmt::format("[{}] in the job of an arm", name), help));
+  auto const sections = parts.job.all("estimator");
+  for (std::size_t i = 0; i < std::min(sections.size(), parts.estimators.size()); ++i)
+    if (parts.estimators[i].rolls_out())
+      problems.push_back(problem_at(
+          *sections[i], parts.estimators[i].lm ? "name" : "fitness",
+          fmt::format("{} simulates the recordings, and the job is about an arm", parts.estimators[i].label), help));
 }
 
 }  // namespace
@@ -349,7 +364,10 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     if (purpose == Purpose::diagnose)
       refuse_too_few_twins(parts->diagnose, parts->arm ? parts->arm->model.joints() : 1,
                            section_or_empty(job, "diagnose"), problems);
-    if (!is_arm) begin_rollouts_of(*parts, purpose, problems);
+    if (is_arm)
+      refuse_rollouts_of_arm(*parts, problems);
+    else
+      begin_rollouts_of(*parts, purpose, problems);
     parts->box = read_search_box(parts->parameter_names(), job.find("model.bounds"), problems);
   } catch (Error const& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());

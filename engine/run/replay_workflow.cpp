@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "engine/base/error.hpp"
 #include "engine/data/file_bytes.hpp"
-#include "engine/rollout/loop_gains.hpp"
 #include "engine/run/diagnosis_reader.hpp"
 #include "engine/run/experiment_parts.hpp"
-#include "engine/run/job_sections.hpp"
-#include "engine/run/model_laws.hpp"
-#include "engine/run/replay_of_parts.hpp"
 #include "engine/run/replay_workflow.hpp"
 #include "engine/run/stored_objects.hpp"
 #include "engine/store/h5.hpp"

@@ -1,10 +1,8 @@
 #include "engine/run/replay_writer.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +12,6 @@
 #include "engine/run/replay_workflow.hpp"
 #include "engine/run/study_writer.hpp"
 #include "engine/store/result_reader.hpp"
-#include "engine/store/temp_file.hpp"
 
 namespace torquescope {
 

@@ -76,11 +76,10 @@ std::string said(LoopForm form, LoopOrigin origin) {
 // that; the law of the first training recording is taken where it answers the recorded torque more closely
 void share_law(RolloutData const& train, RolloutData& data) {
   auto const& law = train.tracks.front().law;
-  if (!law || law->integral != 0.0) return;
+  if (!law) return;
   for (std::size_t k = 0; k < data.tracks.size(); ++k) {
     auto& track = data.tracks[k];
-    if (!track.law || (track.law->integral == 0.0 && loop_error(*track.law, track) <= loop_error(*law, track)))
-      continue;
+    if (!track.law || loop_error(*track.law, track) <= loop_error(*law, track)) continue;
     track.law = law;
     data.origins[k] = train.origins.front();
     data.loop_words[k] = fmt::format("the controller of {}, which fits this recording better than one of its own",

@@ -214,6 +214,14 @@ class Replay(run_cli.Folder):
         self.assert_refused(self.run_here("replay", self.job(columns=columns)), 78,
                             ['no recording has the column "on"'])
 
+    def test_arms_are_refused_with_the_way_out(self):
+        robot = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "jobs", "robots", "crs_a465.toml")
+        arm = (f'[model]\nrobot = "{robot}"\nfriction = ["viscous"]\n'
+               '[recording]\ntrain = "a.csv"\ncolumns = {time = "t_s", position = "q_rad", torque = "u_Nm"}\n')
+        self.write("arm.toml", arm + '[loop]\ncontroller = "pd"\n[[estimator]]\nname = "lm"\n')
+        self.assert_refused(self.run_here("run", "arm.toml"), 78,
+                            ["[loop] in the job of an arm", "lm simulates the recordings", "rollouts are of one joint"])
+
     def test_other_files_under_the_name_of_the_result_stay(self):
         job = self.job('[loop]\ncontroller = "pd"\n', '[[estimator]]\nname = "lm"\n')
         self.assertEqual(self.run_here("run", job, "--out", "lab.h5").code, 0)
