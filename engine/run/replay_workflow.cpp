@@ -8,6 +8,7 @@
 #include "engine/data/file_bytes.hpp"
 #include "engine/run/diagnosis_reader.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/job_sections.hpp"
 #include "engine/run/replay_workflow.hpp"
 #include "engine/run/stored_objects.hpp"
 #include "engine/store/h5.hpp"
@@ -83,6 +84,20 @@ Job job_of_result(StoredModels const& stored, ReplayRequest const& request) {
   return job;
 }
 
+// a result knows its job's text, not where the job stood
+void require_recordings_here(Job const& job, std::filesystem::path const& result) {
+  std::vector<Problem> ignored;
+  auto const recording = read_options<RecordingOptions>(job, ignored);
+  std::error_code unknown;
+  for (auto const* files : {&recording.train, &recording.validate})
+    for (auto const& file : *files)
+      validate(std::filesystem::exists(job.resolve(file), unknown), [&] {
+        Problem problem{ExitCode::no_input, fmt::format("{} is made of {}, which is not here", result.string(), file)};
+        problem.help = "--job JOB.toml says where the paths of its recordings begin";
+        return problem;
+      });
+}
+
 // other recordings in place of the job's validation
 void with_recordings(Job& job, std::vector<std::string> const& recordings) {
   if (recordings.empty()) return;
@@ -109,6 +124,7 @@ Experiment load_for_replay(ReplayRequest const& request, std::vector<ReplaySourc
   if (is_result) stored = stored_models(request.source);
   Job job = stored ? job_of_result(*stored, request) : read_job(request.source);
   with_recordings(job, request.recordings);
+  if (stored && request.job.empty()) require_recordings_here(job, request.source);
   Experiment experiment = Experiment::load(std::move(job), Experiment::Purpose::replay);
   validate(experiment.parts().rollout.has_value(), [&] { return arm_problem(request.source.string()); });
   if (!stored) {

@@ -130,6 +130,14 @@ class Replay(run_cli.Folder):
         for one in made["recordings"]:
             before, after = one["channels"]["position"]["models"]
             self.assertLessEqual(after["rms"], 1.05 * before["rms"])
+        # a result does not know where its job stood
+        os.mkdir(os.path.join(self.folder, "elsewhere"))
+        os.rename(os.path.join(self.folder, "lab.h5"), os.path.join(self.folder, "elsewhere", "lab.h5"))
+        os.rename(os.path.join(self.folder, "a.csv"), os.path.join(self.folder, "elsewhere", "a.csv"))
+        self.assert_refused(self.run_here("replay", "elsewhere/lab.h5"), 66,
+                            ["a.csv, which is not here", "--job JOB.toml"])
+        for name in ("lab.h5", "a.csv"):
+            os.rename(os.path.join(self.folder, "elsewhere", name), os.path.join(self.folder, name))
         # on a recording that the job does not name
         made = self.replayed("lab.h5", "pulses.csv", "--job", job)
         self.assertEqual([one["name"] for one in made["recordings"]], ["a.csv", "pulses.csv"])
