@@ -18,6 +18,18 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
+// Where the recorded torque drives the joint there is no controller, whatever led other recordings: it was answered and
+// limited already
+LoopNumbers loop_on(RolloutTrack const& track, LoopNumbers loop) {
+  if (track.drive == TrackDrive::reference) return loop;
+  LoopNumbers const none;
+  loop.kp = loop.kd = loop.ki = loop.ki_speed = loop.feed_speed = loop.feed_acceleration = 0.0;
+  loop.added_gain = none.added_gain;
+  loop.least = none.least;
+  loop.most = none.most;
+  return loop;
+}
+
 // sixteen trials as lanes; those beyond the last repeat the first
 class Lanes {
  public:
@@ -31,7 +43,7 @@ class Lanes {
       rolled.dry.forward[lane] = trial.forward;
       rolled.dry.backward[lane] = trial.backward;
       rolled.offset[lane] = trial.offset;
-      loops.set(lane, trial.loop);
+      loops.set(lane, loop_on(track, trial.loop));
       delay_ticks.push_back(trial.loop.command_delay_s / track.tick_s());
       for (std::size_t e = 0; e < parameters.size(); ++e) parameters[e].push_back(trial.effects[e]);
       reads_by_steps = reads_by_steps || trial.encoder_step > 0.0;

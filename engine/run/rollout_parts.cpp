@@ -97,6 +97,47 @@ LoopSetting with_loop_of(LoopSetting setting, LoopOptions const& loop, std::vect
   return setting;
 }
 
+// rate and speed of the controller, behind what is said of it
+void say_how_loops_answer(RolloutParts& rollout, LoopSetting const& setting) {
+  for (auto* data : {&rollout.train, &rollout.validate})
+    for (auto& words : data->loop_words)
+      if (rollout.plan.loop.rate_hz > 0.0 && !words.empty()) {
+        auto const& track = rollout.train.tracks.front();
+        double const slower = static_cast<double>(setting.hold_ticks);
+        words += fmt::format(", at {:g} Hz", 1.0 / (track.tick_s() * slower));
+      }
+  for (auto* data : {&rollout.train, &rollout.validate})
+    for (std::size_t k = 0; k < data->tracks.size(); ++k)
+      if (data->origins[k] == LoopOrigin::given || data->origins[k] == LoopOrigin::fitted)
+        data->loop_words[k] += setting.speed_samples == 0
+                                   ? ", which sees the joint's speed"
+                                   : fmt::format(", whose speed is a difference over {} sample{}",
+                                                 setting.speed_samples, setting.speed_samples == 1 ? "" : "s");
+}
+
+// mean square of what the start leaves of each channel; of the channel itself where the start runs away
+ChannelNumbers variance_at_start(RolloutParts const& rollout) {
+  RolloutTask task{rollout.train.tracks, {}, channels_of(rollout.plan.loop)};
+  for (auto const& track : task.tracks)
+    task.structures.push_back(rollout.model->structure_for(rollout.model->start(), track.tick_s()));
+  std::vector<RolloutTrial> const trial{rollout.model->trial(rollout.model->start())};
+  ChannelNumbers const sums = sums_of_squares(task, trial, 1).front();
+  ChannelNumbers variance{};
+  for (std::size_t channel = 0; channel < n_channels; ++channel) {
+    double n = 0.0, energy = 0.0;
+    for (std::size_t t = 0; t < task.tracks.size(); ++t) {
+      auto const& track = task.tracks[t];
+      if (!task.count(t, channel)) continue;
+      n += static_cast<double>(track.samples());
+      Eigen::VectorXd const& signal = channel == 0 ? track.position : track.torque;
+      energy += (signal.array() - signal.mean()).square().sum();
+    }
+    double const left = std::isfinite(sums[channel]) && sums[channel] > 0.0 ? sums[channel] : energy;
+    variance[channel] = n > 0.0 ? left / n : 0.0;
+  }
+  return variance;
+}
+
 }  // namespace
 
 std::string word(LoopOrigin origin) {
@@ -221,38 +262,9 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
       return std::find(gains.begin(), gains.end(), key) != gains.end();
     });
   }
-  for (auto* data : {&rollout.train, &rollout.validate})
-    for (auto& words : data->loop_words)
-      if (loop.rate_hz > 0.0 && !words.empty()) {
-        auto const& track = rollout.train.tracks.front();
-        double const slower = static_cast<double>(setting.hold_ticks);
-        words += fmt::format(", at {:g} Hz", 1.0 / (track.tick_s() * slower));
-      }
-  for (auto* data : {&rollout.train, &rollout.validate})
-    for (std::size_t k = 0; k < data->tracks.size(); ++k)
-      if (data->origins[k] == LoopOrigin::given || data->origins[k] == LoopOrigin::fitted)
-        data->loop_words[k] += setting.speed_samples == 0
-                                   ? ", which sees the joint's speed"
-                                   : fmt::format(", whose speed is a difference over {} sample{}",
-                                                 setting.speed_samples, setting.speed_samples == 1 ? "" : "s");
+  say_how_loops_answer(rollout, setting);
   rollout.model.emplace(regressor, start, scales_with(start), effects, setting);
-  RolloutTask task{rollout.train.tracks, {}, channels_of(loop)};
-  for (auto const& track : task.tracks)
-    task.structures.push_back(rollout.model->structure_for(rollout.model->start(), track.tick_s()));
-  std::vector<RolloutTrial> const trial{rollout.model->trial(rollout.model->start())};
-  ChannelNumbers const sums = sums_of_squares(task, trial, 1).front();
-  for (std::size_t channel = 0; channel < n_channels; ++channel) {
-    double n = 0.0, energy = 0.0;
-    for (std::size_t t = 0; t < task.tracks.size(); ++t) {
-      auto const& track = task.tracks[t];
-      if (!task.count(t, channel)) continue;
-      n += static_cast<double>(track.samples());
-      Eigen::VectorXd const& signal = channel == 0 ? track.position : track.torque;
-      energy += (signal.array() - signal.mean()).square().sum();
-    }
-    double const left = std::isfinite(sums[channel]) && sums[channel] > 0.0 ? sums[channel] : energy;
-    rollout.variance[channel] = n > 0.0 ? left / n : 0.0;
-  }
+  rollout.variance = variance_at_start(rollout);
 }
 
 Bounds rollout_box(RolloutModel const& model) {

@@ -36,7 +36,7 @@ ExitCode replay_source(ReplayArguments const& arguments, Session const& session)
   std::filesystem::path const output = arguments.out.empty() ? std::filesystem::path(experiment.name() + "_replay.h5")
                                                              : std::filesystem::path(arguments.out);
   refuse_other_output(output);
-  note_start(session, experiment.diagnose_line(), experiment, request.threads);
+  note_start(session, experiment.name() + ": simulated beside its recordings", experiment, request.threads);
   Replay const replay = replay_of(experiment.parts(), *experiment.parts().rollout, sources, request.threads.count);
   session.result(replay_text(replay, session.result_ink()));
   session.document(replay_json(replay));

@@ -103,6 +103,24 @@ TEST(RolloutPaths, OfAnEffectOfNoSizeAreTheFastOne) {
   EXPECT_LT(largest(a.torque, b.torque), 100.0 * same);
 }
 
+// a recording without a reference beside others that have one: their controller does not act on it
+TEST(RolloutPaths, WithoutAReferenceKnowNoController) {
+  RolloutTrack track = track_of(inputs(), start);
+  track.drive = TrackDrive::torque;
+  track.reference.resize(0);
+  track.added = track.torque;
+  RolloutTrial const led = trial_of(heavy_and_dry(), controller());
+  RolloutTrial alone = led;
+  alone.loop = numbers_of(LoopForm::none, {});
+  alone.loop.back_emf = led.loop.back_emf;
+  alone.loop.torque_delay_s = led.loop.torque_delay_s;
+  alone.loop.torque_lag_s = led.loop.torque_lag_s;
+  alone.loop.log_lag_s = led.loop.log_lag_s;
+  Rolled const a = rolled(track, structure_of({}), {led}), b = rolled(track, structure_of({}), {alone});
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.torque, b.torque);
+}
+
 TEST(RolloutPaths, ReadByTheStepsOfAnEncoder) {
   constexpr double step = 1e-3;
   PlainInputs const in = inputs();
