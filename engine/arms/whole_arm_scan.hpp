@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/arms/whole_arm_rows.hpp"
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 
 namespace torquescope {
 

@@ -35,6 +35,14 @@ void prepare_heap() {
 #endif
 }
 
+void keep_heap() {
+#ifdef __GLIBC__
+  constexpr int whole = 1 << 30;
+  ::mallopt(M_MMAP_THRESHOLD, whole / 2);
+  ::mallopt(M_TRIM_THRESHOLD, whole);
+#endif
+}
+
 void give_back_holes() {
 #ifdef __GLIBC__
   constexpr std::size_t long_columns = std::size_t{16} << 20;

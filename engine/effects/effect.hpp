@@ -137,6 +137,7 @@ struct EffectDescription {
       false;              // a law of the position whose level is the baseline's: encoders read 0 where somebody put it
   bool is_given = false;  // columns come with the recording (given_effect.hpp)
   bool is_of_whole_arm = false;  // acts on several joints at once, and is judged on the rows of all
+  bool is_torque_timing = false;  // the torque at another time: a nuisance of every decision
   bool is_rigid_body = false;    // mass or weight of the moved body, which the model of a whole arm has already
   std::string plain_equation{};  // of the law without shapes, for which an empty shape stands; empty: there is none
   // the torque as an expression in C (instant_code.hpp); empty where one instant of the motion does not tell it
@@ -165,6 +166,7 @@ class Effect {
   bool is_dry_friction() const { return description_.is_dry_friction; }
   bool is_partly_dry() const { return description_.is_partly_dry; }
   bool is_level_free() const { return description_.is_level_free; }
+  bool is_torque_timing() const { return description_.is_torque_timing; }
   bool is_rigid_body() const { return description_.is_rigid_body; }
   bool is_given() const { return description_.is_given; }
   bool is_of_whole_arm() const { return description_.is_of_whole_arm; }

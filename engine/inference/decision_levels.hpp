@@ -31,8 +31,6 @@ constexpr double level_of_joint(double alpha, std::size_t joints) {
 inline constexpr double most_of_it = 0.5;
 // of adequacy: training rows weighed, in the torque itself, and unseen (Bonferroni)
 inline constexpr double questions_of_adequacy = 3.0;
-// share of a column's energy outside a fold below which a fit cannot see it
-inline constexpr double left_out_ridge = 1e-4;
 // budget: candidates whose shape is refined at a step
 inline constexpr std::size_t n_refined = 6;
 // budget: of these, candidates that are simulated until one is taken

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 #include "engine/inference/left_out_gains.hpp"
 #include "engine/inference/rows_left.hpp"
 #include "engine/inference/training_rows.hpp"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 
 namespace torquescope {
 

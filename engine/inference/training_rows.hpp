@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 #include "engine/inference/recording_evidence.hpp"
 #include "engine/search/own_motion.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/effects/given_effect.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/optim/optimiser.hpp"
@@ -79,6 +80,9 @@ OptionTable<DiagnoseOptions> const& DiagnoseOptions::table() {
         "rows near reversals: left out, or weighed by what clean twins of unknown sticking laws show there; both: "
         "weighed "
         "where nothing is missing without them"},
+       {"decider", &DiagnoseOptions::decider, decider_words(),
+        "rows that a verdict is decided on: those that move one way, or all; both: the first decides, and the result "
+        "holds what the other says. One joint only"},
        {"null", &DiagnoseOptions::null, null_words(),
         "ablation, not for use: what chance is taken for; all but \"twins\" invent effects on clean recordings"},
        {"indirect_inference", &DiagnoseOptions::indirect_inference,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/diagnosis_input.hpp"
 #include "engine/run/diagnosis_result.hpp"
@@ -142,8 +143,19 @@ Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts)
   return diagnosis;
 }
 
+Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinExchange* exchange,
+                             StageSink const& sink) {
+  JobInput const job(parts, threads, exchange);
+  Decider const decider = decider_of(parts.diagnose.decider);
+  if (decider == Decider::all_rows) return diagnose_on_all_rows(job.input(), sink).diagnosis;
+  Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
+  if (decider == Decider::both)
+    diagnosis.joints.front().decision = diagnose_on_all_rows(job.input(), sink).diagnosis.joints.front().decision;
+  return diagnosis;
+}
+
 Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchange* exchange, StageSink const& sink) {
-  if (!parts.arm) return diagnose_joint(JobInput(parts, threads, exchange).input(), sink).diagnosis;
+  if (!parts.arm) return diagnose_one_joint(parts, threads, exchange, sink);
   Section const filter = section_or_empty(parts.job, "filter");
   return diagnose_arm(arm_input(parts, filter, threads, exchange), sink);
 }

@@ -107,6 +107,54 @@ Json explained_json(JointDiagnosis const& joint) {
           {"ci95", Json::array({number(joint.explained_low), number(joint.explained_high)})}};
 }
 
+Json decision_law_json(DecisionAccount::Law const& law) {
+  Json shape = Json::array();
+  for (double const one : law.shape) shape.push_back(number(one));
+  return {{"name", law.name},
+          {"refusal", law.refusal},
+          {"gain", number(law.gain)},
+          {"gain_by_chance", number(law.level)},
+          {"p", number(law.p)},
+          {"size", number(law.size)},
+          {"judged_before", number(law.judged_before)},
+          {"judged_after", number(law.judged_after)},
+          {"shape", shape},
+          {"rivals", law.rivals}};
+}
+
+Json decision_step_json(DecisionAccount::Step const& step) {
+  return {{"of_clock", step.of_clock},
+          {"replicates", step.replicates},
+          {"replicates_from", step.source},
+          {"visible", number(step.visible)},
+          {"smooth_correction",
+           {{"axis", step.correction_axis},
+            {"gain", number(step.correction_gain)},
+            {"p", number(step.correction_p)},
+            {"size", number(step.correction_size)}}},
+          {"laws", list(step.laws, decision_law_json)}};
+}
+
+Json decision_json(DecisionAccount const& account) {
+  auto const errors = [](DecisionAccount::Errors const& of) -> Json {
+    return {{"train", number(of.train)}, {"held_out", number(of.held_out)}, {"validation", number(of.validation)}};
+  };
+  return {{"verdict", account.verdict},
+          {"quiet_share", number(account.quiet_share)},
+          {"set_aside_share", number(account.set_aside_share)},
+          {"baseline", errors(account.baseline)},
+          {"final", errors(account.final)},
+          {"accepted", list(account.accepted, decision_law_json)},
+          {"delay",
+           {{"seconds", number(account.delay.seconds)},
+            {"deviation", number(account.delay.deviation)},
+            {"gain", number(account.delay.gain)},
+            {"p", number(account.delay.p)},
+            {"size", number(account.delay.size)},
+            {"is_named", account.delay.is_named}}},
+          {"steps", list(account.steps, decision_step_json)}};
+}
+
 Json joint_json(JointDiagnosis const& joint) {
   Json mismatch = Json::array();
   for (auto const& axis : joint.map)
@@ -143,6 +191,7 @@ Json joint_json(JointDiagnosis const& joint) {
          {"noise", number(joint.budget.noise)}}},
        {"unexplained", list(joint.unexplained, unexplained_json)},
        {"excitation", list(joint.excitation, advice_json)}});
+  if (joint.decision) made["decision"] = decision_json(*joint.decision);
   return made;
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/data/finding.hpp"
+#include "engine/verdict/decision_account.hpp"
 
 namespace torquescope {
 
@@ -236,6 +237,7 @@ struct JointDiagnosis {
   double mismatch_share = unknown;          // the same over the torque's rms, rows weighed; in the reason, not stored
   double left_rms = 0.0;                    // the same with the accepted effects in the model
   std::vector<double> twin_energy{};        // residual energy of each twin over that of the recording
+  std::optional<DecisionAccount> decision{};  // on all samples, where the job asks for it
   std::string
       power_sentence{};  // none: what would have been seen, "A 5 % Stribeck effect would have shown."; "" unknown
 };

@@ -22,6 +22,7 @@
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
 #include "engine/app/terminal/plain_text.hpp"
+#include "engine/base/heap.hpp"
 #include "engine/base/quantity_text.hpp"
 #include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/diagnosis_json.hpp"
@@ -119,6 +120,7 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
 }
 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
+  keep_heap();
   PhaseTimes phases(progress_settings(session).clock);
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   Experiment const experiment = load_with_bar(session, arguments.job, Experiment::Purpose::diagnose);

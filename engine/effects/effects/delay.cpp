@@ -48,7 +48,8 @@ class Delay final : public MemoryEffect {
                            SignatureAxis::frequency},
              .parity = Parity::neither,
              .acts_on = ActsOn::recorded_torque,
-             .needs_baseline = true}) {}
+             .needs_baseline = true,
+             .is_torque_timing = true}) {}
 
  private:
   std::unique_ptr<EffectMemory> memory(std::span<double const> shape, JointScales const&,

@@ -18,6 +18,9 @@
 
 namespace torquescope {
 
+// share of a column's energy outside a fold below which a fit cannot see it
+inline constexpr double left_out_ridge = 1e-4;
+
 enum class FoldKind { whole, interleaved };
 
 struct Fold {

@@ -1,10 +1,9 @@
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 
 #include <algorithm>
 
 #include "engine/base/contract.hpp"
 #include "engine/base/dense_solvers.hpp"
-#include "engine/inference/decision_levels.hpp"
 #include "engine/statistics/bounded_projection.hpp"
 
 namespace torquescope {

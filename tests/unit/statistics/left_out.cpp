@@ -1,6 +1,6 @@
 // Fits without a fold, in closed form: against least squares made anew without those rows.
 
-#include "engine/inference/left_out.hpp"
+#include "engine/statistics/left_out.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,31 @@
+#pragma once
+// Every number of a decision, with its unit, meaning and source. A job can set each of them for an ablation.
+//
+// Threads    plain record
+// Source     engine/decision/THEORY.md, Numbers
+
+#include <cstddef>
+
+namespace torquescope {
+
+struct DecisionNumbers {
+  // chance over the whole catalogue (max-T: Westfall, Young 1993, ISBN 978-0-471-55761-6)
+  double alpha = 0.05;
+  // of the torque's rms: the smallest torque of a law that is worth a name (Lakens 2017, doi:10.1177/1948550617697177)
+  double delta = 0.0025;
+  // of the held-out error: names that lower it by less are not given
+  double least_fall = 0.05;
+  // replicates of a model, and of these above which no name can come out any more (Besag, Clifford 1991,
+  // doi:10.1093/biomet/78.2.301)
+  std::size_t replicates = 48, exceedances = 3;
+  // squares that a sticking of friction may leave, over those of the best: what replicates draw
+  double sticking_odds = 2.0;
+  // s: the longest delay of the torque that is a nuisance; beyond it, it is none
+  double longest_delay_s = 0.15;
+  // candidates of a step whose shapes are refined
+  std::size_t refined = 5;
+  // energy by which columns may change from the recording to a replicate and still be computed once for all
+  double same_columns = 0.01;
+};
+
+}  // namespace torquescope

@@ -1,0 +1,35 @@
+#include "engine/decision/decision_words.hpp"
+
+namespace torquescope {
+
+std::string word(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::none:
+      return "none";
+    case Refusal::chance:
+      return "chance";
+    case Refusal::smaller:
+      return "smaller";
+    case Refusal::too_small:
+      return "too_small";
+    case Refusal::at_bound:
+      return "at_bound";
+    case Refusal::not_predicted:
+      return "not_predicted";
+  }
+  return {};
+}
+
+std::string word(ReplicateSource source) {
+  switch (source) {
+    case ReplicateSource::own_loop:
+      return "own_loop";
+    case ReplicateSource::tracking_loop:
+      return "tracking_loop";
+    case ReplicateSource::measured_motion:
+      return "measured_motion";
+  }
+  return {};
+}
+
+}  // namespace torquescope

@@ -1,0 +1,15 @@
+#pragma once
+// Enums of a decision as words of a result file.
+//
+// Threads    pure functions
+
+#include <string>
+
+#include "engine/decision/decision_facts.hpp"
+
+namespace torquescope {
+
+std::string word(Refusal refusal);         // "too_small"
+std::string word(ReplicateSource source);  // "own_loop"
+
+}  // namespace torquescope

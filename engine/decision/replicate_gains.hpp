@@ -1,0 +1,34 @@
+#pragma once
+// What chance does: replicates of one model, fitted and searched as the recordings are.
+//
+// Draws      three for each replicate that is wanted. One that leaves more than the recording does, without any noise,
+//            is no replicate of it; where too few are left, those that leave least stand for them
+// Noise      of rows: what the recording leaves beyond the replicates, with the recording's spectrum (row_noise.hpp)
+// Enough     no law that is asked can come out any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301), or the one
+//            that gains most has come out and no replicate reached it
+// Threads    spreads replicates over the threads of the question; same bits for any number
+// Source     engine/decision/THEORY.md, Chance
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/decision/chance.hpp"
+#include "engine/decision/fitted_model.hpp"
+#include "engine/decision/replicate_strips.hpp"
+
+namespace torquescope {
+
+struct ReplicateGains {
+  Chance chance{};
+  std::vector<double> corrections{};  // D of smooth functions (smooth_correction.hpp)
+  std::vector<double> delays{};       // D of the delay that a replicate seems to have (delay_decision.hpp)
+  ReplicateSource source = ReplicateSource::measured_motion;
+};
+
+// questions: is_same_for_all is found here. gains: of the recording, one for each question; asked: those that nothing
+// else speaks against, the one that gains most first; step: of the search
+ReplicateGains replicate_gains(DecisionQuestion const& question, FittedModel const& model,
+                               std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains,
+                               std::vector<std::size_t> const& asked, FoldKind kind, std::uint32_t step);
+
+}  // namespace torquescope

@@ -1,0 +1,21 @@
+#pragma once
+// A diagnosis decided on all samples (engine/decision), told as every other diagnosis is.
+//
+// Errors     as diagnose_joint()
+// Threads    as diagnose_joint()
+
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/joint_diagnosis.hpp"
+
+namespace torquescope {
+
+// which decision a job asks for: that on rows that move one way, that on all, or the first with the other beside it
+enum class Decider { moving_rows, all_rows, both };
+std::vector<std::string> decider_words();  // of a job file, in that order
+Decider decider_of(std::string const& word);
+
+JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress);
+
+}  // namespace torquescope
