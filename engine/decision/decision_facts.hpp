@@ -5,7 +5,7 @@
 //            interval of static friction a residual is zero
 // Units      SI; shares are fractions of 1; NaN: not measured
 // Threads    plain records
-// Source     engine/decision/THEORY.md, Facts
+// Source     engine/decision/THEORY.md, Rows
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -73,7 +73,7 @@ struct DelayFacts {
   double gain = 0.0;  // D against the same model at an allowed delay
   double p = 1.0;
   double size = 0.0;
-  double validation_without = std::numeric_limits<double>::quiet_NaN();
+  double judged_without = std::numeric_limits<double>::quiet_NaN();
   bool is_named = false;
 };
 

@@ -48,9 +48,9 @@ DelayFacts decided_delay(DecisionQuestion const& question, JointStrips const& ro
   delay.size = std::sqrt(std::max(0.0, fall) / static_cast<double>(model.fitted->on().rows())) / rows.torque_rms();
   auto const reached = std::count_if(chance.begin(), chance.end(), [&](double gain) { return gain >= delay.gain; });
   delay.p = (1.0 + static_cast<double>(reached)) / (1.0 + static_cast<double>(chance.size()));
-  delay.validation_without = validation_error(rows, without);
+  delay.judged_without = errors_of(rows, without).judged();
   delay.is_named = delay.p <= question.numbers.alpha && delay.gain > 0.0 && delay.size >= question.numbers.delta &&
-                   !(delay.validation_without <= validation_error(rows, model));
+                   errors_of(rows, model).judged() < delay.judged_without;
   return delay;
 }
 

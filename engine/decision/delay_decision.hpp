@@ -2,10 +2,10 @@
 // Whether the delay that stands beside a model is a name: the torque comes late or early by more than a recording may.
 //
 // Allowed    from 0 to half a sample, which a log that does not hold its torque has
-// Equation   D and size against the same model at the nearest allowed delay; chance: D of replicates, which search their
-//            delay alike
+// Equation   D and size against the same model at the nearest allowed delay; chance: D of replicates, which search
+//            their delay alike
 // Threads    pure functions
-// Source     engine/decision/THEORY.md, Delay
+// Source     engine/decision/THEORY.md, The rules
 
 #include <span>
 

@@ -4,7 +4,7 @@
 // Errors     ||residual|| / ||torque|| over all rows of the filtered torque; inside the interval of static friction a
 //            residual is zero. Of other recordings the offset alone is fitted
 // Threads    plain records, pure functions
-// Source     engine/decision/THEORY.md, Errors
+// Source     engine/decision/THEORY.md, Rows
 
 #include <memory>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// Columns of terms and effects on a strip, where dry friction is not yet decided: for a joint that moves forward, and for
-// the same one moving back.
+// Columns of terms and effects on a strip, where dry friction is not yet decided: for a joint that moves forward, and
+// for the same one moving back.
 //
 // Equation   column = (1 + s) / 2 forward + (1 - s) / 2 backward of dry friction; the same in both of everything else
 // Memory     an effect that remembers the motion is as its motion says, dry or not

@@ -1,8 +1,8 @@
 #pragma once
 // Every law of the catalogue beside one model: the shape at which it leaves the least on held-out rows, and its D.
 //
-// Replicates each is fitted and searched as the recording is, on its own columns. Laws whose columns a replicate's motion
-//            hardly changes (of the place, of time) are computed once for all
+// Replicates each is fitted and searched as the recording is, on its own columns. Laws whose columns a replicate's
+//            motion hardly changes (of the place, of time) are computed once for all
 // Kind       of the folds: one for all laws of a scan
 // Threads    spreads laws and replicates over `threads`; same bits for any number
 // Source     engine/decision/THEORY.md, Chance

@@ -2,8 +2,8 @@
 // Replicates of the recordings of one joint by one model: simulated in their loops, every one with its own sticking of
 // friction and its own place of the encoder's steps.
 //
-// Loop       of the recording (recorded_loop.hpp); where the joint runs away in it, a loop of our own round the measured
-//            motion; where it runs away in that as well, the measured motion itself with the model's torque
+// Loop       of the recording (recorded_loop.hpp); where the joint runs away in it, a loop of our own round the
+//            measured motion; where it runs away in that as well, the measured motion itself with the model's torque
 // Noise      none in the loop: the caller adds it to the rows (row_noise.hpp)
 // Rows       those of the recording
 // Random     addressed by (seed, recording, step of the search, replicate)

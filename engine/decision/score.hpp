@@ -1,9 +1,9 @@
 #pragma once
 // What a model leaves on rows that its fit has not seen, and by how much a law lowers it: the statistic of a decision.
 //
-// Equation   D = n_eff ln(S_0 / S_1): S_0 left without the law, S_1 with it, on folds that the fits have not seen; n_eff:
-//            independent squares of what the larger model leaves (rollout/effective_samples.hpp)
-// Folds      ten with a guard as long as the filter's memory; laws of a clock or an instant on short ones (left_out.hpp)
+// Equation   D = n_eff ln(S_0 / S_1): S_0 left without the law, S_1 with it, on folds that the fits have not seen;
+//            n_eff: independent squares of what the larger model leaves (rollout/effective_samples.hpp)
+// Folds      ten with a guard as long as the filter's memory; laws of a clock on short ones (left_out.hpp)
 // Sign       a single parameter that physics gives a sign counts only with that sign
 // Shapes     n rows, m signals. Memory 8 n (k + m) bytes
 // Threads    const object

@@ -1,7 +1,7 @@
 #pragma once
 // Whether anything is left that goes with the motion, whatever its law: D of smooth functions of one axis each.
 //
-// Axes       position, position where the joint moves back, velocity, acceleration, time: piecewise linear, twelve knots
+// Axes       position, position where the joint moves back, velocity, acceleration, time; piecewise linear, 12 knots
 // Rows       of the motion at the rows, not filtered
 // Threads    pure functions
 // Source     engine/decision/THEORY.md, Adequacy

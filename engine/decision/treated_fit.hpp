@@ -4,8 +4,8 @@
 // Quiet      at samples that do not show motion dry friction is the interval from backward to forward. Inside it torque
 //            and columns count zero before the parallel filter; outside, friction stands at the nearer end. The set
 //            is found by fitting again until it stays
-// Sticking   a mixture of sides (sticking_shape.hpp), weights 0 to 1 fitted to all rows beside the parameters; then it is
-//            the side of all dry friction
+// Sticking   a mixture of sides (sticking_shape.hpp), weights 0 to 1 fitted to all rows beside the parameters; then it
+//            is the side of all dry friction
 // Late       torque(t + late_s) stands beside the motion at t: cubic interpolation
 // Parameters of the model, then an offset of each recording but the first
 // Shapes     columns, torque, residual: the rows of all strips, one above the other
