@@ -1,7 +1,7 @@
 """The plants that conceal physics and the engine that looks for it share nothing but the recordings.
 
-Of joints: this folder; of whole arms: concealed_arms. No include of engine/ or kernels/ in them, no engine library
-linked to them, and nobody but the scorers reads a truth.
+Of joints: this folder, and sticking; of whole arms: concealed_arms. No include of engine/ or kernels/ in them, no
+engine library linked to them, and nobody but the scorers reads a truth.
 """
 
 import pathlib
@@ -10,9 +10,9 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
-PLANTS = ("concealed", "concealed_arms")
+PLANTS = ("concealed", "concealed_arms", "sticking")
 READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
-           "score_arms.py", "one_arm.py", "independent.py"}
+           "score_arms.py", "one_arm.py", "independent.py", "run.py", "grade.py", "test_cases.py"}
 
 
 def foreign_includes(sources):
@@ -44,7 +44,7 @@ def main(root):
             text = path.read_text(errors="replace")
             # a person may be told where the truth lies; nothing may open it
             text = re.sub(r"^echo .*$", "", text, flags=re.MULTILINE)
-            if "truth.json" in text or re.search(r'#\s*include\s+"concealed(?:_arms)?/', text):
+            if "truth.json" in text or re.search(r'#\s*include\s+"(?:concealed(?:_arms)?|sticking)/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
     for path in files:
         if path.suffix == ".py" and path.name not in READERS and "truth.json" in path.read_text():
