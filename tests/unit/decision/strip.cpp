@@ -46,6 +46,23 @@ TEST(Strip, QuietSamplesAreThoseOfTheRests) {
   EXPECT_NEAR(strip.quiet_share(), 0.39, 0.03);
 }
 
+// The window is half a period of the cut-off, 11 samples: a stand of 14 is quiet, one of 8 may be chance
+TEST(Strip, AStandShorterThanTheWindowIsNotQuiet) {
+  Recording recording = recording_of({});
+  constexpr double step = 2e-5, steps_per_sample = 5.0;
+  double place = 0.0;
+  for (Eigen::Index k = 0; k < recording.position.size(); ++k) {
+    bool const stands = (k > 1000 && k < 1014) || (k > 2000 && k < 2008);
+    if (!stands) place += steps_per_sample * step;
+    recording.position[k] = place;
+  }
+  Strip const strip = strip_of(recording, strip_filters(recording, ten_hertz(), {}));
+  for (Eigen::Index k = 0; k < strip.size(); ++k) {
+    auto const sample = std::lround(time_of(strip, k) * recording.rate_hz);
+    EXPECT_EQ(strip.is_quiet[static_cast<std::size_t>(k)] != 0, sample >= 1000 && sample < 1014) << sample;
+  }
+}
+
 TEST(Strip, RowsKeepEverythingButTheEdges) {
   GivenJoint joint;
   joint.rests = true;
