@@ -22,7 +22,7 @@ struct Chance {
   void add(Eigen::MatrixXd const& further);
   Eigen::VectorXd p(Eigen::VectorXd const& gains_of_recording) const;  // of every law
   Eigen::VectorXd level(double alpha) const;                           // of every law
-  Eigen::VectorXd needed(double alpha) const;                          // D of every law that would have a p of alpha
+  Eigen::VectorXd needed(double alpha) const;                          // D of every law above which its p is alpha
 
  private:
   std::vector<double> largest() const;  // T of every replicate

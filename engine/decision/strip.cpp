@@ -146,11 +146,24 @@ BaselineReference beside_at(Recording const& recording, Eigen::Index first, Eige
   return beside;
 }
 
-Eigen::VectorXd below_half_rate(Eigen::VectorXd const& torque, StripFilters const& filters) {
-  if (filters.step == 1) return torque;
+// Signals with jumps, which picking every step-th sample would move and alias
+Eigen::MatrixXd below_half_rate(Eigen::MatrixXd const& signals, StripFilters const& filters) {
+  if (filters.step == 1) return signals;
   FilterOptions low;
   low.cutoff_hz = below_half_of_rate * filters.rate_hz / static_cast<double>(filters.step);
-  return smooth_positions(torque, low, filters.rate_hz).col(0);
+  return smooth_positions(signals, low, filters.rate_hz);
+}
+
+// Standard deviation of white noise, by fourth differences: what the motion bends is gone from them
+double noise_of(Eigen::VectorXd const& q) {
+  constexpr double of_differences = 8.366600265340756, median_of_normal = 0.6744897501960817;  // sqrt(70)
+  if (q.size() < 5) return 0.0;
+  std::vector<double> sizes;
+  for (Eigen::Index k = 2; k + 2 < q.size(); ++k)
+    sizes.push_back(std::abs(q[k - 2] - 4.0 * q[k - 1] + 6.0 * q[k] - 4.0 * q[k + 1] + q[k + 2]));
+  auto const middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / (of_differences * median_of_normal);
 }
 
 }  // namespace
@@ -181,7 +194,7 @@ double position_resolution(Recording const& recording) {
       recording.rows.encoder_step > 0.0
           ? recording.rows.encoder_step
           : quantisation_step({recording.position.data(), static_cast<std::size_t>(recording.position.size())});
-  return step > 0.0 ? step : noise_span * white_noise(recording.position);
+  return step > 0.0 ? step : noise_span * noise_of(recording.position);
 }
 
 Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> const& filters, double resolution) {
@@ -192,11 +205,15 @@ Strip strip_of(Recording const& recording, std::shared_ptr<StripFilters const> c
   strip.rows = rows_of(recording, motion, *filters->whole, filters->cutoff_hz);
   strip.rows_apart = rows_apart_of(*filters->whole, filters->cutoff_hz);
   strip.motion = thinned(motion, first, step);
-  strip.torque = thinned(below_half_rate(acting_torque(recording.torque), *filters), first, step);
+  strip.torque = thinned(below_half_rate(acting_torque(recording.torque), *filters).col(0), first, step);
   strip.motion.torque = strip.torque;
   strip.resolution = resolution > 0.0 ? resolution : position_resolution(recording);
-  strip.direction = thinned(kept_direction(recording.position, reversal_steps * strip.resolution), first, step);
-  strip.sides = sticking_sides(strip.motion.q, strip.motion.dq, strip.direction, sticking_bounds(strip.resolution));
+  Eigen::VectorXd const direction = kept_direction(recording.position, reversal_steps * strip.resolution);
+  Eigen::MatrixXd const sides =
+      below_half_rate(sticking_sides(motion.q, motion.dq, direction, sticking_bounds(strip.resolution)), *filters);
+  strip.direction = thinned(below_half_rate(direction, *filters).col(0), first, step);
+  strip.sides.resize(strip.direction.size(), sides.cols());
+  for (Eigen::Index k = 0; k < sides.cols(); ++k) strip.sides.col(k) = thinned(sides.col(k), first, step);
   double const cutoff_hz = filters->cutoff_hz > 0.0 ? filters->cutoff_hz : below_half_of_rate * filters->rate_hz;
   auto const reach = static_cast<Eigen::Index>(std::ceil(quiet_periods / cutoff_hz * filters->rate_hz));
   auto const quiet = quiet_samples(recording.position, reach, strip.resolution);

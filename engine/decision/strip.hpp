@@ -6,7 +6,7 @@
 //            wider band at a rate of its own, for parts that have an inertia
 // Quiet      samples at which the raw position stays within one step of the encoder: whether the joint moves there
 //            nobody can tell. Without steps, within four standard deviations of the position's noise
-// Direction  -1 or 1, kept until the position has come back by 1.5 steps
+// Direction  -1 or 1, kept until the position has come back by 1.5 steps; low-passed as the torque is
 // Left out   stretches that were filled, a torque at its limit, the filter's edges: nothing else
 // Shapes     motion, torque, direction, quiet: n at the laws' rate. Units: SI
 // Threads    plain records; filters are shared between a recording and its replicates

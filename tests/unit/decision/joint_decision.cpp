@@ -69,7 +69,7 @@ TEST(JointDecision, NamesAFrictionThatDiffersBetweenTheDirections) {
   EXPECT_LT(facts.final.validation, 0.8 * facts.baseline.validation);
   if (accepted.effect == law) {
     ASSERT_EQ(facts.parameters.size(), 5U);
-    EXPECT_NEAR(facts.parameters[4].value, 0.03, 0.003);
+    EXPECT_NEAR(facts.parameters[4].value, 0.03, 0.0006);
     EXPECT_NEAR(facts.parameters[0].value, joint.inertia, 0.01 * joint.inertia);
     EXPECT_NEAR(facts.parameters[1].value, joint.viscous, 0.01 * joint.viscous);
   }

@@ -93,13 +93,15 @@ TEST(Strip, DirectionTurnsWithTheMotionAndNotWithDither) {
   Strip const strip = strip_of(recording, strip_filters(recording, ten_hertz(), {}));
   Eigen::Index flips = 0, at = 0;
   for (Eigen::Index k = 0; k < strip.size(); ++k) {
-    EXPECT_EQ(std::abs(strip.direction[k]), 1.0);
-    if (k > 0 && strip.direction[k] != strip.direction[k - 1]) {
+    // low-passed as the torque is: it rings beside the turn
+    bool const is_beside = std::abs(time_of(strip, k) - static_cast<double>(turns) / recording.rate_hz) < 0.2;
+    EXPECT_NEAR(std::abs(strip.direction[k]), 1.0, is_beside ? 1.0 : 1e-3);
+    if (k > 0 && strip.direction[k] * strip.direction[k - 1] < 0.0) {
       ++flips;
       at = static_cast<Eigen::Index>(std::lround(time_of(strip, k) * recording.rate_hz));
     }
   }
-  EXPECT_EQ(strip.direction[0], 1.0);
+  EXPECT_GT(strip.direction[0], 0.0);
   EXPECT_EQ(flips, 1);
   EXPECT_NEAR(static_cast<double>(at), static_cast<double>(turns), 10.0);
 }
