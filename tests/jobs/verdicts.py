@@ -78,9 +78,9 @@ class Verdicts(unittest.TestCase):
         with open(self.folder / name, "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([self.head, *rows])
 
-    def said_of(self, rows, further=None, effects='["spring"]', unseen=None, filters=""):
+    def said_of(self, rows, further=None, effects='["spring"]', unseen=None, filters="", further_options=""):
         self.write("recorded.csv", rows)
-        job = JOB.replace('["spring"]', effects).replace("[model]", filters + "[model]")
+        job = JOB.replace('["spring"]', effects).replace("[model]", filters + "[model]") + further_options
         if further:
             self.write("further.csv", further)
             job = job.replace('"recorded.csv"', '["recorded.csv", "further.csv"]')
@@ -114,6 +114,31 @@ class Verdicts(unittest.TestCase):
             one = self.said_of(rows, further)
             self.assertEqual(one["joints"][0]["effects"], [], one["reason"])
             self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
+
+    def test_the_decision_on_all_samples_stands_beside_the_other_or_alone(self):
+        sprung, other = self.with_spring(self.rows), self.with_spring(self.other_rows)
+        beside = self.said_of(sprung, unseen=other, further_options='decider = "both"\n')
+        alone = self.said_of(sprung, unseen=other, further_options='decider = "all_rows"\n')
+        plain = self.said_of(sprung, unseen=other)
+        self.assertNotIn("decision", plain["joints"][0])
+        decision = beside["joints"][0].pop("decision")
+        self.assertEqual(beside, plain, "the verdict is that of the rows that move one way")
+        self.assertEqual(alone["joints"][0]["decision"], decision)
+        self.assertEqual(alone["verdict"], decision["verdict"])
+        self.assertEqual([law["name"] for law in decision["accepted"]], ["spring"])
+        self.assertLess(decision["final"]["validation"], 0.5 * decision["baseline"]["validation"])
+        self.assertEqual(alone["joints"][0]["effects"][0]["name"], "spring")
+        low, high = alone["joints"][0]["effects"][0]["parameters"][0]["ci95"]
+        self.assertLess(low, 0.5)
+        self.assertGreater(high, 0.5)
+        self.assertAlmostEqual(0.5 * (low + high), 0.5, delta=0.02)
+
+    def test_on_all_samples_a_sound_joint_misses_nothing_and_recordings_are_fitted_together(self):
+        options = 'decider = "all_rows"\n'
+        sound = self.said_of(self.rows, unseen=self.other_rows, further_options=options)["joints"][0]
+        self.assertEqual(sound["decision"]["accepted"], [])
+        both = self.said_of(self.with_spring(self.rows), self.with_spring(self.other_rows), further_options=options)
+        self.assertEqual([law["name"] for law in both["joints"][0]["decision"]["accepted"]], ["spring"])
 
     def test_rows_near_reversals_are_weighed_where_hardly_any_other_is_left(self):
         """The slower the filter, the longer the stretch round each reversal that it spoils."""
