@@ -121,6 +121,7 @@ class Search {
     Eigen::VectorXd const gains = gains_of(findings);
     ReplicateGains const null = replicate_gains(q_, result_.final, questions, gains, asked, kind,
                                                 static_cast<std::uint32_t>(result_.facts.steps.size()));
+    if (null.chance.replicates() < 2) return false;  // no model that could be followed
     chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
     SmoothCorrection const correction = best_correction(recording, score);
     StepFacts facts{{},

@@ -1,6 +1,7 @@
 #include "engine/decision/replicate_gains.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -91,6 +92,7 @@ class Replicates {
   std::vector<FittedStrips> within(std::vector<FittedStrips> all) {
     double const most = recording().chosen().fit.energy();
     std::vector<FittedStrips> kept;
+    std::erase_if(all, [](FittedStrips const& one) { return !std::isfinite(one.chosen().fit.energy()); });
     for (auto& one : all) (one.chosen().fit.energy() <= most ? kept : nearest_).push_back(std::move(one));
     std::stable_sort(nearest_.begin(), nearest_.end(), [](FittedStrips const& a, FittedStrips const& b) {
       return a.chosen().fit.energy() < b.chosen().fit.energy();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/base/contract.hpp"
@@ -78,9 +79,13 @@ class AllRowsWork {
     question.progress = [&](char const* stage, std::size_t done, std::size_t total) {
       if (progress_) progress_(stage, done, total);
     };
-    JointDecision const decision = decide_joint(question);
-    tell(decision, training.front());
-    joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+    why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
+      JointDecision const decision = decide_joint(question);
+      tell(decision, training.front());
+      joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      return std::nullopt;
+    });
+    if (why) hopeless(*why);
   }
 
   // whether replicates of the model that a step began with leave as little as the recording
@@ -139,7 +144,7 @@ class AllRowsWork {
     joint_.augmented_cv_relerr = facts.final.held_out;
     joint_.augmented_validation_relerr = facts.final.validation;
     tell_effects(decision);
-    bool const is_complete = is_adequate(facts.steps.back());
+    bool const is_complete = facts.steps.empty() || is_adequate(facts.steps.back());
     // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
     bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
     bool const all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
