@@ -1,5 +1,6 @@
 #pragma once
-// Every number of a decision, with its unit, meaning and source. A job can set each of them for an ablation.
+// Levels and budgets of a decision, with unit, meaning and source. The job sets alpha, delta and least_fall (diagnose.q
+// and so on). Conventions of rows and filters stand beside their code: strip.cpp, sticking_shape.cpp, row_noise.cpp.
 //
 // Threads    plain record
 // Source     engine/decision/THEORY.md, Numbers

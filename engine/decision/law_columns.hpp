@@ -24,7 +24,7 @@ struct LawColumnsOnStrip {
   Eigen::Index count() const { return forward.cols(); }
 };
 
-// of several shapes of one effect, one after the other. reference: parameters of the regressor and scales, of the model
+// of several shapes of one effect, one after the other. baseline: load, model torque and sizes on that strip
 LawColumnsOnStrip columns_of(Effect const& effect, std::vector<std::vector<double>> const& shapes, Strip const& strip,
                              FittedBaseline const& baseline);
 LawColumnsOnStrip columns_of(Regressor const& regressor, Strip const& strip);
@@ -32,7 +32,7 @@ LawColumnsOnStrip columns_of(Regressor const& regressor, Strip const& strip);
 // with friction as s says at each sample, the samples weighed; on the strip's rows
 Eigen::MatrixXd on_rows(Strip const& strip, LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking,
                         Eigen::VectorXd const& weight);
-// the same of some columns: those of dry friction, which alone depend on s
+// the same at every sample, neither weighed nor filtered
 Eigen::MatrixXd mixed(LawColumnsOnStrip const& columns, Eigen::VectorXd const& sticking);
 
 }  // namespace torquescope
