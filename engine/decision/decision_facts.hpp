@@ -20,7 +20,7 @@ enum class Refusal {
   none,
   chance,         // replicates of the model reach such a gain
   smaller,        // beyond chance, but another law gains more
-  too_small,      // its torque is below delta
+  too_small,      // its torque is below delta, or judged errors fall by less than least_fall
   at_bound,       // a size beyond what it can be
   not_predicted,  // rows that no fit has seen are not predicted better
 };
@@ -51,7 +51,8 @@ struct StepFacts {
   std::size_t replicates = 0;
   ReplicateSource source = ReplicateSource::measured_motion;  // of the first recording
   bool is_of_clock = false;
-  double visible = 0.0;  // over the torque's rms: what most laws must be to come out
+  bool has_taken = false;  // a law
+  double visible = 0.0;    // over the torque's rms: what most laws must be to come out
   CorrectionFacts correction{};
 };
 
@@ -69,7 +70,6 @@ struct FittedNumber {
 
 struct DelayFacts {
   double late_s = 0.0, deviation_s = 0.0;
-  bool is_at_bound = false;
   double gain = 0.0;  // D against the same model at an allowed delay
   double p = 1.0;
   double size = 0.0;
@@ -81,6 +81,8 @@ struct DecisionFacts {
   double quiet_share = 0.0;      // of the samples
   double set_aside_share = 0.0;  // of the rows: filled, saturated
   std::vector<StepFacts> steps{};
+  std::size_t last_steps = 0;  // so many of the last were asked beside the final model
+  bool is_complete = false;    // the final model: decision_verdict.hpp
   std::vector<LawFacts> accepted{};
   ModelErrors baseline{}, final{};
   double baseline_late_s = 0.0;

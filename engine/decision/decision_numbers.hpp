@@ -1,6 +1,7 @@
 #pragma once
-// Levels and budgets of a decision, with unit, meaning and source. The job sets alpha, delta and least_fall (diagnose.q
-// and so on). Conventions of rows and filters stand beside their code: strip.cpp, sticking_shape.cpp, row_noise.cpp.
+// Levels and budgets of a decision, with unit, meaning and source. The job sets alpha, delta, least_fall and tolerance
+// (diagnose.q and so on). Conventions of rows and filters stand beside their code: strip.cpp, sticking_shape.cpp,
+// row_noise.cpp.
 //
 // Threads    plain record
 // Source     engine/decision/THEORY.md, Numbers
@@ -14,8 +15,10 @@ struct DecisionNumbers {
   double alpha = 0.05;
   // of the torque's rms: the smallest torque of a law that is worth a name (Lakens 2017, doi:10.1177/1948550617697177)
   double delta = 0.0025;
-  // of the held-out error: names that lower it by less are not given
+  // of the error on judged rows: laws that lower it by less are no names
   double least_fall = 0.05;
+  // of the torque's rms: a model beside which a law of this size would not be seen cannot be called complete
+  double tolerance = 0.1;
   // replicates of a model, and of these above which no name can come out any more (Besag, Clifford 1991,
   // doi:10.1093/biomet/78.2.301)
   std::size_t replicates = 48, exceedances = 3;

@@ -20,6 +20,24 @@ std::string word(Refusal refusal) {
   return {};
 }
 
+std::string clause(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::none:
+      return {};
+    case Refusal::chance:
+      return "replicates of the model without it gain as much";
+    case Refusal::smaller:
+      return "another law explains more";
+    case Refusal::too_small:
+      return "its torque, or what it brings on rows that no fit has seen, is too small";
+    case Refusal::at_bound:
+      return "its parameters end where they can go no further";
+    case Refusal::not_predicted:
+      return "rows that no fit has seen are not predicted better";
+  }
+  return {};
+}
+
 std::string word(ReplicateSource source) {
   switch (source) {
     case ReplicateSource::own_loop:

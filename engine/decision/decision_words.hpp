@@ -9,7 +9,8 @@
 
 namespace torquescope {
 
-std::string word(Refusal refusal);         // "too_small"
+std::string word(Refusal refusal);
+std::string clause(Refusal refusal);       // why a law is no name         // "too_small"
 std::string word(ReplicateSource source);  // "own_loop"
 
 }  // namespace torquescope

@@ -40,7 +40,6 @@ DelayFacts decided_delay(DecisionQuestion const& question, JointStrips const& ro
                          std::span<double const> chance) {
   DelayFacts delay;
   delay.late_s = model.fitted->chosen().late_s;
-  delay.is_at_bound = model.fitted->chosen().is_delay_at_bound;
   delay.deviation_s = delay_deviation(model);
   FittedModel const without = at_allowed_delay(rows, model);
   delay.gain = delay_gain(*model.fitted, *without.fitted);

@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "engine/base/parallel.hpp"
+#include "engine/decision/decision_verdict.hpp"
 #include "engine/decision/delay_decision.hpp"
-#include "engine/decision/law_shape.hpp"
+#include "engine/decision/law_trial.hpp"
 #include "engine/decision/replicate_gains.hpp"
 #include "engine/decision/smooth_correction.hpp"
 #include "engine/decision/sticking_shape.hpp"
@@ -18,15 +18,6 @@
 
 namespace torquescope {
 namespace {
-
-// places in order of falling gain
-std::vector<std::size_t> by_gain(std::vector<LawFinding> const& findings) {
-  std::vector<std::size_t> order(findings.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return findings[a].gain > findings[b].gain; });
-  return order;
-}
 
 Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings) {
   Eigen::VectorXd gains(static_cast<Eigen::Index>(findings.size()));
@@ -44,9 +35,9 @@ class Search {
     FittedModel const plain = fitted_model(result_.rows, q_.regressor, {}, nullptr, free_delay());
     result_.baseline = fitted_with({}, *plain.fitted);
     result_.final = fitted_with({}, *plain.fitted);
+    judged_ = errors_of(rows(), result_.final).judged();
     note_rows();
-    // laws of a clock come after those of the motion, which are asked again beside every new model
-    while (has_room() && (step(false) || (has_room() && step(true)))) drop_useless();
+    while (has_room() && has_taken_one()) drop_useless();
     finish();
     return std::move(result_);
   }
@@ -67,18 +58,19 @@ class Search {
     return fitted_model(rows(), q_.regressor, std::move(effects), &sizes, free_delay());
   }
 
-  std::vector<ShapedEffect> effects_with(LawFacts const* further) const {
+  std::vector<ShapedEffect> effects_now() const {
     std::vector<ShapedEffect> effects;
     for (auto const& one : accepted_) effects.push_back({one.effect, one.shape});
-    if (further != nullptr) effects.push_back({further->effect, further->shape});
     return effects;
   }
 
-  FittedModel fitted_without(std::size_t law) const {
-    auto effects = effects_with(nullptr);
+  std::vector<ShapedEffect> effects_without(std::size_t law) const {
+    auto effects = effects_now();
     effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(law));
-    return fitted_with(std::move(effects), *result_.final.fitted);
+    return effects;
   }
+
+  FittedModel fitted_without(std::size_t law) const { return fitted_with(effects_without(law), *result_.final.fitted); }
 
   void note_rows() {
     double quiet = 0.0, duration = 0.0, kept = 0.0;
@@ -104,6 +96,20 @@ class Search {
     return laws;
   }
 
+  // laws of a clock come after those of the motion, which are asked again beside every new model
+  bool has_taken_one() {
+    result_.facts.last_steps = 0;
+    if (step(false)) return true;
+    auto const& steps = result_.facts.steps;
+    bool const is_borne = result_.facts.last_steps == 0 || bears_laws_of_clock(steps.back(), q_.numbers);
+    return is_borne && has_room() && step(true);
+  }
+
+  TrialModel trial_model(FittedModel const& fitted, std::vector<ShapedEffect> const& effects, Score const& score,
+                         double judged) const {
+    return {rows(), fitted, effects, score, scales(), judged};
+  }
+
   // whether a law was taken
   bool step(bool of_clock) {
     FoldKind const kind = of_clock ? FoldKind::interleaved : FoldKind::whole;
@@ -113,70 +119,43 @@ class Search {
     FittedStrips const& recording = *result_.final.fitted;
     Score const score(recording.base(), recording.residual(), recording.guard());
     auto const findings = scan_recording(questions, recording, score, kind, q_.threads);
-    auto tried = tried_laws(questions, findings, score, kind);
+    auto const effects = effects_now();
+    auto tried = tried_laws(q_, trial_model(result_.final, effects, score, judged_), questions, findings, kind);
     tell("search", questions.size(), questions.size());
     std::vector<std::size_t> asked;
     for (auto const& one : tried)
       if (one.facts.refusal == Refusal::none) asked.push_back(one.question);
     Eigen::VectorXd const gains = gains_of(findings);
-    ReplicateGains const null = replicate_gains(q_, result_.final, questions, gains, asked, kind,
-                                                static_cast<std::uint32_t>(result_.facts.steps.size()));
+    ReplicateTask const task{result_.final, left_beside_law(tried),
+                             gains,         asked,
+                             kind,          static_cast<std::uint32_t>(result_.facts.steps.size())};
+    ReplicateGains const null = replicate_gains(q_, task, questions);
     if (null.chance.replicates() < 2) return false;  // no model that could be followed
     chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
+    if (result_.facts.steps.empty()) result_.baseline_replicates = null.left;
+    result_.final_replicates = null.left;
     SmoothCorrection const correction = best_correction(recording, score);
     StepFacts facts{{},
                     null.chance.replicates(),
                     null.source,
                     of_clock,
+                    false,
                     visible_share(null.chance, score, kind),
                     {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
                      correction.rms / rows().torque_rms()}};
     facts.laws = law_facts(questions, findings, tried, null.chance);
     for (auto const& law : facts.laws) levels_[law.effect] = law.level;
-    bool const taken = take_first(facts.laws, tried);
+    facts.has_taken = take_first(facts.laws, tried);
+    result_.facts.last_steps = facts.has_taken ? 0 : result_.facts.last_steps + 1;
     result_.facts.steps.push_back(std::move(facts));
-    return taken;
+    return result_.facts.steps.back().has_taken;
   }
 
-  struct TriedLaw {
-    std::size_t question = 0;
-    LawFacts facts{};
-    FittedModel with{};
-  };
-
-  // The few that gain most, refined, and what but chance speaks against each of them; largest D first. Chance is asked
-  // of the grid's D, which replicates have, too
-  std::vector<TriedLaw> tried_laws(std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
-                                   Score const& score, FoldKind kind) const {
-    auto const order = by_gain(findings);
-    std::vector<TriedLaw> tried(std::min(q_.numbers.refined, order.size()));
-    parallel_for(tried.size(), q_.threads, [&](std::size_t k, int) {
-      std::size_t const i = order[k];
-      if (!(findings[i].gain > 0.0)) {
-        tried[k] = {i, LawFacts{questions[i].effect}, {}};
-        return;
-      }
-      RefinedLaw const refined = refined_law(questions[i], findings[i], *result_.final.fitted, score, kind);
-      LawFacts law{questions[i].effect, refined.shape, std::max(findings[i].gain, refined.gain)};
-      law.size = refined.rms / rows().torque_rms();
-      FittedModel with = fitted_with(effects_with(&law), *result_.final.fitted);
-      law.judged_before = errors_of(rows(), result_.final).judged();
-      law.judged_after = errors_of(rows(), with).judged();
-      law.refusal = refusal_of(law, refined);
-      tried[k] = {i, std::move(law), std::move(with)};
-    });
-    std::stable_sort(tried.begin(), tried.end(),
-                     [](TriedLaw const& a, TriedLaw const& b) { return a.facts.gain > b.facts.gain; });
-    return tried;
-  }
-
-  Refusal refusal_of(LawFacts const& law, RefinedLaw const& refined) const {
-    if (!(law.size >= q_.numbers.delta)) return Refusal::too_small;
-    if (refined.is_at_bound) return Refusal::at_bound;
-    auto const ranges = law.effect->linear_bounds(scales());
-    for (Eigen::Index k = 0; k < refined.parameters.size(); ++k)
-      if (refined.parameters[k] > ranges[static_cast<std::size_t>(k)].upper) return Refusal::at_bound;
-    return law.judged_after < law.judged_before ? Refusal::none : Refusal::not_predicted;
+  // what the model leaves beside the law that gains most and that nothing speaks against
+  Eigen::VectorXd const& left_beside_law(std::vector<TriedLaw> const& tried) const {
+    auto const first =
+        std::find_if(tried.begin(), tried.end(), [](auto const& one) { return one.facts.refusal == Refusal::none; });
+    return first == tried.end() ? result_.final.fitted->residual() : first->with.fitted->residual();
   }
 
   // of all laws, largest D first
@@ -208,6 +187,7 @@ class Search {
       law->refusal = Refusal::none;
       accepted_.push_back(*law);
       result_.final = std::move(one.with);
+      judged_ = law->judged_after;
       return true;
     }
     return false;
@@ -246,43 +226,85 @@ class Search {
         }
       if (least > 0.0) return;
       FittedModel without = fitted_without(weakest);
-      // one that another recording needs is not
-      if (errors_of(rows(), without).judged() > errors_of(rows(), result_.final).judged()) return;
-      result_.final = std::move(without);
-      accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(weakest));
+      double const judged = errors_of(rows(), without).judged();
+      if (judged > judged_) return;  // another recording needs it
+      drop(weakest, std::move(without), judged);
     }
   }
 
-  // laws that stand in its place about as well
+  void drop(std::size_t law, FittedModel without, double judged) {
+    result_.final = std::move(without);
+    judged_ = judged;
+    accepted_.erase(accepted_.begin() + static_cast<std::ptrdiff_t>(law));
+  }
+
+  // laws that could stand in its place about as well; other recordings say which of them stands there
   void find_rivals(std::size_t law) {
-    LawFacts& own = accepted_[law];
-    FoldKind const kind = folds_of(*own.effect);
-    FittedModel const without = fitted_without(law);
+    Effect const* const effect = accepted_[law].effect;
+    FoldKind const kind = folds_of(*effect);
+    auto const effects = effects_without(law);
+    FittedModel const without = fitted_with(effects, *result_.final.fitted);
     Score const score(without.fitted->base(), without.fitted->residual(), without.fitted->guard());
     std::vector<Effect const*> laws = laws_to_ask(false);
     if (kind == FoldKind::interleaved) {
       auto const others = laws_to_ask(true);
       laws.insert(laws.end(), others.begin(), others.end());
     }
-    std::erase(laws, own.effect);
+    std::erase(laws, effect);
     auto const questions = law_questions(laws, scales(), shortest_way());
     auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
-    own.gain = gain_beside(without, law);
-    auto const order = by_gain(findings);
-    for (std::size_t k = 0; k < std::min(q_.numbers.refined, order.size()); ++k) {
-      LawQuestion const& rival = questions[order[k]];
-      LawFinding const& found = findings[order[k]];
-      double const gain = std::max(found.gain, refined_law(rival, found, *without.fitted, score, kind).gain);
-      double const by_chance = std::max(level_of(own.effect), level_of(rival.effect));
-      if (gain > 0.0 && gain >= own.gain - by_chance) own.rivals.push_back(rival.effect);
+    double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
+    auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings, kind);
+    std::erase_if(tried, [&](TriedLaw const& one) {
+      double const by_chance = std::max(level_of(effect), level_of(one.facts.effect));
+      return one.facts.refusal != Refusal::none || one.facts.gain < gain - by_chance;
+    });
+    accepted_[law].gain = gain;
+    for (auto const& one : tried) accepted_[law].rivals.push_back(one.facts.effect);
+    auto const best = std::min_element(tried.begin(), tried.end(), [](TriedLaw const& a, TriedLaw const& b) {
+      return a.facts.judged_after < b.facts.judged_after;
+    });
+    if (rows().validation.empty() || best == tried.end()) return;
+    if (best->facts.judged_after < judged_) stand_instead(law, std::move(*best));
+  }
+
+  void stand_instead(std::size_t law, TriedLaw by) {
+    LawFacts& place = accepted_[law];
+    std::replace(place.rivals.begin(), place.rivals.end(), by.facts.effect, place.effect);
+    by.facts.rivals = std::move(place.rivals);
+    by.facts.p = place.p;
+    by.facts.level = level_of(by.facts.effect);
+    judged_ = by.facts.judged_after;
+    // the model has its laws in the order of the names
+    std::rotate(accepted_.begin() + static_cast<std::ptrdiff_t>(law),
+                accepted_.begin() + static_cast<std::ptrdiff_t>(law) + 1, accepted_.end());
+    accepted_.back() = std::move(by.facts);
+    result_.final = std::move(by.with);
+  }
+
+  // laws of a clock explain what any incomplete model leaves
+  void drop_laws_of_clock() {
+    for (std::size_t law = accepted_.size(); law-- > 0;) {
+      if (!is_clock_bound(*accepted_[law].effect)) continue;
+      FittedModel without = fitted_without(law);
+      double const judged = errors_of(rows(), without).judged();
+      drop(law, std::move(without), judged);
     }
   }
 
+  std::span<StepFacts const> last_steps() const {
+    return std::span(result_.facts.steps).last(result_.facts.last_steps);
+  }
+
   void finish() {
-    for (std::size_t i = 0; i < accepted_.size(); ++i) find_rivals(i);
     DecisionFacts& facts = result_.facts;
+    facts.is_complete = is_complete(last_steps(), q_.numbers);
+    if (!facts.is_complete) drop_laws_of_clock();
+    // from the last one on: a law that another stands for goes to the end
+    for (std::size_t i = accepted_.size(); i-- > 0;) find_rivals(i);
     facts.accepted = accepted_;
     facts.delay = decided_delay(q_, rows(), result_.final, chance_of_delay_);
+    facts.delay.is_named = facts.delay.is_named && facts.is_complete;
     // a delay that is named is a part of what the names explain
     facts.baseline = facts.delay.is_named ? errors_of(rows(), at_allowed_delay(rows(), result_.baseline))
                                           : errors_of(rows(), result_.baseline);
@@ -296,6 +318,7 @@ class Search {
   std::vector<LawFacts> accepted_{};
   std::map<Effect const*, double> levels_{};  // D by chance of each law, as last asked
   std::vector<double> chance_of_delay_{};
+  double judged_ = 0.0;  // error of the final model on judged rows
   JointDecision result_{};
 };
 

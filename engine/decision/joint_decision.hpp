@@ -20,6 +20,9 @@ struct JointDecision {
   DecisionFacts facts{};
   JointStrips rows{};
   FittedModel baseline{}, final{};  // look into the rows
+  // residuals of replicates on rows of the first recording, a column each: of the model without laws, and of the last
+  // one that was asked
+  Eigen::MatrixXd baseline_replicates{}, final_replicates{};
 };
 
 JointDecision decide_joint(DecisionQuestion const& question);

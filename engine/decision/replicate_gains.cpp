@@ -19,25 +19,23 @@ constexpr std::size_t fewest = 24;
 
 class Replicates {
  public:
-  Replicates(DecisionQuestion const& question, FittedModel const& model, std::vector<std::size_t> const& asked,
-             FoldKind kind, std::uint32_t step)
-      : q_(question), model_(model), asked_(asked), kind_(kind), step_(step) {
+  Replicates(DecisionQuestion const& question, ReplicateTask const& task) : q_(question), task_(task) {
     ReplicateSetting const setting{
         q_.training, q_.filter, plausible_sticking(recording().on(), recording().chosen(), q_.numbers.sticking_odds),
-        q_.seed,     step,      q_.threads};
+        q_.seed,     task.step, q_.threads};
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
   }
 
-  ReplicateGains run(std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains) && {
+  ReplicateGains run(std::vector<LawQuestion>& questions) && {
     std::size_t const wanted = q_.numbers.replicates;
     for (std::size_t first = 0; first < draws_for_each * wanted && count() < wanted; first += twin_lanes) {
       tell(wanted);
       take(within(drawn(first)), questions);
-      if (is_decided(gains)) break;
+      if (is_decided()) break;
     }
-    if (count() < fewest && !is_decided(gains)) {
+    if (count() < fewest && !is_decided()) {
       std::vector<FittedStrips> nearest = std::exchange(nearest_, {});
       keep_first(nearest, fewest - count());
       take(std::move(nearest), questions);
@@ -47,7 +45,7 @@ class Replicates {
   }
 
  private:
-  FittedStrips const& recording() const { return *model_.fitted; }
+  FittedStrips const& recording() const { return *task_.model.fitted; }
   std::size_t count() const { return result_.chance.replicates(); }
 
   void tell(std::size_t of) const {
@@ -56,14 +54,14 @@ class Replicates {
 
   // The laws in question cannot come out any more, or the first of them has come out and no replicate reached it;
   // without any, what is left is looked at beside the fewest
-  bool is_decided(Eigen::VectorXd const& gains) const {
+  bool is_decided() const {
     if (count() < 2) return false;
-    if (asked_.empty()) return count() >= fewest;
-    Eigen::VectorXd const p = result_.chance.p(gains);
+    if (task_.asked.empty()) return count() >= fewest;
+    Eigen::VectorXd const p = result_.chance.p(task_.gains);
     double const all = static_cast<double>(count()) + 1.0;
-    double const first = p[static_cast<Eigen::Index>(asked_.front())];
+    double const first = p[static_cast<Eigen::Index>(task_.asked.front())];
     if (first * all < 1.5 && first <= q_.numbers.alpha) return true;
-    return std::all_of(asked_.begin(), asked_.end(), [&](std::size_t law) {
+    return std::all_of(task_.asked.begin(), task_.asked.end(), [&](std::size_t law) {
       return p[static_cast<Eigen::Index>(law)] * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
     });
   }
@@ -76,7 +74,7 @@ class Replicates {
     }
     std::vector<std::unique_ptr<FittedStrips>> each(twin_lanes);
     parallel_for(twin_lanes, q_.threads, [&](std::size_t t, int) {
-      each[t] = std::make_unique<FittedStrips>(*model_.model, std::move(strips[t]),
+      each[t] = std::make_unique<FittedStrips>(*task_.model.model, std::move(strips[t]),
                                                DelayChoice{DelaySearch::everywhere, q_.numbers.longest_delay_s});
     });
     std::vector<FittedStrips> fitted;
@@ -111,13 +109,17 @@ class Replicates {
     result_.delays.resize(before + fitted.size());
     parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
       Eigen::VectorXd const noise = noise_of(before + t);
-      FittedStrips at_allowed(*model_.model, {fitted[t].strips().begin(), fitted[t].strips().end()},
+      FittedStrips at_allowed(*task_.model.model, {fitted[t].strips().begin(), fitted[t].strips().end()},
                               DelayChoice{DelaySearch::given, 0.0, allowed_delay(fitted[t])});
       at_allowed.add_noise(noise);
       fitted[t].add_noise(noise);
       result_.delays[before + t] = delay_gain(fitted[t], at_allowed);
     });
-    result_.chance.add(gains_of_replicates(questions, recording(), fitted, kind_, q_.threads));
+    result_.left.conservativeResize(static_cast<Eigen::Index>(recording().strips().front().rows.size()),
+                                    static_cast<Eigen::Index>(before + fitted.size()));
+    for (std::size_t t = 0; t < fitted.size(); ++t)
+      result_.left.col(static_cast<Eigen::Index>(before + t)) = fitted[t].residual().head(result_.left.rows());
+    result_.chance.add(gains_of_replicates(questions, recording(), fitted, task_.kind, q_.threads));
     result_.corrections.resize(before + fitted.size());
     parallel_for(fitted.size(), q_.threads, [&](std::size_t t, int) {
       Score const score(fitted[t].base(), fitted[t].residual(), fitted[t].guard());
@@ -133,7 +135,7 @@ class Replicates {
       auto const rows = static_cast<Eigen::Index>(strip.rows.size());
       std::vector<OctavePowers> without;
       for (auto const& one : replicates) without.push_back(octave_powers(one.residual().segment(row, rows)));
-      noise.push_back(less(octave_powers(recording().residual().segment(row, rows)), mean_of(without)));
+      noise.push_back(less(octave_powers(task_.noise.segment(row, rows)), mean_of(without)));
       row += rows;
     }
     return noise;
@@ -145,17 +147,14 @@ class Replicates {
     for (std::size_t i = 0; i < noise_.size(); ++i) {
       auto const rows = static_cast<Eigen::Index>(recording().strips()[i].rows.size());
       auto const address = static_cast<std::uint32_t>(replicate * noise_.size() + i);
-      all.segment(row, rows) = drawn_noise(noise_[i], rows, {q_.seed, step_, address});
+      all.segment(row, rows) = drawn_noise(noise_[i], rows, {q_.seed, task_.step, address});
       row += rows;
     }
     return all;
   }
 
   DecisionQuestion const& q_;
-  FittedModel const& model_;
-  std::vector<std::size_t> const& asked_;
-  FoldKind kind_;
-  std::uint32_t step_;
+  ReplicateTask const& task_;
   std::vector<ReplicateMaker> makers_{};
   std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
   std::vector<OctavePowers> noise_{};
@@ -164,10 +163,9 @@ class Replicates {
 
 }  // namespace
 
-ReplicateGains replicate_gains(DecisionQuestion const& question, FittedModel const& model,
-                               std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains,
-                               std::vector<std::size_t> const& asked, FoldKind kind, std::uint32_t step) {
-  return Replicates(question, model, asked, kind, step).run(questions, gains);
+ReplicateGains replicate_gains(DecisionQuestion const& question, ReplicateTask const& task,
+                               std::vector<LawQuestion>& laws) {
+  return Replicates(question, task).run(laws);
 }
 
 }  // namespace torquescope

@@ -3,7 +3,8 @@
 //
 // Draws      three for each replicate that is wanted. One that leaves more than the recording does, without any noise,
 //            is no replicate of it; where too few are left, those that leave least stand for them
-// Noise      of rows: what the recording leaves beyond the replicates, with the recording's spectrum (row_noise.hpp)
+// Noise      of rows: what the recording leaves beyond the replicates, with its spectrum (row_noise.hpp), and beside
+//            the law in question: a law that is missing is no noise
 // Enough     no law that is asked can come out any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301), or the one
 //            that gains most has come out and no replicate reached it
 // Threads    spreads replicates over the threads of the question; same bits for any number
@@ -23,12 +24,21 @@ struct ReplicateGains {
   std::vector<double> corrections{};  // D of smooth functions (smooth_correction.hpp)
   std::vector<double> delays{};       // D of the delay that a replicate seems to have (delay_decision.hpp)
   ReplicateSource source = ReplicateSource::measured_motion;
+  Eigen::MatrixXd left{};  // [rows of the first recording][replicates] residuals
 };
 
-// questions: is_same_for_all is found here. gains: of the recording, one for each question; asked: those that nothing
-// else speaks against, the one that gains most first; step: of the search
-ReplicateGains replicate_gains(DecisionQuestion const& question, FittedModel const& model,
-                               std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains,
-                               std::vector<std::size_t> const& asked, FoldKind kind, std::uint32_t step);
+// of one step of the search
+struct ReplicateTask {
+  FittedModel const& model;
+  Eigen::VectorXd const& noise;           // [rows] residual whose spectrum the noise has
+  Eigen::VectorXd const& gains;           // of the recording, one for each question
+  std::vector<std::size_t> const& asked;  // questions that nothing else speaks against, largest D first
+  FoldKind kind = FoldKind::whole;
+  std::uint32_t step = 0;
+};
+
+// laws: is_same_for_all is found here
+ReplicateGains replicate_gains(DecisionQuestion const& question, ReplicateTask const& task,
+                               std::vector<LawQuestion>& laws);
 
 }  // namespace torquescope

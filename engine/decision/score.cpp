@@ -26,8 +26,8 @@ Score::Folded Score::folded(Eigen::Index guard, FoldKind kind) const {
 }
 
 bool Score::has_wrong_sign(OrthonormalGroup const& group, Eigen::Index signal) const {
-  if (group.non_negative.size() != 1 || !group.non_negative.front() || group.rank() != 1) return false;
-  return group.r(0, 0) * group.q.col(0).dot(signals_.col(signal)) < 0.0;
+  if (std::find(group.non_negative.begin(), group.non_negative.end(), true) == group.non_negative.end()) return false;
+  return !(bounded_gain(group, group.q.transpose() * signals_.col(signal)).gain > 0.0);
 }
 
 Eigen::VectorXd Score::left_with(OrthonormalGroup const& group, FoldKind kind) const {

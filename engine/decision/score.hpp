@@ -4,7 +4,7 @@
 // Equation   D = n_eff ln(S_0 / S_1): S_0 left without the law, S_1 with it, on folds that the fits have not seen;
 //            n_eff: independent squares of what the larger model leaves (rollout/effective_samples.hpp)
 // Folds      ten with a guard as long as the filter's memory; laws of a clock on short ones (left_out.hpp)
-// Sign       a single parameter that physics gives a sign counts only with that sign
+// Sign       a law counts nothing where the signs that physics gives its parameters leave it no torque
 // Shapes     n rows, m signals. Memory 8 n (k + m) bytes
 // Threads    const object
 // Source     engine/decision/THEORY.md, The statistic

@@ -2,18 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "engine/base/contract.hpp"
+#include "engine/decision/decision_verdict.hpp"
 #include "engine/decision/decision_words.hpp"
 #include "engine/decision/joint_decision.hpp"
 #include "engine/diagnose/decision_account.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
+#include "engine/diagnose/strip_account.hpp"
+#include "engine/locate/largest_parts.hpp"
+#include "engine/locate/mismatch_map.hpp"
+#include "engine/search/candidate_table.hpp"
+#include "engine/search/parameter_intervals.hpp"
 #include "engine/statistics/block_jackknife.hpp"
 #include "engine/twin/echoed_reference.hpp"
 #include "engine/unseen/unseen_record.hpp"
+#include "engine/words/error_words.hpp"
+#include "engine/words/excitation_advice.hpp"
 #include "engine/words/sentences.hpp"
 #include "engine/words/withdrawn_names.hpp"
 
@@ -37,6 +47,10 @@ class AllRowsWork {
     joint_.rows = "all";
     diagnosis_.seed = input.seed;
     diagnosis_.q = input.selection.q;
+    numbers_.alpha = input.selection.q;
+    numbers_.delta = input.levels.delta;
+    numbers_.least_fall = input.levels.least_fall;
+    numbers_.tolerance = input.levels.tolerance;
   }
 
   JointOutcome run() && {
@@ -71,9 +85,7 @@ class AllRowsWork {
       return is_unknown || closes(first_look_.limits(), *law);
     });
     question.most_laws = input_.selection.max_effects;
-    question.numbers.alpha = input_.selection.q;
-    question.numbers.delta = input_.levels.delta;
-    question.numbers.least_fall = input_.levels.least_fall;
+    question.numbers = numbers_;
     question.seed = input_.seed;
     question.threads = input_.threads;
     question.progress = [&](char const* stage, std::size_t done, std::size_t total) {
@@ -81,20 +93,11 @@ class AllRowsWork {
     };
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       JointDecision const decision = decide_joint(question);
-      tell(decision, training.front());
+      tell(decision, question);
       joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
       return std::nullopt;
     });
     if (why) hopeless(*why);
-  }
-
-  // whether replicates of the model that a step began with leave as little as the recording
-  bool is_adequate(StepFacts const& step) const {
-    double const delta = input_.levels.delta, alpha = input_.selection.q;
-    if (step.correction.p <= alpha && step.correction.size >= delta) return false;
-    return std::none_of(step.laws.begin(), step.laws.end(), [&](LawFacts const& law) {
-      return law.p <= alpha && law.refusal != Refusal::too_small && law.refusal != Refusal::smaller;
-    });
   }
 
   // one joint of a moving arm: its neighbours' motion says more of the torque than any law of its own
@@ -108,52 +111,54 @@ class AllRowsWork {
     if (!load || load->gain.change != HeldOutChange::lower) return false;
     double const least = std::min(facts.final.held_out, (1.0 - input_.levels.least_fall) * facts.baseline.held_out);
     if (!(load->relerr < least)) return false;
-    diagnosis_.verdict = Verdict::unexplained;
     joint_.other_joints = other_joints_sentence(joint_, load->columns, load->relerr);
     return true;
   }
 
-  void nothing_named(DecisionFacts const& facts, bool was_adequate) {
+  // what the recording is to blame for where nothing is named
+  void nothing_named(DecisionFacts const& facts) {
     auto const blamed = first_look_.blamed_for_silence();
-    if (!was_adequate) {
-      diagnosis_.verdict = Verdict::unexplained;
+    if (diagnosis_.verdict == Verdict::unexplained) {
       if (first_look_.limits().has_no_relation && blamed) hopeless(*blamed);
       return;
     }
-    diagnosis_.verdict = Verdict::none;
     if (auto const why = first_look_.static_torque()) return hopeless(*why);
     if (blamed) return hopeless(*blamed);
-    if (!facts.steps.empty() && facts.steps.front().visible > input_.levels.tolerance)
-      hopeless(noise_hides(facts.steps.front().visible));
+    if (diagnosis_.verdict == Verdict::insufficient) hopeless(noise_hides(facts.steps.front().visible));
   }
 
-  void tell(JointDecision const& decision, Recording const& training) {
+  void tell(JointDecision const& decision, DecisionQuestion const& question) {
     DecisionFacts const& facts = decision.facts;
+    torque_rms_ = facts.torque_rms;
     joint_.train_relerr = facts.baseline.train;
     joint_.cv_relerr = facts.baseline.held_out;
     joint_.validation_relerr = facts.baseline.validation;
     joint_.twins = facts.steps.empty() ? 0 : facts.steps.front().replicates;
     tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
     tell_candidates(facts);
-    bool const has_names = !facts.accepted.empty() || facts.delay.is_named;
-    bool const was_adequate = facts.steps.empty() || (is_adequate(facts.steps.front()) && facts.accepted.empty());
-    bool const is_lower = facts.final.judged() <= (1.0 - input_.levels.least_fall) * facts.baseline.judged();
-    if (others_load_it(training, facts)) return;
-    if (!has_names || !is_lower) return nothing_named(facts, was_adequate);
-    joint_.augmented_train_relerr = facts.final.train;
-    joint_.augmented_cv_relerr = facts.final.held_out;
-    joint_.augmented_validation_relerr = facts.final.validation;
-    tell_effects(decision);
-    bool const is_complete = facts.steps.empty() || is_adequate(facts.steps.back());
-    // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
-    bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
-    bool const all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
-    bool const has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
-                                       [](NamedEffect const& one) { return !one.equivalent.empty(); });
-    diagnosis_.verdict = !is_complete     ? Verdict::partly
-                         : all_on_channel ? Verdict::data_fault
-                         : has_class      ? Verdict::one_of_class
-                                          : Verdict::named;
+    DecisionOutcome of;
+    of.neighbours_predict = others_load_it(question.training.front(), facts);
+    of.was_adequate = was_adequate(facts, numbers_);
+    of.has_names = !facts.accepted.empty() || facts.delay.is_named;
+    of.is_lower = is_lower(facts, numbers_);
+    of.is_complete = facts.is_complete;
+    of.can_tell_little = !facts.steps.empty() && facts.steps.front().visible > numbers_.tolerance;
+    if (!of.neighbours_predict && of.has_names && of.is_lower) {
+      joint_.augmented_train_relerr = facts.final.train;
+      joint_.augmented_cv_relerr = facts.final.held_out;
+      joint_.augmented_validation_relerr = facts.final.validation;
+      tell_effects(decision);
+      // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
+      bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
+      of.all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
+      of.has_class = std::any_of(joint_.effects.begin(), joint_.effects.end(),
+                                 [](NamedEffect const& one) { return !one.equivalent.empty(); });
+    }
+    diagnosis_.verdict = verdict_from(of);
+    draw(decision, question);
+    if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
+    if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
+      diagnosis_.way_out = way_out_of_a_fault(joint_);
   }
 
   void tell_parameters(std::vector<ParameterEstimate>& into, FittedModel const& by,
@@ -171,40 +176,107 @@ class AllRowsWork {
       candidate.family = word(law.effect->family());
       candidate.z = std::sqrt(law.gain);
       candidate.p = candidate.q = law.p;
-      candidate.reason = word(law.refusal);
+      candidate.reason = clause(law.refusal);
       candidate.decision = law.refusal == Refusal::none ? Decision::named : Decision::rejected;
       joint_.candidates.push_back(std::move(candidate));
     }
   }
 
+  void draw(JointDecision const& decision, DecisionQuestion const& question) {
+    joint_.map = map_of(decision, input_.threads);
+    joint_.traces = traces_of(decision, question);
+    joint_.budget = budget_of(decision);
+    tell_mismatch(decision);
+    if (joint_.effects.empty()) {
+      joint_.budget.unexplained += joint_.budget.missing_physics;
+      joint_.budget.missing_physics = 0.0;
+    }
+    bool const is_left = diagnosis_.verdict == Verdict::partly || diagnosis_.verdict == Verdict::unexplained;
+    if (is_left && decision.final_replicates.cols() > 0)
+      joint_.unexplained = largest_parts(mismatch_map(mismatch_rows(decision.final, decision.final_replicates),
+                                                      decision.baseline.model->reference().scales, input_.threads));
+    std::vector<std::string> closest;
+    for (auto const& effect : joint_.effects) closest.push_back(effect.name);
+    if (!closest.empty())
+      joint_.excitation = advice_for(joint_.effects);
+    else if (diagnosis_.verdict == Verdict::unexplained)
+      joint_.excitation = advice_to_confirm(closest_of(joint_.candidates));
+  }
+
+  // torque that replicates do not leave
+  void tell_mismatch(JointDecision const& decision) {
+    auto const& steps = decision.facts.steps;
+    if (steps.empty() || decision.baseline_replicates.cols() == 0) return;
+    auto const beyond = [](FittedModel const& by, Eigen::MatrixXd const& replicates) {
+      double const energy = by.fitted->residual().head(replicates.rows()).squaredNorm();
+      double const chance = replicates.colwise().squaredNorm().mean();
+      return std::sqrt(std::max(0.0, energy - chance) / static_cast<double>(replicates.rows()));
+    };
+    joint_.omnibus_p = steps.front().correction.p;
+    joint_.mismatch_rms = beyond(decision.baseline, decision.baseline_replicates);
+    joint_.left_rms = beyond(decision.final, decision.final_replicates);
+  }
+
   void tell_effects(JointDecision const& decision) {
-    DecisionFacts const& facts = decision.facts;
     JointModel const& model = *decision.final.model;
-    JointKind const kind = model.regressor().joint();
-    auto const& numbers = facts.parameters;
     for (std::size_t k = 0; k < model.regressor().size(); ++k) {
       auto const& owner = model.regressor().column_owners()[k];
-      joint_.augmented.push_back(estimate(owner.name, owner.unit, numbers[k]));
+      joint_.augmented.push_back(estimate(owner.name, owner.unit, decision.facts.parameters[k]));
     }
-    std::size_t shape_at = model.size();
-    for (std::size_t i = 0; i < facts.accepted.size(); ++i) {
-      LawFacts const& law = facts.accepted[i];
+    FrictionSign const sign = model.reference().scales.friction_sign();
+    joint_.law_levels = {sign.forward, sign.backward, model.reference().scales.inertia};
+    MismatchRows const rows = mismatch_rows(decision.final, decision.final_replicates);
+    for (std::size_t i = 0; i < decision.facts.accepted.size(); ++i) tell_law(decision, rows, i);
+    if (decision.facts.delay.is_named) tell_delay(decision.facts.delay);
+    mark_equivalent(joint_.candidates, joint_.effects);
+    for (auto& effect : joint_.effects) effect.sentence = effect_sentence(joint_, effect);
+  }
+
+  // waves of one kind are one name, their parameters numbered
+  void tell_law(JointDecision const& decision, MismatchRows const& rows, std::size_t i) {
+    LawFacts const& law = decision.facts.accepted[i];
+    auto const same = std::find_if(joint_.effects.begin(), joint_.effects.end(),
+                                   [&](NamedEffect const& one) { return one.name == law.effect->name(); });
+    bool const is_new = same == joint_.effects.end();
+    if (is_new) {
       NamedEffect named = named_after(*law.effect);
+      EffectAccount account = account_of(decision, rows, i);
       named.p = named.q = law.p;
       named.z = std::sqrt(law.gain);
-      named.rms = law.size * facts.torque_rms;
-      for (auto const* rival : law.rivals) named.equivalent.push_back(rival->name());
-      auto const& parameters = law.effect->parameters();
-      for (std::size_t k = 0; k < parameters.size(); ++k) {
-        bool const is_shape = parameters[k].is_shape;
-        std::size_t const at = is_shape ? shape_at++ : model.first_parameter(i) + k;
-        FittedNumber const number =
-            at < numbers.size() ? numbers[at] : FittedNumber{law.shape[k - law.effect->n_linear()], unknown};
-        named.parameters.push_back(estimate(parameters[k].name, parameters[k].unit_for(kind), number));
-      }
+      named.region = account.region;
+      named.places = std::move(account.places);
+      named.curve = std::move(account.curve);
+      named.rms = account.rms;
+      named.peak = account.peak;
       joint_.effects.push_back(std::move(named));
     }
-    if (facts.delay.is_named) tell_delay(facts.delay);
+    NamedEffect& named = is_new ? joint_.effects.back() : *same;
+    for (auto const* rival : law.rivals)
+      if (std::find(named.equivalent.begin(), named.equivalent.end(), rival->name()) == named.equivalent.end())
+        named.equivalent.push_back(rival->name());
+    std::size_t& count = waves_[law.effect];
+    for (auto& parameter : parameters_of(decision, i, ++count)) {
+      named.parameters.push_back(parameter);
+      joint_.augmented.push_back(std::move(parameter));
+    }
+  }
+
+  std::vector<ParameterEstimate> parameters_of(JointDecision const& decision, std::size_t i, std::size_t number) const {
+    JointModel const& model = *decision.final.model;
+    auto const& numbers = decision.facts.parameters;
+    LawFacts const& law = decision.facts.accepted[i];
+    std::size_t shape_at = model.size();
+    for (std::size_t before = 0; before < i; ++before) shape_at += model.effects()[before].shape.size();
+    std::vector<ParameterEstimate> estimates;
+    auto const& parameters = law.effect->parameters();
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      std::size_t const at = parameters[k].is_shape ? shape_at++ : model.first_parameter(i) + k;
+      FittedNumber const known =
+          at < numbers.size() ? numbers[at] : FittedNumber{law.shape[k - law.effect->n_linear()], unknown};
+      std::string const name = parameters[k].name + (number > 1 ? "_" + std::to_string(number) : "");
+      estimates.push_back(estimate(name, parameters[k].unit_for(model.regressor().joint()), known));
+    }
+    return estimates;
   }
 
   void tell_delay(DelayFacts const& delay) {
@@ -214,15 +286,20 @@ class AllRowsWork {
     NamedEffect named = named_after(**timing);
     named.p = named.q = least_p(joint_.twins);
     named.z = std::sqrt(delay.gain);
+    named.rms = delay.size * torque_rms_;
     named.parameters.push_back(estimate(named.name, "s", {delay.late_s, delay.deviation_s}));
+    joint_.augmented.push_back(named.parameters.front());
     joint_.effects.push_back(std::move(named));
   }
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
   FirstLook first_look_;
+  DecisionNumbers numbers_{};
   Diagnosis diagnosis_{};
   JointDiagnosis joint_{};
+  std::map<Effect const*, std::size_t> waves_{};  // told so far, of each effect
+  double torque_rms_ = 0.0;
 };
 
 }  // namespace

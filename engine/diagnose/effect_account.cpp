@@ -12,25 +12,6 @@
 namespace torquescope {
 namespace {
 
-// What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted
-// from its mean and not from where the encoder reads 0. model_columns: those of the model, as `torque` is sampled
-Eigen::VectorXd beside_the_level(ModelStage const& stage, Effect const& effect, Eigen::MatrixXd const& model_columns,
-                                 Eigen::VectorXd torque) {
-  if (!effect.is_level_free()) return torque;
-  auto const& regressor = stage.model().regressor();
-  Eigen::MatrixXd levels(torque.size(), 0);
-  for (std::size_t k = 0; k < regressor.size(); ++k) {
-    auto const& owner = regressor.column_owners()[k];
-    bool const is_constant = !owner.needs_position && !owner.needs_velocity && !owner.needs_acceleration &&
-                             !regressor.terms()[owner.term]->is_given();
-    if (!is_constant && !regressor.terms()[owner.term]->is_dry_friction()) continue;
-    levels.conservativeResize(Eigen::NoChange, levels.cols() + 1);
-    levels.rightCols(1) = model_columns.col(static_cast<Eigen::Index>(k));
-  }
-  if (levels.cols() == 0) return torque;
-  return torque - levels * solve_scaled(levels, torque);
-}
-
 Eigen::VectorXd parameters_of(ModelStage const& stage, std::size_t i) {
   auto const* effect = stage.model().effects()[i].effect;
   return stage.estimate().segment(static_cast<Eigen::Index>(stage.model().first_parameter(i)),
@@ -54,25 +35,19 @@ Eigen::VectorXd beside_the_model(ModelStage const& stage, Eigen::VectorXd const&
 // What is cut off at the ends of the record has no place: the filters swing there. Nor has friction at rest, where it
 // is whatever keeps the joint there and no law of the motion: a joint that stands half of the time would have all its
 // friction there
-ActingRegion region_in_motion(ModelStage const& stage, CandidateColumns const& columns, std::size_t i) {
-  auto const& [effect, shape] = stage.model().effects()[i];
+std::vector<Eigen::Index> acting_samples(ModelStage const& stage, Effect const& effect) {
   Motion const& motion = stage.comparison.common.motion;
   RecordPipeline const& pipeline = *stage.pipeline;
-  Eigen::VectorXd const torque =
-      beside_the_level(stage, *effect, stage.model().regressor().columns(motion, stage.model().reference().given.get()),
-                       columns.signals(*effect, shape) * parameters_of(stage, i));
-  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
-  Eigen::VectorXd const at = values_on(effect->signature().front(), axes);
-  Eigen::Index const n = torque.size();
+  Eigen::Index const n = motion.q.size();
   Eigen::VectorXd const kept = pipeline.picked(Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)));
   auto const from = static_cast<Eigen::Index>(std::lround(kept[0]));
   Eigen::Index const end = static_cast<Eigen::Index>(std::lround(kept[kept.size() - 1])) + 1;
   std::vector<bool> const at_rest = resting_samples(motion.dq, pipeline.rate_hz(), pipeline.cutoff_hz());
-  bool const opposes_motion = effect->parity() == Parity::odd;
+  bool const opposes_motion = effect.parity() == Parity::odd;
   std::vector<Eigen::Index> samples;
   for (Eigen::Index k = from; k < end; ++k)
     if (!opposes_motion || !at_rest[static_cast<std::size_t>(k)]) samples.push_back(k);
-  return acting_region(at(samples), torque(samples).array().square().matrix());
+  return samples;
 }
 
 // the reading of the map: torque that turns with the direction is counted along the motion
@@ -145,32 +120,62 @@ double peak_in(std::vector<AxisInterval> const& places, Eigen::VectorXd const& a
   return peak >= 0.0 ? peak : torque.cwiseAbs().maxCoeff();
 }
 
+Eigen::VectorXd beside_the_level(Regressor const& regressor, Effect const& effect, Eigen::MatrixXd const& columns,
+                                 Eigen::VectorXd torque) {
+  if (!effect.is_level_free()) return torque;
+  Eigen::MatrixXd levels(torque.size(), 0);
+  for (std::size_t k = 0; k < regressor.size(); ++k) {
+    auto const& owner = regressor.column_owners()[k];
+    bool const is_constant = !owner.needs_position && !owner.needs_velocity && !owner.needs_acceleration &&
+                             !regressor.terms()[owner.term]->is_given();
+    if (!is_constant && !regressor.terms()[owner.term]->is_dry_friction()) continue;
+    levels.conservativeResize(Eigen::NoChange, levels.cols() + 1);
+    levels.rightCols(1) = columns.col(static_cast<Eigen::Index>(k));
+  }
+  if (levels.cols() == 0) return torque;
+  return torque - levels * solve_scaled(levels, torque);
+}
+
+EffectAccount account_of(EffectOnRecording const& on) {
+  SignatureAxis const axis = on.shaped.effect->signature().front();
+  JointKind const joint = on.scales.joint;
+  EffectAccount account;
+  account.rms = std::sqrt(on.beside.squaredNorm() / static_cast<double>(on.beside.size()));
+  if (auto const wave = wave_region(on.shaped, axis, on.scales)) {
+    account.region = *wave;
+    account.places = {*wave};
+    account.peak = on.beside.cwiseAbs().maxCoeff();
+  } else {
+    ActingRegion const found = acting_region(values_on(axis, on.axes), on.acting.array().square().matrix());
+    auto const on_axis = [&](std::pair<double, double> const& interval) {
+      return AxisInterval{word(axis), interval.first, interval.second, axis_unit(axis, joint)};
+    };
+    account.region = on_axis(found.interval);
+    for (auto const& interval : found.intervals) account.places.push_back(on_axis(interval));
+    account.peak = peak_in(account.places, values_on(axis, on.rows), on.beside);
+  }
+  SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
+  account.curve = curve_on(drawn, on.rows, on.whole, on.rows.residual - on.rows.twin_mean, joint);
+  return account;
+}
+
 EffectAccount account_of(ModelStage const& stage, std::size_t i) {
   CandidateColumns const columns(*stage.pipeline, stage.comparison, stage.reference(), stage.parameters());
   MismatchRows const rows = in_torque_itself(stage.comparison.rows);
   auto const& shaped = stage.model().effects()[i];
-  Eigen::VectorXd const whole = whole_torque(stage, columns, i), torque = beside_the_model(stage, whole);
-  SignatureAxis const axis = shaped.effect->signature().front();
-  EffectAccount account;
-  account.rms = std::sqrt(torque.squaredNorm() / static_cast<double>(torque.size()));
-  if (auto const wave = wave_region(shaped, axis, columns.scales())) {
-    account.region = *wave;
-    account.places = {*wave};
-    account.peak = torque.cwiseAbs().maxCoeff();
-  } else {
-    ActingRegion const found = region_in_motion(stage, columns, i);
-    auto const on_axis = [&](std::pair<double, double> const& interval) {
-      return AxisInterval{word(axis), interval.first, interval.second, axis_unit(axis, columns.joint())};
-    };
-    account.region = on_axis(found.interval);
-    for (auto const& interval : found.intervals) account.places.push_back(on_axis(interval));
-    account.peak = peak_in(account.places, values_on(axis, rows), torque);
-  }
-  SignatureAxis const drawn = is_spectrum(axis) ? SignatureAxis::position : axis;
-  Eigen::VectorXd const curved =
-      beside_the_level(stage, *shaped.effect, stage.comparison.common.columns_themselves(), whole);
-  account.curve = curve_on(drawn, rows, curved, rows.residual - rows.twin_mean, columns.joint());
-  return account;
+  auto const& [effect, shape] = shaped;
+  Regressor const& regressor = stage.model().regressor();
+  Motion const& motion = stage.comparison.common.motion;
+  auto const samples = acting_samples(stage, *effect);
+  Eigen::VectorXd const torque =
+      beside_the_level(regressor, *effect, regressor.columns(motion, stage.model().reference().given.get()),
+                       columns.signals(*effect, shape) * parameters_of(stage, i));
+  MotionAxes const axes = motion_axes(stage.model(), stage.comparison.common, stage.parameters());
+  Eigen::VectorXd const whole = whole_torque(stage, columns, i);
+  return account_of(EffectOnRecording{
+      shaped, columns.scales(), axes.picked([&](Eigen::VectorXd const& all) { return Eigen::VectorXd(all(samples)); }),
+      torque(samples), beside_the_model(stage, whole),
+      beside_the_level(regressor, *effect, stage.comparison.common.columns_themselves(), whole), rows});
 }
 
 }  // namespace torquescope

@@ -23,7 +23,24 @@ struct EffectAccount {
   double rms = 0.0, peak = 0.0;
 };
 
+// an effect of a model on the motion and on the rows of a recording
+struct EffectOnRecording {
+  ShapedEffect const& shaped;
+  JointScales const& scales;
+  MotionAxes axes{};         // of the samples at which it may act
+  Eigen::VectorXd acting{};  // its torque there
+  Eigen::VectorXd beside{};  // on the rows: beside the model's own terms
+  Eigen::VectorXd whole{};   // on the rows: what is drawn
+  MismatchRows const& rows;  // of the model with the effect; in the torque itself
+};
+EffectAccount account_of(EffectOnRecording const& effect);
+
 EffectAccount account_of(ModelStage const& stage, std::size_t i);
+
+// What an effect adds to a baseline that keeps its own level where the level is nobody's: a spring's torque is counted
+// from its mean and not from where the encoder reads 0. columns: of the regressor, as `torque` is sampled
+Eigen::VectorXd beside_the_level(Regressor const& regressor, Effect const& effect, Eigen::MatrixXd const& columns,
+                                 Eigen::VectorXd torque);
 
 // the largest size of a torque on the rows in one of the places; of all rows where none is in them.  at: of the places'
 // axis
