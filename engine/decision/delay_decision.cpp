@@ -18,8 +18,9 @@ Eigen::VectorXd left_by(FittedStrips const& fitted) {
 }  // namespace
 
 double allowed_delay(FittedStrips const& fitted) {
-  constexpr double half = 0.5;  // of a sample
-  return std::clamp(fitted.chosen().late_s, 0.0, half / fitted.strips().front().filters->rate_hz);
+  constexpr double earliest = -0.5, latest = 1.5;  // samples
+  double const sample_s = 1.0 / fitted.strips().front().filters->rate_hz;
+  return std::clamp(fitted.chosen().late_s, earliest * sample_s, latest * sample_s);
 }
 
 FittedModel at_allowed_delay(JointStrips const& rows, FittedModel const& model) {

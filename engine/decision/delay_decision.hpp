@@ -1,7 +1,8 @@
 #pragma once
 // Whether the delay that stands beside a model is a name: the torque comes late or early by more than a recording may.
 //
-// Allowed    from 0 to half a sample, which a log that does not hold its torque has
+// Allowed    a sample either way of half a sample: when in its sample a drive reads its torque, and whether the log
+//            holds it, nobody can tell from a finding; so from half a sample early to one and a half late
 // Equation   D and size against the same model at the nearest allowed delay; chance: D of replicates, which search
 //            their delay alike
 // Threads    pure functions
