@@ -29,14 +29,17 @@ std::vector<double> Chance::largest() const {
   return largest;
 }
 
+Eigen::VectorXd Chance::relative(Eigen::VectorXd const& gains_of_recording) const {
+  return (gains_of_recording.array() / (1.0 + gains.rowwise().mean().array())).matrix();
+}
+
 Eigen::VectorXd Chance::p(Eigen::VectorXd const& gains_of_recording) const {
   TORQUESCOPE_EXPECT(gains.cols() > 1 && gains_of_recording.size() == gains.rows());
   auto const all = largest();
-  Eigen::VectorXd const mean = gains.rowwise().mean();
+  Eigen::VectorXd const here = relative(gains_of_recording);
   Eigen::VectorXd p(gains.rows());
   for (Eigen::Index law = 0; law < p.size(); ++law) {
-    double const here = gains_of_recording[law] / (1.0 + mean[law]);
-    auto const reached = std::count_if(all.begin(), all.end(), [&](double one) { return one >= here; });
+    auto const reached = std::count_if(all.begin(), all.end(), [&](double one) { return one >= here[law]; });
     p[law] = (1.0 + static_cast<double>(reached)) / (static_cast<double>(all.size()) + 1.0);
   }
   return p;

@@ -20,9 +20,10 @@ struct Chance {
 
   std::size_t replicates() const { return static_cast<std::size_t>(gains.cols()); }
   void add(Eigen::MatrixXd const& further);
-  Eigen::VectorXd p(Eigen::VectorXd const& gains_of_recording) const;  // of every law
-  Eigen::VectorXd level(double alpha) const;                           // of every law
-  Eigen::VectorXd needed(double alpha) const;                          // D of every law above which its p is alpha
+  Eigen::VectorXd p(Eigen::VectorXd const& gains_of_recording) const;         // of every law
+  Eigen::VectorXd relative(Eigen::VectorXd const& gains_of_recording) const;  // T of every law
+  Eigen::VectorXd level(double alpha) const;                                  // of every law
+  Eigen::VectorXd needed(double alpha) const;  // D of every law above which its p is alpha
 
  private:
   std::vector<double> largest() const;  // T of every replicate

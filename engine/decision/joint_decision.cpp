@@ -19,10 +19,10 @@
 namespace torquescope {
 namespace {
 
-Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings) {
-  Eigen::VectorXd gains(static_cast<Eigen::Index>(findings.size()));
-  for (std::size_t i = 0; i < findings.size(); ++i) gains[static_cast<Eigen::Index>(i)] = findings[i].gain;
-  return gains;
+// the first so many
+std::vector<std::size_t> first_of(std::vector<std::size_t> order, std::size_t count) {
+  order.resize(std::min(count, order.size()));
+  return order;
 }
 
 FoldKind folds_of(Effect const& law) { return is_clock_bound(law) ? FoldKind::interleaved : FoldKind::whole; }
@@ -120,17 +120,18 @@ class Search {
     Score const score(recording.base(), recording.residual(), recording.guard());
     auto const findings = scan_recording(questions, recording, score, kind, q_.threads);
     auto const effects = effects_now();
-    auto tried = tried_laws(q_, trial_model(result_.final, effects, score, judged_), questions, findings, kind);
-    tell("search", questions.size(), questions.size());
-    std::vector<std::size_t> asked;
-    for (auto const& one : tried)
-      if (one.facts.refusal == Refusal::none) asked.push_back(one.question);
+    TrialModel const beside = trial_model(result_.final, effects, score, judged_);
     Eigen::VectorXd const gains = gains_of(findings);
+    auto tried = tried_laws(q_, beside, questions, findings, first_of(by_value(gains), q_.numbers.refined), kind);
+    tell("search", questions.size(), questions.size());
+    std::vector<bool> asked(questions.size(), true);
+    for (auto const& one : tried) asked[one.question] = one.facts.refusal == Refusal::none;
     ReplicateTask const task{result_.final, left_beside_law(tried),
                              gains,         asked,
                              kind,          static_cast<std::uint32_t>(result_.facts.steps.size())};
     ReplicateGains const null = replicate_gains(q_, task, questions);
     if (null.chance.replicates() < 2) return false;  // no model that could be followed
+    add_those_beyond_chance(tried, beside, questions, findings, null.chance, kind);
     chance_of_delay_.insert(chance_of_delay_.end(), null.delays.begin(), null.delays.end());
     if (result_.facts.steps.empty()) result_.baseline_replicates = null.left;
     result_.final_replicates = null.left;
@@ -151,6 +152,21 @@ class Search {
     return result_.facts.steps.back().has_taken;
   }
 
+  // Laws that gain less than others, but more beyond what chance does for them. Among all, largest D first
+  void add_those_beyond_chance(std::vector<TriedLaw>& tried, TrialModel const& beside,
+                               std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
+                               Chance const& chance, FoldKind kind) const {
+    Eigen::VectorXd const gains = gains_of(findings), relative = chance.relative(gains), p = chance.p(gains);
+    std::vector<std::size_t> further = first_of(by_value(relative), q_.numbers.refined);
+    std::erase_if(further, [&](std::size_t law) {
+      return p[static_cast<Eigen::Index>(law)] > q_.numbers.alpha ||
+             std::any_of(tried.begin(), tried.end(), [&](TriedLaw const& one) { return one.question == law; });
+    });
+    for (auto& one : tried_laws(q_, beside, questions, findings, further, kind)) tried.push_back(std::move(one));
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](TriedLaw const& a, TriedLaw const& b) { return a.facts.gain > b.facts.gain; });
+  }
+
   // what the model leaves beside the law that gains most and that nothing speaks against
   Eigen::VectorXd const& left_beside_law(std::vector<TriedLaw> const& tried) const {
     auto const first =
@@ -158,12 +174,12 @@ class Search {
     return first == tried.end() ? result_.final.fitted->residual() : first->with.fitted->residual();
   }
 
-  // of all laws, largest D first
+  // of all laws, largest T first
   std::vector<LawFacts> law_facts(std::vector<LawQuestion> const& questions, std::vector<LawFinding> const& findings,
                                   std::vector<TriedLaw> const& tried, Chance const& chance) const {
     Eigen::VectorXd const p = chance.p(gains_of(findings)), level = chance.level(q_.numbers.alpha);
     std::vector<LawFacts> laws;
-    for (std::size_t const i : by_gain(findings)) {
+    for (std::size_t const i : by_value(chance.relative(gains_of(findings)))) {
       auto const at = static_cast<Eigen::Index>(i);
       auto const own = std::find_if(tried.begin(), tried.end(), [&](auto const& one) { return one.question == i; });
       LawFacts law = own != tried.end()
@@ -254,10 +270,11 @@ class Search {
     auto const questions = law_questions(laws, scales(), shortest_way());
     auto const findings = scan_recording(questions, *without.fitted, score, kind, q_.threads);
     double const gain = gain_beside(without, law), judged = errors_of(rows(), without).judged();
-    auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings, kind);
+    auto tried = tried_laws(q_, trial_model(without, effects, score, judged), questions, findings,
+                            first_of(by_value(gains_of(findings)), q_.numbers.refined), kind);
     std::erase_if(tried, [&](TriedLaw const& one) {
-      double const by_chance = std::max(level_of(effect), level_of(one.facts.effect));
-      return one.facts.refusal != Refusal::none || one.facts.gain < gain - by_chance;
+      double const own = level_of(one.facts.effect), least = gain - std::max(level_of(effect), own);
+      return one.facts.refusal != Refusal::none || one.facts.gain < std::max(own, least);
     });
     accepted_[law].gain = gain;
     for (auto const& one : tried) accepted_[law].rivals.push_back(one.facts.effect);

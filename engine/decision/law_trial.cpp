@@ -43,25 +43,29 @@ TriedLaw tried(DecisionQuestion const& question, TrialModel const& beside, LawQu
 
 }  // namespace
 
-std::vector<std::size_t> by_gain(std::vector<LawFinding> const& findings) {
-  std::vector<std::size_t> order(findings.size());
+std::vector<std::size_t> by_value(Eigen::VectorXd const& values) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(values.size()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return findings[a].gain > findings[b].gain; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return values[static_cast<Eigen::Index>(a)] > values[static_cast<Eigen::Index>(b)];
+  });
   return order;
+}
+
+Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings) {
+  Eigen::VectorXd gains(static_cast<Eigen::Index>(findings.size()));
+  for (std::size_t i = 0; i < findings.size(); ++i) gains[static_cast<Eigen::Index>(i)] = findings[i].gain;
+  return gains;
 }
 
 std::vector<TriedLaw> tried_laws(DecisionQuestion const& question, TrialModel const& beside,
                                  std::vector<LawQuestion> const& laws, std::vector<LawFinding> const& findings,
-                                 FoldKind kind) {
-  auto const order = by_gain(findings);
-  std::vector<TriedLaw> all(std::min(question.numbers.refined, order.size()));
+                                 std::vector<std::size_t> const& which, FoldKind kind) {
+  std::vector<TriedLaw> all(which.size());
   parallel_for(all.size(), question.threads, [&](std::size_t k, int) {
-    all[k] = tried(question, beside, laws[order[k]], findings[order[k]], kind);
-    all[k].question = order[k];
+    all[k] = tried(question, beside, laws[which[k]], findings[which[k]], kind);
+    all[k].question = which[k];
   });
-  std::stable_sort(all.begin(), all.end(),
-                   [](TriedLaw const& a, TriedLaw const& b) { return a.facts.gain > b.facts.gain; });
   return all;
 }
 

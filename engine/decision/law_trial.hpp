@@ -29,12 +29,13 @@ struct TriedLaw {
   FittedModel with{};  // the model beside the law; empty where the law gains nothing
 };
 
-// places in order of falling gain
-std::vector<std::size_t> by_gain(std::vector<LawFinding> const& findings);
+// places in order of falling value
+std::vector<std::size_t> by_value(Eigen::VectorXd const& values);
+Eigen::VectorXd gains_of(std::vector<LawFinding> const& findings);
 
-// largest D first
+// in the order of `which`
 std::vector<TriedLaw> tried_laws(DecisionQuestion const& question, TrialModel const& beside,
                                  std::vector<LawQuestion> const& laws, std::vector<LawFinding> const& findings,
-                                 FoldKind kind);
+                                 std::vector<std::size_t> const& which, FoldKind kind);
 
 }  // namespace torquescope

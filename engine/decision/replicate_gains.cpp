@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -52,18 +53,17 @@ class Replicates {
     if (q_.progress) q_.progress("replicates", count(), of);
   }
 
-  // The laws in question cannot come out any more, or the first of them has come out and no replicate reached it;
-  // without any, what is left is looked at beside the fewest
+  // No law in question can come out any more, or the first of them has come out and no replicate reached it; where
+  // none can, what is left is looked at beside the fewest
   bool is_decided() const {
     if (count() < 2) return false;
-    if (task_.asked.empty()) return count() >= fewest;
     Eigen::VectorXd const p = result_.chance.p(task_.gains);
     double const all = static_cast<double>(count()) + 1.0;
-    double const first = p[static_cast<Eigen::Index>(task_.asked.front())];
-    if (first * all < 1.5 && first <= q_.numbers.alpha) return true;
-    return std::all_of(task_.asked.begin(), task_.asked.end(), [&](std::size_t law) {
-      return p[static_cast<Eigen::Index>(law)] * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
-    });
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t law = 0; law < task_.asked.size(); ++law)
+      if (task_.asked[law]) least = std::min(least, p[static_cast<Eigen::Index>(law)]);
+    if (least * all < 1.5 && least <= q_.numbers.alpha) return true;
+    return least * all - 1.0 >= static_cast<double>(q_.numbers.exceedances) && count() >= fewest;
   }
 
   std::vector<FittedStrips> drawn(std::size_t first) const {

@@ -6,7 +6,7 @@
 // Noise      of rows: what the recording leaves beyond the replicates, with its spectrum (row_noise.hpp), and beside
 //            the law in question: a law that is missing is no noise
 // Enough     no law that is asked can come out any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301), or the one
-//            that gains most has come out and no replicate reached it
+//            with the largest T has come out and no replicate reached it
 // Threads    spreads replicates over the threads of the question; same bits for any number
 // Source     engine/decision/THEORY.md, Chance
 
@@ -30,9 +30,9 @@ struct ReplicateGains {
 // of one step of the search
 struct ReplicateTask {
   FittedModel const& model;
-  Eigen::VectorXd const& noise;           // [rows] residual whose spectrum the noise has
-  Eigen::VectorXd const& gains;           // of the recording, one for each question
-  std::vector<std::size_t> const& asked;  // questions that nothing else speaks against, largest D first
+  Eigen::VectorXd const& noise;    // [rows] residual whose spectrum the noise has
+  Eigen::VectorXd const& gains;    // of the recording, one for each question
+  std::vector<bool> const& asked;  // questions that nothing is known to speak against
   FoldKind kind = FoldKind::whole;
   std::uint32_t step = 0;
 };
