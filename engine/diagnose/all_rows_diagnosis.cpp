@@ -25,10 +25,15 @@ ParameterEstimate estimate(std::string name, std::string unit, FittedNumber cons
   return {std::move(name), std::move(unit), number.value, number.value - width, number.value + width};
 }
 
+// so many that chance below alpha can be counted
+std::size_t replicates_for(DecisionNumbers const& numbers) {
+  return std::max(numbers.replicates, static_cast<std::size_t>(std::ceil(1.0 / numbers.alpha - 1e-9)));
+}
+
 class AllRowsWork {
  public:
-  AllRowsWork(DiagnosisInput const& input, StageSink const& progress)
-      : input_(input), progress_(progress), first_look_(input) {
+  AllRowsWork(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further)
+      : input_(input), progress_(progress), further_(further), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = revolute ? "N m" : "N";
@@ -72,6 +77,7 @@ class AllRowsWork {
     });
     question.most_laws = input_.selection.max_effects;
     question.numbers.alpha = input_.selection.q;
+    question.numbers.replicates = replicates_for(question.numbers);
     question.numbers.delta = input_.levels.delta;
     question.numbers.least_fall = input_.levels.least_fall;
     question.seed = input_.seed;
@@ -83,6 +89,7 @@ class AllRowsWork {
       JointDecision const decision = decide_joint(question);
       tell(decision, training.front());
       joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      if (further_) further_(decision);
       return std::nullopt;
     });
     if (why) hopeless(*why);
@@ -220,6 +227,7 @@ class AllRowsWork {
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
+  DecisionSink const& further_;
   FirstLook first_look_;
   Diagnosis diagnosis_{};
   JointDiagnosis joint_{};
@@ -235,8 +243,9 @@ Decider decider_of(std::string const& word) {
   return word == "all_rows" ? Decider::all_rows : Decider::moving_rows;
 }
 
-JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress) {
-  return AllRowsWork(input, progress).run();
+JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress,
+                                  DecisionSink const& further) {
+  return AllRowsWork(input, progress, further).run();
 }
 
 }  // namespace torquescope
