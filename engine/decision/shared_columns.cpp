@@ -48,7 +48,12 @@ double independent_variance(SharedRows const& rows) {
 }
 
 SharedInformation information_of(SharedRows const& rows, double variance) {
-  Eigen::MatrixXd const beside = rows.shared - rows.own * solve_scaled(rows.own, rows.shared);
+  Eigen::MatrixXd beside = rows.shared - rows.own * solve_scaled(rows.own, rows.shared);
+  // a column that its joint's own ones imitate leaves rounding, which is no information; nor is a column of rounding
+  double const largest = rows.shared.colwise().squaredNorm().maxCoeff();
+  for (Eigen::Index k = 0; k < beside.cols(); ++k)
+    if (beside.col(k).squaredNorm() <= std::max(told * rows.shared.col(k).squaredNorm(), told * told * largest))
+      beside.col(k).setZero();
   return {beside.transpose() * beside / variance, beside.transpose() * rows.torque / variance};
 }
 
