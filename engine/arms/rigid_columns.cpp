@@ -101,14 +101,15 @@ Eigen::Index add_rigid_arm(std::vector<Recording>& recordings, std::size_t train
   }
   Eigen::MatrixXd const trained = stacked(whole, training), own_trained = stacked(own, training);
   Eigen::MatrixXd const imitated = solve_scaled(own_trained, trained);
-  Eigen::MatrixXd const beside = trained - own_trained * imitated;
-  auto const kept = independent(beside, trained.colwise().norm());
-  double const per_length = std::sqrt(static_cast<double>(trained.rows()));
+  auto const kept = independent(trained - own_trained * imitated, trained.colwise().norm());
+  Eigen::RowVectorXd const inertia = imitated.row(0);
+  Eigen::VectorXd const sizes =
+      (trained - own_trained.col(0) * inertia).colwise().norm() / std::sqrt(static_cast<double>(trained.rows()));
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    Eigen::MatrixXd columns = (whole[i] - own[i] * imitated)(Eigen::all, kept);
+    Eigen::MatrixXd columns = (whole[i] - own[i].col(0) * inertia)(Eigen::all, kept);
     // of one N m in the rms
     for (std::size_t k = 0; k < kept.size(); ++k)
-      columns.col(static_cast<Eigen::Index>(k)) *= per_length / beside.col(kept[k]).norm();
+      columns.col(static_cast<Eigen::Index>(k)) /= sizes[kept[k]];
     GivenSignals given = *recordings[i].given;
     given.laws.push_back({rigid_arm_name, std::move(columns)});
     recordings[i].given = std::make_shared<GivenSignals const>(std::move(given));

@@ -4,8 +4,8 @@
 // Columns    y_j(q, dq, ddq) of row j of the arm, of every parameter that is neither friction nor an error of a gain: as
 //            the law `rigid_rows` of Recording::given. Parameters that do not act on the joint have no column
 // Beside     what stands for them in a decision about the joint alone: y_j times combinations of the parameters, less
-//            what the joint's own inertia, speed, sign and offset imitate of it, so that these keep their meaning; as
-//            the law `rigid_arm`
+//            the inertia that the joint has on average, which stays the joint's own; as the law `rigid_arm`. Combinations
+//            that the joint's own inertia, speed, sign, offset and those before imitate have no column
 // Torque     whole, but for what is known of a payload: that passes the gear (Recording::gear_load)
 // Shapes     n samples at the full rate, R_j columns, k combinations
 // Errors     those of the filters

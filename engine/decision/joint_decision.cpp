@@ -207,7 +207,8 @@ class Search {
       if (one.facts.refusal != Refusal::none || law->p > q_.numbers.alpha) continue;
       law->refusal = Refusal::none;
       accepted_.push_back(*law);
-      result_.final = std::move(one.with);
+      // once more, with the loads and levels that the joint has beside the law: without it they are bent
+      result_.final = fitted_with(effects_with(nullptr), *one.with.fitted);
       return true;
     }
     return false;
