@@ -8,7 +8,7 @@ namespace torquescope {
 
 RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, FittedStrips const& fitted,
                        Score const& score, FoldKind kind) {
-  constexpr double finest = 1e-3;
+  constexpr double finest = 1e-3, no_change = 1e-6;
   constexpr int most_evaluations = 80;
   Effect const& effect = *question.effect;
   auto const& ranges = question.grid.ranges;
@@ -61,7 +61,11 @@ RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, Fitt
     bool const has_range = ranges[k].upper > ranges[k].lower;
     bool const is_low = unit[k] <= 0.0 && !parameter.law_at_lower && !parameter.none_at_lower;
     bool const is_high = unit[k] >= 1.0 && !parameter.law_at_upper;
-    refined.is_at_bound = refined.is_at_bound || (has_range && (is_low || is_high));
+    if (!has_range || (!is_low && !is_high)) continue;
+    // one that changes nothing, as the rest of a spring that does not harden, is at no bound
+    auto inside = unit;
+    inside[k] = 0.5;
+    refined.is_at_bound = refined.is_at_bound || left_at(inside) > best * (1.0 + no_change);
   }
   return refined;
 }

@@ -10,6 +10,7 @@
 #include "engine/decision/row_noise.hpp"
 #include "engine/decision/smooth_correction.hpp"
 #include "engine/simulate/twin_lanes.hpp"
+#include "engine/statistics/twin_null.hpp"
 
 namespace torquescope {
 namespace {
@@ -28,6 +29,7 @@ class Replicates {
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
+    correction_ = best_correction(recording(), {recording().base(), recording().residual(), recording().guard()}).gain;
   }
 
   ReplicateGains run(std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains) && {
@@ -54,18 +56,26 @@ class Replicates {
     if (q_.progress) q_.progress("replicates", count(), of);
   }
 
+  // p is at most alpha, or cannot be any more
+  bool is_told(double p) const {
+    double const all = static_cast<double>(count()) + 1.0;
+    return p <= q_.numbers.alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
+  }
+
   // The laws in question cannot come out any more, or the first of them has come out and no replicate reached it;
-  // without any, what is left is looked at beside the fewest
+  // without a name it must be told whether the model is adequate: of every law, and of smooth functions
   bool is_decided(Eigen::VectorXd const& gains) const {
     if (count() < 2) return false;
-    if (asked_.empty()) return count() >= fewest;
     Eigen::VectorXd const p = result_.chance.p(gains);
-    double const all = static_cast<double>(count()) + 1.0;
-    double const first = p[static_cast<Eigen::Index>(asked_.front())];
-    if (first * all < 1.5 && first <= q_.numbers.alpha) return true;
-    return std::all_of(asked_.begin(), asked_.end(), [&](std::size_t law) {
-      return p[static_cast<Eigen::Index>(law)] * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
-    });
+    if (!asked_.empty()) {
+      double const all = static_cast<double>(count()) + 1.0;
+      double const first = p[static_cast<Eigen::Index>(asked_.front())];
+      if (first * all < 1.5 && first <= q_.numbers.alpha) return true;
+    } else if (count() < fewest) {
+      return false;
+    }
+    return is_told(empirical_p(correction_, result_.corrections)) &&
+           std::all_of(p.begin(), p.end(), [&](double one) { return is_told(one); });
   }
 
   std::vector<FittedStrips> drawn(std::size_t first) const {
@@ -159,6 +169,7 @@ class Replicates {
   std::vector<ReplicateMaker> makers_{};
   std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
   std::vector<OctavePowers> noise_{};
+  double correction_ = 0.0;  // D of smooth functions, of the recording
   ReplicateGains result_{};
 };
 

@@ -4,8 +4,8 @@
 // Draws      three for each replicate that is wanted. One that leaves more than the recording does, without any noise,
 //            is no replicate of it; where too few are left, those that leave least stand for them
 // Noise      of rows: what the recording leaves beyond the replicates, with the recording's spectrum (row_noise.hpp)
-// Enough     no law that is asked can come out any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301), or the one
-//            that gains most has come out and no replicate reached it
+// Enough     the law that gains most has come out and no replicate reached it; or of no law, and of no smooth function,
+//            p is open to either side of alpha any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301)
 // Threads    spreads replicates over the threads of the question; same bits for any number
 // Source     engine/decision/THEORY.md, Chance
 
