@@ -59,7 +59,9 @@ RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, Fitt
   for (std::size_t k = 0; k < unit.size(); ++k) {
     EffectParameter const& parameter = effect.parameters()[effect.n_linear() + k];
     bool const has_range = ranges[k].upper > ranges[k].lower;
-    bool const is_low = unit[k] <= 0.0 && !parameter.law_at_lower && !parameter.none_at_lower;
+    // 0 where it cannot be negative is a limit of physics (search/reached_bound.hpp)
+    bool const is_zero = parameter.lower.factor == 0.0;
+    bool const is_low = unit[k] <= 0.0 && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
     bool const is_high = unit[k] >= 1.0 && !parameter.law_at_upper;
     if (!has_range || (!is_low && !is_high)) continue;
     // one that changes nothing, as the rest of a spring that does not harden, is at no bound
