@@ -222,8 +222,30 @@ class ArmOnAllRows {
         joint.augmented_cv_relerr = named.held_out;
         joint.augmented_validation_relerr = named.validation;
       }
-      outcomes_[j].diagnosis.reason = whole_reason(outcomes_[j].diagnosis);
+      Diagnosis& diagnosis = outcomes_[j].diagnosis;
+      ModelErrors const own = own_errors(*joint.decision);
+      bool const contradicts = contradicts_others(own.judged(), named.judged());
+      if (contradicts) has_riddle(diagnosis);
+      diagnosis.reason = whole_reason(diagnosis);
+      if (contradicts) diagnosis.reason += " " + own_masses_sentence(own.judged(), named.judged());
     }
+  }
+
+  static ModelErrors own_errors(DecisionAccount const& account) {
+    return {account.final.train, account.final.held_out, account.final.validation};
+  }
+
+  // whether sharing the masses leaves more of a joint than all else does
+  bool contradicts_others(double own, double pooled) const {
+    double const beyond = pooled * pooled - own * own;
+    return own * own < most_of_it * pooled * pooled && beyond > input_.levels.delta * input_.levels.delta;
+  }
+
+  static void has_riddle(Diagnosis& diagnosis) {
+    diagnosis.finding.clear();
+    diagnosis.way_out.clear();
+    diagnosis.verdict = diagnosis.joints.front().effects.empty() ? Verdict::unexplained : Verdict::partly;
+    diagnosis.joints.front().verdict = diagnosis.verdict;
   }
 
   // stages of one joint after the other
