@@ -108,8 +108,7 @@ Eigen::Index add_rigid_arm(std::vector<Recording>& recordings, std::size_t train
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     Eigen::MatrixXd columns = (whole[i] - own[i].col(0) * inertia)(Eigen::all, kept);
     // of one N m in the rms
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      columns.col(static_cast<Eigen::Index>(k)) /= sizes[kept[k]];
+    for (std::size_t k = 0; k < kept.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) /= sizes[kept[k]];
     GivenSignals given = *recordings[i].given;
     given.laws.push_back({rigid_arm_name, std::move(columns)});
     recordings[i].given = std::make_shared<GivenSignals const>(std::move(given));

@@ -1,11 +1,11 @@
 #pragma once
 // What an arm does to each of its joints as columns that come with the joint's recording, one a base parameter.
 //
-// Columns    y_j(q, dq, ddq) of row j of the arm, of every parameter that is neither friction nor an error of a gain: as
-//            the law `rigid_rows` of Recording::given. Parameters that do not act on the joint have no column
+// Columns    y_j(q, dq, ddq) of row j of the arm, of every parameter that acts on the joint and is neither friction nor
+//            an error of a gain: as the law `rigid_rows` of Recording::given
 // Beside     what stands for them in a decision about the joint alone: y_j times combinations of the parameters, less
-//            the inertia that the joint has on average, which stays the joint's own; as the law `rigid_arm`. Combinations
-//            that the joint's own inertia, speed, sign, offset and those before imitate have no column
+//            the inertia that the joint has on average, which stays the joint's own; as the law `rigid_arm`. None that
+//            the joint's own inertia, speed, sign and offset, or those before, imitate
 // Torque     whole, but for what is known of a payload: that passes the gear (Recording::gear_load)
 // Shapes     n samples at the full rate, R_j columns, k combinations
 // Errors     those of the filters

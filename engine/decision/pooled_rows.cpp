@@ -65,9 +65,9 @@ SharedRows unseen_rows(FittedModel const& by, Strip const& strip, SharedLaw cons
   auto const samples = treated_samples(on, late_s, parameters, by.fitted->chosen().fit.sticking);
   Eigen::MatrixXd const columns = model_on_rows(on, samples);
   auto const own = without_term(by.model->regressor(), law.instead_of, columns.cols());
-  return less_mean({shared_on_rows(strip, samples.front(), law), columns(Eigen::all, own),
-                    torque_on_rows(on, samples, late_s)},
-                   on_rows(strip, samples.front().weight).col(0));
+  return less_mean(
+      {shared_on_rows(strip, samples.front(), law), columns(Eigen::all, own), torque_on_rows(on, samples, late_s)},
+      on_rows(strip, samples.front().weight).col(0));
 }
 
 SharedRows picked(SharedRows const& rows, std::vector<Eigen::Index> const& which) {
@@ -108,9 +108,7 @@ Eigen::VectorXd held_out_squares(std::span<PooledRows const* const> joints, std:
 
 }  // namespace
 
-SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law) {
-  return rows_of(fitted, fitted.base(), law);
-}
+SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law) { return rows_of(fitted, fitted.base(), law); }
 
 PooledRows pooled_rows(JointStrips const& rows, FittedModel const& by, SharedLaw const& law) {
   PooledRows pooled;

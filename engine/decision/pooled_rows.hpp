@@ -30,7 +30,7 @@ struct SharedLaw {
 SharedRows shared_rows(FittedStrips const& fitted, SharedLaw const& law);
 
 struct PooledRows {
-  SharedRows training{};                // without tangents
+  SharedRows training{};                 // without tangents
   std::vector<SharedRows> validation{};  // of each strip, less its mean
   Eigen::Index guard = 0;
   double training_energy = 0.0, validation_energy = 0.0;

@@ -2,8 +2,8 @@
 // Columns that the joints of an arm share (masses of its links) beside each joint's own: what the rows of some joints
 // tell of the shared parameters, and what is left for the own rows of one joint to tell.
 //
-// Equation   information of a joint: Y' (I - P) Y / v, its right side Y' (I - P) tau / v; Y: shared columns, P: onto its
-//            own columns, v: squares that are left a joint, over the number of independent ones
+// Equation   information of a joint: Y' (I - P) Y / v, its right side Y' (I - P) tau / v; Y: shared columns, P: onto
+//            its own columns, v: squares that are left of the joint, over the number of independent ones
 // Own share  of a direction of the parameters: the joint's own information over that of all. Directions with more than
 //            half are free at that joint; along the others the parameters are as the other joints have them
 // Dependent  directions that no joint tells have no information: they are neither free nor known, and zero

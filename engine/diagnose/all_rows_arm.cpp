@@ -99,8 +99,8 @@ class ArmOnAllRows {
       std::vector<Recording> const train(recordings_[j].begin(), recordings_[j].begin() + std::ssize(input_.train));
       DecisionQuestion const question{train, {}, regressor, input_.filter, input_.filter_section};
       JointStrips const strips = joint_strips(question);
-      FittedModel const free = fitted_model(strips, regressor, {}, nullptr,
-                                            {DelaySearch::everywhere, question.numbers.longest_delay_s});
+      FittedModel const free =
+          fitted_model(strips, regressor, {}, nullptr, {DelaySearch::everywhere, question.numbers.longest_delay_s});
       SharedRows const rows = shared_rows(*free.fitted, shared_law(j, rigid_rows_name));
       variances_[j] = independent_variance(rows);
       information_[j] = information_of(rows, variances_[j]);
@@ -127,9 +127,8 @@ class ArmOnAllRows {
     DiagnosisInput input{joint.recordings.front(), others, joint.regressor, input_.filter, input_.filter_section};
     input.selection = input_.selection;
     input.selection.candidates = input_.candidates[j];
-    std::erase_if(input.selection.candidates, [&](Effect const* law) {
-      return std::find(refuted.begin(), refuted.end(), law) != refuted.end();
-    });
+    std::erase_if(input.selection.candidates,
+                  [&](Effect const* law) { return std::find(refuted.begin(), refuted.end(), law) != refuted.end(); });
     input.selection.q = input_.selection.q / static_cast<double>(joints_);
     input.levels = input_.levels;
     input.seed = input_.seed + j;  // replicates of one joint have nothing in common with those of another
@@ -156,16 +155,16 @@ class ArmOnAllRows {
     SharedLaw const law = shared_law(j, rigid_arm_name);
     DecidedRows rows;
     bool const names_delay = made.facts.delay.is_named;
-    rows.baseline =
-        names_delay ? pooled_rows(made.rows, at_allowed_delay(made.rows, made.baseline), law)
-                    : pooled_rows(made.rows, made.baseline, law);
+    rows.baseline = names_delay ? pooled_rows(made.rows, at_allowed_delay(made.rows, made.baseline), law)
+                                : pooled_rows(made.rows, made.baseline, law);
     rows.final = pooled_rows(made.rows, made.final, law);
     JointModel const& model = *made.final.model;
     for (std::size_t i = 0; i < made.facts.accepted.size(); ++i) {
       auto effects = model.effects();
       effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(i));
-      FittedModel const without = fitted_model(made.rows, model.regressor(), std::move(effects), made.final.fitted.get(),
-                                               {DelaySearch::everywhere, DecisionNumbers{}.longest_delay_s});
+      FittedModel const without =
+          fitted_model(made.rows, model.regressor(), std::move(effects), made.final.fitted.get(),
+                       {DelaySearch::everywhere, DecisionNumbers{}.longest_delay_s});
       rows.without.push_back(pooled_rows(made.rows, without, law));
       rows.laws.push_back(made.facts.accepted[i].effect);
     }

@@ -3,8 +3,9 @@
 //
 // Joint      its own friction and inertia, and the columns of the arm's row as far as its own rows tell them; along
 //            other directions the masses are those that the other joints' rows tell (decision/shared_columns.hpp)
-// Pooled     the joints' models fitted once more together, one set of masses: errors are of that fit, and a law that does
-//            not lower what it leaves on judged rows is refuted, and its joint decided without it
+// Pooled     the joints' models fitted once more together, with one set of masses: errors are of that fit, a law that
+//            does not lower what it leaves on judged rows is refuted, and a joint whose own masses do far better is
+//            unexplained
 // Chance     alpha over the number of joints (Bonferroni)
 // Errors     as diagnose_arm()
 // Threads    as diagnose_arm()

@@ -243,8 +243,7 @@ Decider decider_of(std::string const& word) {
   return word == "all_rows" ? Decider::all_rows : Decider::moving_rows;
 }
 
-JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress,
-                                  DecisionSink const& further) {
+JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further) {
   return AllRowsWork(input, progress, further).run();
 }
 

@@ -164,8 +164,7 @@ Diagnosis diagnose_whole_arm(Experiment::Parts const& parts, int threads, TwinEx
   Diagnosis diagnosis = diagnose_arm(input, sink);
   if (decider == Decider::both) {
     Diagnosis const beside = diagnose_arm_on_all_rows(input, sink);
-    for (std::size_t j = 0; j < diagnosis.joints.size(); ++j)
-      diagnosis.joints[j].decision = beside.joints[j].decision;
+    for (std::size_t j = 0; j < diagnosis.joints.size(); ++j) diagnosis.joints[j].decision = beside.joints[j].decision;
   }
   return diagnosis;
 }

@@ -55,8 +55,7 @@ TEST(SharedColumns, DependentOnesAreNoReasonToFail) {
     joint->shared.col(4) = joint->own.col(0);            // nor this one from what is its own
   }
   one.shared.col(3) *= 1e-17;  // rounding, in place of a column that is zero
-  for (auto* joint : {&one, &other})
-    joint->torque = joint->shared * truth + joint->own * Eigen::Vector2d(0.4, -0.3);
+  for (auto* joint : {&one, &other}) joint->torque = joint->shared * truth + joint->own * Eigen::Vector2d(0.4, -0.3);
   SharedInformation all = information(one);
   all.add(information(other));
   Eigen::VectorXd const found = shared_parameters(all);
