@@ -115,9 +115,12 @@ class Search {
     auto const findings = scan_recording(questions, recording, score, kind, q_.threads);
     auto tried = tried_laws(questions, findings, score, kind);
     tell("search", questions.size(), questions.size());
-    std::vector<std::size_t> asked;
-    for (auto const& one : tried)
-      if (one.facts.refusal == Refusal::none) asked.push_back(one.question);
+    AskedLaws asked;
+    for (auto const& one : tried) {
+      if (one.facts.refusal == Refusal::none) asked.first.push_back(one.question);
+      if (one.facts.refusal == Refusal::at_bound || one.facts.refusal == Refusal::not_predicted)
+        asked.doubted.push_back(one.question);
+    }
     Eigen::VectorXd const gains = gains_of(findings);
     ReplicateGains const null = replicate_gains(q_, result_.final, questions, gains, asked, kind,
                                                 static_cast<std::uint32_t>(result_.facts.steps.size()));

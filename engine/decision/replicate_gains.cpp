@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
@@ -20,16 +21,19 @@ constexpr std::size_t fewest = 24;
 
 class Replicates {
  public:
-  Replicates(DecisionQuestion const& question, FittedModel const& model, std::vector<std::size_t> const& asked,
-             FoldKind kind, std::uint32_t step)
-      : q_(question), model_(model), asked_(asked), kind_(kind), step_(step) {
+  Replicates(DecisionQuestion const& question, FittedModel const& model, AskedLaws const& asked, FoldKind kind,
+             std::uint32_t step)
+      : q_(question), model_(model), asked_(asked.first), doubted_(asked.doubted), kind_(kind), step_(step) {
     ReplicateSetting const setting{
         q_.training, q_.filter, plausible_sticking(recording().on(), recording().chosen(), q_.numbers.sticking_odds),
         q_.seed,     step,      q_.threads};
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
-    correction_ = best_correction(recording(), {recording().base(), recording().residual(), recording().guard()}).gain;
+    SmoothCorrection const found =
+        best_correction(recording(), {recording().base(), recording().residual(), recording().guard()});
+    double const energy = recording().chosen().fit.torque.squaredNorm() / static_cast<double>(recording().on().rows());
+    if (found.rms * found.rms >= q_.numbers.delta * q_.numbers.delta * energy) correction_ = found.gain;
   }
 
   ReplicateGains run(std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains) && {
@@ -63,7 +67,7 @@ class Replicates {
   }
 
   // The laws in question cannot come out any more, or the first of them has come out and no replicate reached it;
-  // without a name it must be told whether the model is adequate: of every law, and of smooth functions
+  // without a name it must be told whether the model is adequate
   bool is_decided(Eigen::VectorXd const& gains) const {
     if (count() < 2) return false;
     Eigen::VectorXd const p = result_.chance.p(gains);
@@ -74,8 +78,9 @@ class Replicates {
     } else if (count() < fewest) {
       return false;
     }
-    return is_told(empirical_p(correction_, result_.corrections)) &&
-           std::all_of(p.begin(), p.end(), [&](double one) { return is_told(one); });
+    auto const told = [&](std::size_t law) { return is_told(p[static_cast<Eigen::Index>(law)]); };
+    return std::all_of(asked_.begin(), asked_.end(), told) && std::all_of(doubted_.begin(), doubted_.end(), told) &&
+           (!correction_ || is_told(empirical_p(*correction_, result_.corrections)));
   }
 
   std::vector<FittedStrips> drawn(std::size_t first) const {
@@ -163,13 +168,13 @@ class Replicates {
 
   DecisionQuestion const& q_;
   FittedModel const& model_;
-  std::vector<std::size_t> const& asked_;
+  std::vector<std::size_t> const &asked_, &doubted_;
   FoldKind kind_;
   std::uint32_t step_;
   std::vector<ReplicateMaker> makers_{};
   std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
   std::vector<OctavePowers> noise_{};
-  double correction_ = 0.0;  // D of smooth functions, of the recording
+  std::optional<double> correction_{};  // D of smooth functions, of the recording; none: too small to matter
   ReplicateGains result_{};
 };
 
@@ -177,7 +182,7 @@ class Replicates {
 
 ReplicateGains replicate_gains(DecisionQuestion const& question, FittedModel const& model,
                                std::vector<LawQuestion>& questions, Eigen::VectorXd const& gains,
-                               std::vector<std::size_t> const& asked, FoldKind kind, std::uint32_t step) {
+                               AskedLaws const& asked, FoldKind kind, std::uint32_t step) {
   return Replicates(question, model, asked, kind, step).run(questions, gains);
 }
 
