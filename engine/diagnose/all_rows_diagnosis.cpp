@@ -143,7 +143,9 @@ class AllRowsWork {
     tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
     tell_candidates(facts);
     bool const has_names = !facts.accepted.empty() || facts.delay.is_named;
-    bool const was_adequate = facts.steps.empty() || (is_adequate(facts.steps.front()) && facts.accepted.empty());
+    // of the motion and of a clock
+    bool const was_adequate = facts.accepted.empty() && std::all_of(facts.steps.begin(), facts.steps.end(),
+                                                                    [&](auto const& one) { return is_adequate(one); });
     bool const is_lower = facts.final.judged() <= (1.0 - input_.levels.least_fall) * facts.baseline.judged();
     if (others_load_it(training, facts)) return;
     if (!has_names || !is_lower) return nothing_named(facts, was_adequate);
