@@ -7,15 +7,12 @@
 #include "engine/statistics/scaled_solution.hpp"
 
 namespace torquescope {
-namespace {
 
 Eigen::MatrixXd own_columns(Motion const& joint) {
   Eigen::MatrixXd own(joint.q.size(), 4);
   own << joint.ddq, joint.dq, joint.dq.array().sign().matrix(), Eigen::VectorXd::Ones(joint.q.size());
   return own;
 }
-
-}  // namespace
 
 void CorrectionSums::add(Motion const& joint, Eigen::MatrixXd const& error_torques) {
   Eigen::MatrixXd const own = own_columns(joint);

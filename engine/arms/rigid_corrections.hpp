@@ -27,6 +27,9 @@ struct RigidCorrections {
   Eigen::Index size() const { return directions.cols(); }
 };
 
+// what a joint's own terms imitate: acceleration, speed, its sign, a constant; n x 4
+Eigen::MatrixXd own_columns(Motion const& joint);
+
 // products of what the errors do at a joint, summed over recordings
 class CorrectionSums {
  public:

@@ -124,8 +124,12 @@ class Search {
     Eigen::VectorXd const gains = gains_of(findings);
     auto tried = tried_laws(q_, beside, questions, findings, first_of(by_value(gains), q_.numbers.refined), kind);
     tell("search", questions.size(), questions.size());
-    std::vector<bool> asked(questions.size(), true);
-    for (auto const& one : tried) asked[one.question] = one.facts.refusal == Refusal::none;
+    AskedLaws asked{std::vector<bool>(questions.size(), true), std::vector<bool>(questions.size(), false)};
+    for (auto const& one : tried) {
+      Refusal const refusal = one.facts.refusal;
+      asked.open[one.question] = refusal == Refusal::none;
+      asked.doubted[one.question] = refusal == Refusal::at_bound || refusal == Refusal::not_predicted;
+    }
     ReplicateTask const task{result_.final, left_beside_law(tried),
                              gains,         asked,
                              kind,          static_cast<std::uint32_t>(result_.facts.steps.size())};
@@ -202,8 +206,9 @@ class Search {
       if (one.facts.refusal != Refusal::none || law->p > q_.numbers.alpha) continue;
       law->refusal = Refusal::none;
       accepted_.push_back(*law);
-      result_.final = std::move(one.with);
-      judged_ = law->judged_after;
+      // once more, with the loads and levels that the joint has beside the law: without it they are bent
+      result_.final = fitted_with(effects_now(), *one.with.fitted);
+      judged_ = errors_of(rows(), result_.final).judged();
       return true;
     }
     return false;

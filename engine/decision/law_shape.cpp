@@ -8,7 +8,7 @@ namespace torquescope {
 
 RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, FittedStrips const& fitted,
                        Score const& score, FoldKind kind) {
-  constexpr double finest = 1e-3;
+  constexpr double finest = 1e-3, no_change = 1e-6;
   constexpr int most_evaluations = 80;
   Effect const& effect = *question.effect;
   auto const& ranges = question.grid.ranges;
@@ -59,9 +59,15 @@ RefinedLaw refined_law(LawQuestion const& question, LawFinding const& from, Fitt
   for (std::size_t k = 0; k < unit.size(); ++k) {
     EffectParameter const& parameter = effect.parameters()[effect.n_linear() + k];
     bool const has_range = ranges[k].upper > ranges[k].lower;
-    bool const is_low = unit[k] <= 0.0 && !parameter.law_at_lower && !parameter.none_at_lower;
+    // 0 where it cannot be negative is a limit of physics (search/reached_bound.hpp)
+    bool const is_zero = parameter.lower.factor == 0.0;
+    bool const is_low = unit[k] <= 0.0 && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
     bool const is_high = unit[k] >= 1.0 && !parameter.law_at_upper;
-    refined.is_at_bound = refined.is_at_bound || (has_range && (is_low || is_high));
+    if (!has_range || (!is_low && !is_high)) continue;
+    // one that changes nothing, as the rest of a spring that does not harden, is at no bound
+    auto inside = unit;
+    inside[k] = 0.5;
+    refined.is_at_bound = refined.is_at_bound || left_at(inside) > best * (1.0 + no_change);
   }
   return refined;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.hpp"
@@ -11,6 +12,7 @@
 #include "engine/decision/row_noise.hpp"
 #include "engine/decision/smooth_correction.hpp"
 #include "engine/simulate/twin_lanes.hpp"
+#include "engine/statistics/twin_null.hpp"
 
 namespace torquescope {
 namespace {
@@ -27,6 +29,10 @@ class Replicates {
     for (std::size_t i = 0; i < q_.training.size(); ++i)
       makers_.emplace_back(setting, i, recording().on(), recording().chosen());
     result_.source = makers_.front().source();
+    SmoothCorrection const found =
+        best_correction(recording(), {recording().base(), recording().residual(), recording().guard()});
+    double const energy = recording().chosen().fit.torque.squaredNorm() / static_cast<double>(recording().on().rows());
+    if (found.rms * found.rms >= q_.numbers.delta * q_.numbers.delta * energy) correction_ = found.gain;
   }
 
   ReplicateGains run(std::vector<LawQuestion>& questions) && {
@@ -53,17 +59,26 @@ class Replicates {
     if (q_.progress) q_.progress("replicates", count(), of);
   }
 
-  // No law in question can come out any more, or the first of them has come out and no replicate reached it; where
-  // none can, what is left is looked at beside the fewest
+  // p is at most alpha, or cannot be any more
+  bool is_told(double p) const {
+    double const all = static_cast<double>(count()) + 1.0;
+    return p <= q_.numbers.alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
+  }
+
+  // The first of the laws in question has come out and no replicate reached it; or it is told of all of them, and
+  // whether the model is adequate
   bool is_decided() const {
     if (count() < 2) return false;
     Eigen::VectorXd const p = result_.chance.p(task_.gains);
-    double const all = static_cast<double>(count()) + 1.0;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t law = 0; law < task_.asked.size(); ++law)
-      if (task_.asked[law]) least = std::min(least, p[static_cast<Eigen::Index>(law)]);
-    if (least * all < 1.5 && least <= q_.numbers.alpha) return true;
-    return least * all - 1.0 >= static_cast<double>(q_.numbers.exceedances) && count() >= fewest;
+    bool are_told = !correction_ || is_told(empirical_p(*correction_, result_.corrections));
+    for (Eigen::Index law = 0; law < p.size(); ++law) {
+      auto const at = static_cast<std::size_t>(law);
+      if (task_.asked.open[at]) least = std::min(least, p[law]);
+      if (task_.asked.open[at] || task_.asked.doubted[at]) are_told = are_told && is_told(p[law]);
+    }
+    if (least * (static_cast<double>(count()) + 1.0) < 1.5 && least <= q_.numbers.alpha) return true;
+    return count() >= fewest && are_told;
   }
 
   std::vector<FittedStrips> drawn(std::size_t first) const {
@@ -158,6 +173,7 @@ class Replicates {
   std::vector<ReplicateMaker> makers_{};
   std::vector<FittedStrips> nearest_{};  // of those that leave more than the recording
   std::vector<OctavePowers> noise_{};
+  std::optional<double> correction_{};  // D of smooth functions, of the recording; none: too small to matter
   ReplicateGains result_{};
 };
 

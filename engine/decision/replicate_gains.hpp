@@ -5,8 +5,9 @@
 //            is no replicate of it; where too few are left, those that leave least stand for them
 // Noise      of rows: what the recording leaves beyond the replicates, with its spectrum (row_noise.hpp), and beside
 //            the law in question: a law that is missing is no noise
-// Enough     no law that is asked can come out any more (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301), or the one
-//            with the largest T has come out and no replicate reached it
+// Enough     the law that may come out first has done so and no replicate reached it; or of no open or doubted law, and
+//            of no smooth function, p may still come to either side of alpha (Besag, Clifford 1991,
+//            doi:10.1093/biomet/78.2.301)
 // Threads    spreads replicates over the threads of the question; same bits for any number
 // Source     engine/decision/THEORY.md, Chance
 
@@ -27,12 +28,18 @@ struct ReplicateGains {
   Eigen::MatrixXd left{};  // [rows of the first recording][replicates] residuals
 };
 
+// of each question
+struct AskedLaws {
+  std::vector<bool> open{};     // nothing is known to speak against it
+  std::vector<bool> doubted{};  // bounds or judged rows do: beyond chance, it makes the model inadequate
+};
+
 // of one step of the search
 struct ReplicateTask {
   FittedModel const& model;
-  Eigen::VectorXd const& noise;    // [rows] residual whose spectrum the noise has
-  Eigen::VectorXd const& gains;    // of the recording, one for each question
-  std::vector<bool> const& asked;  // questions that nothing is known to speak against
+  Eigen::VectorXd const& noise;  // [rows] residual whose spectrum the noise has
+  Eigen::VectorXd const& gains;  // of the recording, one for each question
+  AskedLaws const& asked;
   FoldKind kind = FoldKind::whole;
   std::uint32_t step = 0;
 };

@@ -9,6 +9,7 @@
 #include "engine/base/parallel.hpp"
 #include "engine/base/random_stream.hpp"
 #include "engine/decision/sticking_shape.hpp"
+#include "engine/pipeline/held_torque.hpp"
 #include "engine/pipeline/joint_bounds.hpp"
 #include "engine/twin/twin_batch.hpp"
 
@@ -19,15 +20,52 @@ constexpr double step_s = 1e-4;            // of the integrator
 constexpr double lightest = 0.03;          // of the inertia that would take all of the torque: what a loop can hold
 constexpr std::uint32_t sets_before = 64;  // of the same seed, taken by others
 
+// torque of the model's given terms, by columns that these signals tell; none: empty
+Eigen::VectorXd given_torque(JointModel const& model, Eigen::VectorXd const& parameters, GivenSignals const* signals) {
+  Eigen::VectorXd torque{};
+  Eigen::Index first = 0;
+  for (auto const* term : model.regressor().terms()) {
+    auto const width = static_cast<Eigen::Index>(term->n_linear());
+    Eigen::MatrixXd const* const columns = term->is_given() && signals ? signals->of(term->name()) : nullptr;
+    if (columns != nullptr) {
+      Eigen::VectorXd const own = *columns * parameters.segment(first, width);
+      torque = torque.size() > 0 ? (torque + own).eval() : own;
+    }
+    first += width;
+  }
+  return torque;
+}
+
+Eigen::VectorXd without_given(Eigen::VectorXd parameters, JointModel const& model) {
+  Eigen::Index first = 0;
+  for (auto const* term : model.regressor().terms()) {
+    auto const width = static_cast<Eigen::Index>(term->n_linear());
+    if (term->is_given()) parameters.segment(first, width).setZero();
+    first += width;
+  }
+  return parameters;
+}
+
+// a recording of the joint as if nothing but its own terms acted on it
+Recording less_given(Recording recording, Eigen::VectorXd const& given) {
+  if (given.size() == 0) return recording;
+  recording.torque -= torque_to_hold(given);
+  recording.gear_load = recording.gear_load.size() > 0 ? (recording.gear_load + given).eval() : given;
+  return recording;
+}
+
 // what a joint can be: not driven by its friction, and with some inertia
 Eigen::VectorXd possible(Eigen::VectorXd parameters, JointModel const& model, Strip const& strip) {
+  Eigen::VectorXd torque = strip.torque;
+  if (Eigen::VectorXd const given = given_torque(model, parameters, strip.beside.given.get()); given.size() > 0)
+    torque -= given;
   parameters = without_negatives(std::move(parameters), model);
   JointBounds const bounds = joint_bounds(model);
   auto const no_less = [&](Eigen::Index at, double least) {
     if (at != JointBounds::none) parameters[at] = std::max(parameters[at], least);
   };
   double const fastest = strip.motion.ddq.norm();
-  no_less(bounds.inertia, fastest > 0.0 ? lightest * strip.torque.norm() / fastest : 0.0);
+  no_less(bounds.inertia, fastest > 0.0 ? lightest * torque.norm() / fastest : 0.0);
   no_less(bounds.friction, 0.0);
   if (bounds.has_directions() && parameters[bounds.forward] < parameters[bounds.backward])
     parameters[bounds.forward] = parameters[bounds.backward] =
@@ -56,8 +94,12 @@ ReplicateMaker::ReplicateMaker(ReplicateSetting const& setting, std::size_t reco
       chosen_(&chosen) {
   auto const size = static_cast<Eigen::Index>(on.model().size());
   Eigen::VectorXd const parameters = possible(chosen.fit.parameters.head(size), on.model(), *strip_);
+  given_ = given_torque(on.model(), parameters, recording_->given.get());
+  Recording const alone = less_given(*recording_, given_);
+  JointModel model = on.model();
+  model.load_as_in(alone);
   try {
-    TwinJoint const joint = on.model().twin_joint(parameters);
+    TwinJoint const joint = model.twin_joint(without_given(parameters, model));
     auto const led = [&](RecordedLoop loop, ReplicateSource source) {
       loop.loop.torque_noise = loop.loop.slow_torque_noise = {};
       loop.loop.sticking = {setting.sticking.least_creep, setting.sticking.most_creep, setting.sticking.most_length};
@@ -70,10 +112,9 @@ ReplicateMaker::ReplicateMaker(ReplicateSetting const& setting, std::size_t reco
       source_ = source;
       return true;
     };
-    bool const has_reference = recording_->reference.size() == recording_->position.size();
-    if (has_reference && led(recorded_loop(*recording_, tracked(joint), setting.filter), ReplicateSource::own_loop))
-      return;
-    led(tracking_loop(*recording_, tracked(joint), setting.filter), ReplicateSource::tracking_loop);
+    bool const has_reference = alone.reference.size() == alone.position.size();
+    if (has_reference && led(recorded_loop(alone, tracked(joint), setting.filter), ReplicateSource::own_loop)) return;
+    led(tracking_loop(alone, tracked(joint), setting.filter), ReplicateSource::tracking_loop);
   } catch (Error const&) {
     // parameters that are no joint: the measured motion is left
   }
@@ -102,10 +143,10 @@ std::vector<Strip> ReplicateMaker::simulated(std::size_t first, std::size_t coun
     }
     Recording recording = recording_of(group, i % twin_lanes, recording_->rate_hz);
     recording.rows.encoder_step = recording_->rows.encoder_step;
-    recording.gear_load = recording_->gear_load;
-    recording.given = recording_->given;
+    if (given_.size() > 0) recording.torque += torque_to_hold(given_);
     all[i] = strip_of(recording, strip_->filters, strip_->resolution);
     all[i].rows = strip_->rows;
+    all[i].beside = strip_->beside;
   });
   return all;
 }

@@ -4,6 +4,8 @@
 //
 // Loop       of the recording (recorded_loop.hpp); where the joint runs away in it, a loop of our own round the
 //            measured motion; where it runs away in that as well, the measured motion itself with the model's torque
+// Given      torque of given columns (masses of an arm) is that of the measured motion in every replicate: the joint
+//            moves in its loop without it, and its gear carries it
 // Noise      none in the loop: the caller adds it to the rows (row_noise.hpp)
 // Rows       those of the recording
 // Random     addressed by (seed, recording, step of the search, replicate)
@@ -49,6 +51,7 @@ class ReplicateMaker {
 
   ReplicateSetting setting_;
   Recording const* recording_;
+  Eigen::VectorXd given_{};  // torque of given terms of the model, at the full rate; none
   Strip const* strip_;
   ModelOnStrips const* on_;
   std::size_t place_;

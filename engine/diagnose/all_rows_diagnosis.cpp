@@ -35,10 +35,15 @@ ParameterEstimate estimate(std::string name, std::string unit, FittedNumber cons
   return {std::move(name), std::move(unit), number.value, number.value - width, number.value + width};
 }
 
+// so many that chance below alpha can be counted
+std::size_t replicates_for(DecisionNumbers const& numbers) {
+  return std::max(numbers.replicates, static_cast<std::size_t>(std::ceil(1.0 / numbers.alpha - 1e-9)));
+}
+
 class AllRowsWork {
  public:
-  AllRowsWork(DiagnosisInput const& input, StageSink const& progress)
-      : input_(input), progress_(progress), first_look_(input) {
+  AllRowsWork(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further)
+      : input_(input), progress_(progress), further_(further), first_look_(input) {
     bool const revolute = input.regressor.joint() == JointKind::revolute;
     joint_.unit_position = revolute ? "rad" : "m";
     joint_.unit_torque = revolute ? "N m" : "N";
@@ -86,6 +91,7 @@ class AllRowsWork {
     });
     question.most_laws = input_.selection.max_effects;
     question.numbers = numbers_;
+    question.numbers.replicates = replicates_for(numbers_);
     question.seed = input_.seed;
     question.threads = input_.threads;
     question.progress = [&](char const* stage, std::size_t done, std::size_t total) {
@@ -95,6 +101,7 @@ class AllRowsWork {
       JointDecision const decision = decide_joint(question);
       tell(decision, question);
       joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      if (further_) further_(decision);
       return std::nullopt;
     });
     if (why) hopeless(*why);
@@ -294,6 +301,7 @@ class AllRowsWork {
 
   DiagnosisInput const& input_;
   StageSink const& progress_;
+  DecisionSink const& further_;
   FirstLook first_look_;
   DecisionNumbers numbers_{};
   Diagnosis diagnosis_{};
@@ -312,8 +320,8 @@ Decider decider_of(std::string const& word) {
   return word == "all_rows" ? Decider::all_rows : Decider::moving_rows;
 }
 
-JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress) {
-  return AllRowsWork(input, progress).run();
+JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further) {
+  return AllRowsWork(input, progress, further).run();
 }
 
 }  // namespace torquescope

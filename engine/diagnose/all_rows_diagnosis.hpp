@@ -4,9 +4,11 @@
 // Errors     as diagnose_joint()
 // Threads    as diagnose_joint()
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/decision/joint_decision.hpp"
 #include "engine/diagnose/joint_diagnosis.hpp"
 
 namespace torquescope {
@@ -16,6 +18,10 @@ enum class Decider { moving_rows, all_rows, both };
 std::vector<std::string> decider_words();  // of a job file, in that order
 Decider decider_of(std::string const& word);
 
-JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress);
+// what else is to be learnt from a decision, while it stands
+using DecisionSink = std::function<void(JointDecision const&)>;
+
+JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress,
+                                  DecisionSink const& further = {});
 
 }  // namespace torquescope

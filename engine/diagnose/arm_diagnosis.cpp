@@ -10,6 +10,7 @@
 #include "engine/arms/arm_simulator.hpp"
 #include "engine/arms/rigid_rows.hpp"
 #include "engine/arms/whole_arm_search.hpp"
+#include "engine/diagnose/arm_joint.hpp"
 #include "engine/diagnose/beside_shared_arm.hpp"
 #include "engine/diagnose/first_look.hpp"
 #include "engine/diagnose/whole_arm_account.hpp"
@@ -20,30 +21,6 @@
 
 namespace torquescope {
 namespace {
-
-// terms of a joint's own equation of motion
-Regressor own_terms(ArmModel const& model, std::size_t joint) {
-  std::vector<std::string> terms{"inertia"};
-  auto const& friction = model.friction()[joint];
-  if (friction)
-    for (Effect const* effect : friction->terms()) terms.push_back(effect->name());
-  return {terms, model.chain().joints[joint].kind, friction ? friction->velocity_deadband() : 0.0};
-}
-
-JointOutcome hopeless_joint(DiagnosisInput const& input, Hopeless const& why) {
-  Diagnosis diagnosis;
-  diagnosis.verdict = why.verdict;
-  diagnosis.finding = why.finding;
-  diagnosis.way_out = why.way_out;
-  JointDiagnosis joint;
-  bool const revolute = input.regressor.joint() == JointKind::revolute;
-  joint.joint = input.joint;
-  joint.unit_position = revolute ? "rad" : "m";
-  joint.unit_torque = revolute ? "N m" : "N";
-  diagnosis.joints.push_back(std::move(joint));
-  diagnosis.reason = reason_sentence(diagnosis);
-  return {std::move(diagnosis), {}};
-}
 
 // of each joint that has laws which the rigid arm is fitted beside: their torque in each training recording
 using LawsOfJoints = std::vector<LawTorques>;

@@ -19,6 +19,21 @@ std::string merged_sentence(std::vector<std::string> const& dropped) {
          " one number with a friction or offset that the model keeps, and left out.";
 }
 
+// the record without the torque of given terms, which may give work away
+ProcessedRecord less_given(ProcessedRecord record, Recording const& recording, Regressor const& regressor) {
+  Eigen::Index first = 0;
+  for (std::size_t term = 0; term < regressor.terms().size(); ++term) {
+    auto const width = static_cast<Eigen::Index>(regressor.terms()[term]->n_linear());
+    if (regressor.terms()[term]->is_given()) {
+      Eigen::MatrixXd columns(record.motion.q.size(), width);
+      regressor.columns_of_term(record.motion, term, columns, recording.given.get());
+      record.motion.torque -= columns * record.parameters.segment(first, width);
+    }
+    first += width;
+  }
+  return record;
+}
+
 }  // namespace
 
 std::optional<Hopeless> FirstLook::look(Recording& recording) {
@@ -33,7 +48,7 @@ std::optional<Hopeless> FirstLook::look(Recording& recording) {
     relerr_ = relative_error(record);
     static_torque_ = check_static_torque(record, pipeline, limits_of(excitation_, relerr_));
     // a joint that its neighbours load may well give work away
-    return recording.other_positions.cols() > 0 ? std::nullopt : check_sign(record);
+    return recording.other_positions.cols() > 0 ? std::nullopt : check_sign(less_given(record, recording, regressor()));
   });
   limits_ = limits_of(excitation_, relerr_);
   if (auto sentences = closed_sentences(limits_, excitation_); !sentences.empty())

@@ -137,8 +137,10 @@ Regressor Regressor::beside(Effect const& given) const {
   TORQUESCOPE_EXPECT(given.is_given());
   Regressor both = *this;
   both.terms_.push_back(&given);
+  // a rigid body's torque passes the gear, as that of a joint's own mass and weight
+  bool const loads = given.is_rigid_body();
   for (auto const& parameter : given.parameters())
-    both.columns_.push_back({parameter.name, parameter.unit_for(joint_), terms_.size()});
+    both.columns_.push_back({parameter.name, parameter.unit_for(joint_), terms_.size(), loads, false, loads, false});
   return both;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/diagnose/all_rows_arm.hpp"
 #include "engine/diagnose/all_rows_diagnosis.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/diagnosis_input.hpp"
@@ -154,10 +155,23 @@ Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinEx
   return diagnosis;
 }
 
-Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchange* exchange, StageSink const& sink) {
-  if (!parts.arm) return diagnose_one_joint(parts, threads, exchange, sink);
+Diagnosis diagnose_whole_arm(Experiment::Parts const& parts, int threads, TwinExchange* exchange,
+                             StageSink const& sink) {
   Section const filter = section_or_empty(parts.job, "filter");
-  return diagnose_arm(arm_input(parts, filter, threads, exchange), sink);
+  ArmDiagnosisInput const input = arm_input(parts, filter, threads, exchange);
+  Decider const decider = decider_of(parts.diagnose.decider);
+  if (decider == Decider::all_rows) return diagnose_arm_on_all_rows(input, sink);
+  Diagnosis diagnosis = diagnose_arm(input, sink);
+  if (decider == Decider::both) {
+    Diagnosis const beside = diagnose_arm_on_all_rows(input, sink);
+    for (std::size_t j = 0; j < diagnosis.joints.size(); ++j) diagnosis.joints[j].decision = beside.joints[j].decision;
+  }
+  return diagnosis;
+}
+
+Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchange* exchange, StageSink const& sink) {
+  if (parts.arm) return diagnose_whole_arm(parts, threads, exchange, sink);
+  return diagnose_one_joint(parts, threads, exchange, sink);
 }
 
 Diagnosis diagnose_examined(Experiment const& experiment, int threads, TwinExchange* exchange, StageSink const& sink) {

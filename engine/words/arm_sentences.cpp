@@ -103,6 +103,14 @@ std::string too_few_rows_sentence(std::vector<std::string> const& recordings) {
                      recordings.size() == 1 ? "has" : "have");
 }
 
+std::string own_masses_sentence(double own_relerr, double shared_relerr) {
+  return fmt::format(
+      "The masses that the rows of this joint tell are not those of the other joints: its relerr is {} with its own, "
+      "and "
+      "{} with those that all share.",
+      percent_text(own_relerr), percent_text(shared_relerr));
+}
+
 std::string arm_reason_sentence(Diagnosis const& diagnosis) {
   std::string text;
   for (Verdict const verdict : told) {

@@ -27,4 +27,8 @@ std::string whole_arm_sentence(NamedEffect const& effect, WholeArmFacts const& f
 // "tuesday.csv has too few rows of this joint moving one way to judge it."
 std::string too_few_rows_sentence(std::vector<std::string> const& recordings);
 
+// "The masses that the rows of this joint tell are not those of the other joints: its relerr is 1.3 % with its own, and
+// 4.6 % with those that all share."
+std::string own_masses_sentence(double own_relerr, double shared_relerr);
+
 }  // namespace torquescope

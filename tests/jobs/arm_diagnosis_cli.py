@@ -116,6 +116,21 @@ class ArmDiagnosis(arm_cli.Arm):
                 self.assertLess(second["augmented"]["validation_relerr"], 0.5 * second["baseline"]["validation_relerr"])
                 os.remove(os.path.join(self.folder, "told.h5"))
 
+    def test_on_all_samples_the_same_is_named_and_every_joint_says_what_decided(self):
+        job = JOB + 'decider = "all_rows"\n'
+        _, told = self.said_of(recording(lambda _q, dq, load: 0.15 * abs(load) * math.copysign(1.0, dq)), job)
+        first, second = told["joints"]
+        self.assertEqual([told["verdict"], first["verdict"], second["verdict"]], ["named", "none", "named"],
+                         told["reason"])
+        self.assertEqual([one["name"] for one in second["effects"]], ["load_dependent_friction"])
+        self.assertEqual(first["decision"]["accepted"], [])
+        self.assertEqual([law["name"] for law in second["decision"]["accepted"]], ["load_dependent_friction"])
+        self.assertLess(second["augmented"]["validation_relerr"], 0.5 * second["baseline"]["validation_relerr"])
+        # combinations of masses are no parameters of a joint
+        self.assertEqual([one["name"] for one in first["baseline"]["parameters"]],
+                         ["inertia", "viscous", "coulomb", "offset"])
+        os.remove(os.path.join(self.folder, "told.h5"))
+
     def test_friction_of_a_neighbour_is_named_where_it_is_felt(self):
         _, told = self.said_of(recording(other=lambda dq: 0.3 * dq + 0.4 * math.copysign(1.0, dq)))
         first, second = told["joints"]
