@@ -8,8 +8,10 @@
 #include "engine/base/contract.hpp"
 #include "engine/decision/decision_words.hpp"
 #include "engine/decision/joint_decision.hpp"
+#include "engine/decision/loop_stage.hpp"
 #include "engine/diagnose/decision_account.hpp"
 #include "engine/diagnose/first_look.hpp"
+#include "engine/diagnose/loop_names.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
 #include "engine/statistics/block_jackknife.hpp"
 #include "engine/twin/echoed_reference.hpp"
@@ -81,8 +83,10 @@ class AllRowsWork {
     };
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       JointDecision const decision = decide_joint(question);
-      tell(decision, training.front());
+      LoopFacts const loop = decide_in_loop(question, decision, input_.loop);
+      tell(decision, loop, training.front());
       joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      joint_.decision->loop = account_of(loop);
       return std::nullopt;
     });
     if (why) hopeless(*why);
@@ -127,7 +131,7 @@ class AllRowsWork {
       hopeless(noise_hides(facts.steps.front().visible));
   }
 
-  void tell(JointDecision const& decision, Recording const& training) {
+  void tell(JointDecision const& decision, LoopFacts const& loop, Recording const& training) {
     DecisionFacts const& facts = decision.facts;
     joint_.train_relerr = facts.baseline.train;
     joint_.cv_relerr = facts.baseline.held_out;
@@ -135,16 +139,16 @@ class AllRowsWork {
     joint_.twins = facts.steps.empty() ? 0 : facts.steps.front().replicates;
     tell_parameters(joint_.baseline, decision.baseline, facts.baseline_parameters);
     tell_candidates(facts);
-    bool const has_names = !facts.accepted.empty() || facts.delay.is_named;
+    StandingNames const names = standing_names(facts, loop);
     bool const was_adequate = facts.steps.empty() || (is_adequate(facts.steps.front()) && facts.accepted.empty());
-    bool const is_lower = facts.final.judged() <= (1.0 - input_.levels.least_fall) * facts.baseline.judged();
     if (others_load_it(training, facts)) return;
-    if (!has_names || !is_lower) return nothing_named(facts, was_adequate);
+    if (!names.any() || !is_lower(facts, loop, input_.levels.least_fall)) return nothing_named(facts, was_adequate);
     joint_.augmented_train_relerr = facts.final.train;
     joint_.augmented_cv_relerr = facts.final.held_out;
     joint_.augmented_validation_relerr = facts.final.validation;
     tell_effects(decision);
-    bool const is_complete = facts.steps.empty() || is_adequate(facts.steps.back());
+    keep_standing(joint_, facts, loop, names);
+    bool const is_complete = has_command_name(loop) || facts.steps.empty() || is_adequate(facts.steps.back());
     // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
     bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
     bool const all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);

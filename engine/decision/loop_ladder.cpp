@@ -1,0 +1,235 @@
+#include "engine/decision/loop_ladder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/base/parallel.hpp"
+#include "engine/decision/loop_scan.hpp"
+
+namespace torquescope {
+namespace {
+
+constexpr std::size_t starts_followed = 2;
+
+// of several fits with the same moves; both channels alike
+bool leaves_less(LoopFit const& a, LoopFit const& b, CountedChannels const& counts) {
+  if (a.fit.failed || b.fit.failed) return b.fit.failed && !a.fit.failed;
+  double difference = 0.0;
+  for (std::size_t channel = 0; channel < n_channels; ++channel)
+    if (counts[channel]) difference += std::log(a.fit.sums[channel] / b.fit.sums[channel]);
+  return difference < 0.0;
+}
+
+class Ladder {
+ public:
+  explicit Ladder(LoopQuestion const& question) : q_(question) {}
+
+  LoopFacts run() && {
+    facts_.form = q_.loop.form;
+    facts_.counts = q_.counts;
+    facts_.has_validation = !q_.validation.empty();
+    Member base{fitted(q_, base_point(q_)), {}};
+    if (base.fit.fit.failed) {
+      facts_.reason = LoopReason::diverges;
+      return std::move(facts_);
+    }
+    facts_.base_train = base.fit.train;
+    facts_.base_validation = base.fit.validation;
+    Member best = base;
+    std::vector<Member> beam{std::move(base)};
+    for (std::size_t depth = 0; depth < q_.most_moves && !beam.empty(); ++depth) {
+      beam = grown(beam, best);
+      if (!beam.empty() && score(beam.front(), best) > 0.0) best = beam.front();
+    }
+    drop_useless(best);
+    tell(best);
+    return std::move(facts_);
+  }
+
+ private:
+  struct Member {
+    LoopFit fit;
+    std::map<std::size_t, ScannedMove> taken{};  // as the step that took them saw them
+  };
+
+  // gain over another, both by the noise that the other leaves
+  double score(Member const& one, Member const& beside) const {
+    double score = 0.0;
+    for (std::size_t channel = 0; channel < n_channels; ++channel)
+      if (q_.counts[channel])
+        score += beside.fit.fit.effective[channel] * std::log(beside.fit.fit.sums[channel] / one.fit.fit.sums[channel]);
+    return score;
+  }
+
+  std::vector<std::size_t> moves_left(Member const& member) const {
+    std::vector<std::size_t> left;
+    for (std::size_t move = 0; move < q_.moves.size(); ++move)
+      if (!member.taken.contains(move)) left.push_back(move);
+    return left;
+  }
+
+  // warm from the parent, from the starts that gain most on the plane; the best of them
+  LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
+    std::size_t const followed = q_.moves[move].subject.is_of_command() ? starts_followed : 1;
+    LoopFit best;
+    for (std::size_t i = 0; i < std::min(followed, starts.size()); ++i) {
+      LoopFit fit = fitted(q_, with_move(q_, parent, move, q_.moves[move].starts[starts[i]]));
+      if (i == 0 || leaves_less(fit, best, q_.counts)) best = std::move(fit);
+    }
+    return best;
+  }
+
+  bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
+    double const share = q_.validation.empty() ? 1.0 - q_.numbers.least_fall : 1.0;
+    return after.both() < share * before.both();
+  }
+
+  MoveRefusal refusal_of(Member const& parent, LoopFit const& fit, std::size_t move) const {
+    if (fit.fit.failed || !(gain_of(parent.fit, fit, q_.counts) > 0.0)) return MoveRefusal::failed_fit;
+    if (is_at_bound(q_, fit, move)) return MoveRefusal::at_bound;
+    return predicts_better(parent.fit.judged(q_), fit.judged(q_)) ? MoveRefusal::none : MoveRefusal::not_predicted;
+  }
+
+  // what one member of the beam becomes with one more move
+  std::vector<Member> children_of(Member const& parent) {
+    LoopScan const scan = scan_moves(q_, parent.fit, moves_left(parent), step_++);
+    LoopStepFacts step{{}, scan.replicates, {}};
+    for (std::size_t const move : parent.fit.point.moves) step.model.push_back(q_.moves[move].subject);
+    std::vector<LoopFit> fits(std::min(q_.numbers.refined, scan.moves.size()));
+    auto const is_asked = [&](std::size_t i) {
+      return i < fits.size() && scan.moves[i].p <= q_.numbers.alpha && scan.moves[i].gain > 0.0;
+    };
+    parallel_for(fits.size(), q_.threads, [&](std::size_t i, int) {
+      if (is_asked(i)) fits[i] = with(parent.fit.point, scan.moves[i].move, scan.moves[i].starts);
+    });
+    std::vector<Member> children;
+    for (std::size_t i = 0; i < scan.moves.size(); ++i) {
+      ScannedMove const& move = scan.moves[i];
+      MoveFacts facts{q_.moves[move.move].subject, move.gain, move.p, move.level, parent.fit.judged(q_)};
+      if (move.p <= q_.numbers.alpha) facts.refusal = MoveRefusal::smaller;
+      if (is_asked(i)) {
+        facts.refusal = refusal_of(parent, fits[i], move.move);
+        facts.after = fits[i].judged(q_);
+        if (!fits[i].fit.failed) facts.gain = gain_of(parent.fit, fits[i], q_.counts);
+        if (facts.refusal == MoveRefusal::none) {
+          children.push_back({std::move(fits[i]), parent.taken});
+          children.back().taken.emplace(move.move, move);
+        }
+      }
+      step.moves.push_back(std::move(facts));
+    }
+    std::stable_sort(step.moves.begin(), step.moves.end(),
+                     [](MoveFacts const& a, MoveFacts const& b) { return a.gain > b.gain; });
+    facts_.steps.push_back(std::move(step));
+    return children;
+  }
+
+  // the next beam, its best first; the same moves in another order are one model
+  std::vector<Member> grown(std::vector<Member> const& beam, Member const& best) {
+    std::vector<Member> all;
+    for (auto const& parent : beam)
+      for (auto& child : children_of(parent)) {
+        auto const same = std::find_if(all.begin(), all.end(), [&](Member const& one) {
+          return std::equal(one.taken.begin(), one.taken.end(), child.taken.begin(), child.taken.end(),
+                            [](auto const& a, auto const& b) { return a.first == b.first; });
+        });
+        if (same == all.end())
+          all.push_back(std::move(child));
+        else if (leaves_less(child.fit, same->fit, q_.counts))
+          *same = std::move(child);
+      }
+    std::stable_sort(all.begin(), all.end(),
+                     [&](Member const& a, Member const& b) { return score(a, best) > score(b, best); });
+    if (all.size() > q_.numbers.beam) all.resize(q_.numbers.beam);
+    return all;
+  }
+
+  // fitted without each of its moves, in their order
+  std::vector<LoopFit> without_each(Member const& member) const {
+    auto const& moves = member.fit.point.moves;
+    std::vector<LoopFit> fits(moves.size());
+    parallel_for(moves.size(), q_.threads,
+                 [&](std::size_t i, int) { fits[i] = fitted(q_, without_move(q_, member.fit.point, moves[i])); });
+    return fits;
+  }
+
+  void drop_useless(Member& best) {
+    without_ = without_each(best);
+    while (!without_.empty()) {
+      std::size_t weakest = without_.size();
+      double least = 0.0;
+      for (std::size_t i = 0; i < without_.size(); ++i) {
+        if (without_[i].fit.failed) continue;
+        std::size_t const move = best.fit.point.moves[i];
+        double const beyond = gain_of(without_[i], best.fit, q_.counts) - best.taken.at(move).level;
+        bool const is_needed =
+            !q_.validation.empty() && predicts_better(without_[i].judged(q_), best.fit.judged(q_)) && beyond > 0.0;
+        bool const is_useless = beyond <= 0.0 || (!q_.validation.empty() && !is_needed);
+        if (!is_useless || (weakest < without_.size() && beyond >= least)) continue;
+        weakest = i;
+        least = beyond;
+      }
+      if (weakest == without_.size()) return;
+      best.taken.erase(best.fit.point.moves[weakest]);
+      best.fit = std::move(without_[weakest]);
+      without_ = without_each(best);
+    }
+  }
+
+  // what stands in the place of a move about as well: D within the chance of either
+  std::vector<LoopSubject> rivals_of(Member const& best, std::size_t place, double gain) const {
+    std::size_t const move = best.fit.point.moves[place];
+    LoopPoint const& without = without_[place].point;
+    std::vector<std::size_t> others = moves_left(best);
+    std::vector<char> is_rival(others.size(), 0);
+    parallel_for(others.size(), q_.threads, [&](std::size_t i, int) {
+      std::vector<std::size_t> starts(q_.moves[others[i]].starts.size());
+      for (std::size_t k = 0; k < starts.size(); ++k) starts[k] = (k + starts.size() / 2) % starts.size();
+      LoopFit const fit = with(without, others[i], starts);
+      if (fit.fit.failed || is_at_bound(q_, fit, others[i])) return;
+      double const by_chance = std::max(best.taken.at(move).level, level_of(others[i]));
+      double const other = gain_of(without_[place], fit, q_.counts);
+      is_rival[i] = other > 0.0 && other >= gain - by_chance ? 1 : 0;
+    });
+    std::vector<LoopSubject> rivals;
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (is_rival[i] != 0) rivals.push_back(q_.moves[others[i]].subject);
+    return rivals;
+  }
+
+  // as the last step saw it
+  double level_of(std::size_t move) const {
+    for (auto step = facts_.steps.rbegin(); step != facts_.steps.rend(); ++step)
+      for (auto const& one : step->moves)
+        if (one.subject == q_.moves[move].subject) return one.level;
+    return 0.0;
+  }
+
+  void tell(Member const& best) {
+    for (std::size_t i = 0; i < best.fit.point.moves.size(); ++i) {
+      std::size_t const move = best.fit.point.moves[i];
+      double const gain = gain_of(without_[i], best.fit, q_.counts);
+      facts_.kept.push_back({q_.moves[move].subject, gain, best.taken.at(move).p, numbers_of(q_, best.fit, move),
+                             rivals_of(best, i, gain)});
+    }
+    facts_.final_train = best.fit.train;
+    facts_.final_validation = best.fit.validation;
+    facts_.numbers = numbers_of(q_, best.fit);
+    auto const says_nothing = [](double error) { return error >= 1.0; };
+    bool const is_lost = says_nothing(best.fit.train.position) || says_nothing(best.fit.train.torque);
+    facts_.reason = is_lost ? LoopReason::predicts_nothing : LoopReason::decides;
+  }
+
+  LoopQuestion const& q_;
+  std::uint32_t step_ = 0;
+  std::vector<LoopFit> without_{};  // of the best, without each of its moves
+  LoopFacts facts_{};
+};
+
+}  // namespace
+
+LoopFacts climb_ladder(LoopQuestion const& question) { return Ladder(question).run(); }
+
+}  // namespace torquescope
