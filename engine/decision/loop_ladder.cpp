@@ -11,8 +11,6 @@
 namespace torquescope {
 namespace {
 
-constexpr std::size_t starts_followed = 2;
-
 // of several fits with the same moves; both channels alike
 bool leaves_less(LoopFit const& a, LoopFit const& b, CountedChannels const& counts) {
   if (a.fit.failed || b.fit.failed) return b.fit.failed && !a.fit.failed;
@@ -37,11 +35,12 @@ class Ladder {
     }
     facts_.base_train = base.fit.train;
     facts_.base_validation = base.fit.validation;
+    base_terms_ = base.fit.point.terms;
     Member best = base;
     std::vector<Member> beam{std::move(base)};
     for (std::size_t depth = 0; depth < q_.most_moves && !beam.empty(); ++depth) {
       beam = grown(beam, best);
-      if (!beam.empty() && score(beam.front(), best) > 0.0) best = beam.front();
+      if (!beam.empty()) best = beam.front();
     }
     drop_useless(best);
     tell(best);
@@ -70,15 +69,21 @@ class Ladder {
     return left;
   }
 
-  // warm from the parent, from the starts that gain most on the plane; the best of them
+  // warm from the parent. A law begins at the start that gains most on the plane; a number of the loop, in which the
+  // plane bends, is followed a little from each, beside the parent's joint and beside that of the base, which has not
+  // made up for what is missing in the parent; the best to its end
   LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
-    std::size_t const followed = q_.moves[move].subject.is_of_command() ? starts_followed : 1;
+    auto const begun = [&](std::size_t start) { return with_move(q_, parent, move, q_.moves[move].starts[start]); };
+    if (!q_.moves[move].subject.is_of_command() || starts.size() == 1) return fitted(q_, begun(starts.front()));
     LoopFit best;
-    for (std::size_t i = 0; i < std::min(followed, starts.size()); ++i) {
-      LoopFit fit = fitted(q_, with_move(q_, parent, move, q_.moves[move].starts[starts[i]]));
+    bool const is_base = parent.moves.empty();
+    for (std::size_t i = 0; i < (is_base ? 1 : 2) * starts.size(); ++i) {
+      LoopPoint from = begun(starts[i % starts.size()]);
+      if (i >= starts.size()) from.terms = base_terms_;
+      LoopFit fit = fitted(q_, from, LoopSearch::a_little);
       if (i == 0 || leaves_less(fit, best, q_.counts)) best = std::move(fit);
     }
-    return best;
+    return best.fit.failed ? best : fitted(q_, best.point);
   }
 
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
@@ -140,6 +145,8 @@ class Ladder {
         else if (leaves_less(child.fit, same->fit, q_.counts))
           *same = std::move(child);
       }
+    // one more move that leaves more than the best of fewer leads nowhere
+    std::erase_if(all, [&](Member const& one) { return !(score(one, best) > 0.0); });
     std::stable_sort(all.begin(), all.end(),
                      [&](Member const& a, Member const& b) { return score(a, best) > score(b, best); });
     if (all.size() > q_.numbers.beam) all.resize(q_.numbers.beam);
@@ -178,33 +185,27 @@ class Ladder {
     }
   }
 
-  // what stands in the place of a move about as well: D within the chance of either
-  std::vector<LoopSubject> rivals_of(Member const& best, std::size_t place, double gain) const {
+  // What stands in the place of a move about as well: D within the chance of either. A fit is made where one step on
+  // the plane comes half way there
+  std::vector<LoopSubject> rivals_of(Member const& best, std::size_t place, double gain) {
+    constexpr double half_way = 0.5;
     std::size_t const move = best.fit.point.moves[place];
-    LoopPoint const& without = without_[place].point;
-    std::vector<std::size_t> others = moves_left(best);
+    LoopFit const& without = without_[place];
+    if (without.fit.failed) return {};
+    std::vector<ScannedMove> const others = scan_moves(q_, without, moves_left(best), step_++).moves;
     std::vector<char> is_rival(others.size(), 0);
     parallel_for(others.size(), q_.threads, [&](std::size_t i, int) {
-      std::vector<std::size_t> starts(q_.moves[others[i]].starts.size());
-      for (std::size_t k = 0; k < starts.size(); ++k) starts[k] = (k + starts.size() / 2) % starts.size();
-      LoopFit const fit = with(without, others[i], starts);
-      if (fit.fit.failed || is_at_bound(q_, fit, others[i])) return;
-      double const by_chance = std::max(best.taken.at(move).level, level_of(others[i]));
-      double const other = gain_of(without_[place], fit, q_.counts);
-      is_rival[i] = other > 0.0 && other >= gain - by_chance ? 1 : 0;
+      double const least = gain - std::max(best.taken.at(move).level, others[i].level);
+      if (q_.moves[others[i].move].subject == q_.moves[move].subject || others[i].gain < half_way * least) return;
+      LoopFit const fit = with(without.point, others[i].move, others[i].starts);
+      if (fit.fit.failed || is_at_bound(q_, fit, others[i].move)) return;
+      double const own = gain_of(without, fit, q_.counts);
+      is_rival[i] = own > 0.0 && own >= least ? 1 : 0;
     });
     std::vector<LoopSubject> rivals;
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (is_rival[i] != 0) rivals.push_back(q_.moves[others[i]].subject);
+      if (is_rival[i] != 0) rivals.push_back(q_.moves[others[i].move].subject);
     return rivals;
-  }
-
-  // as the last step saw it
-  double level_of(std::size_t move) const {
-    for (auto step = facts_.steps.rbegin(); step != facts_.steps.rend(); ++step)
-      for (auto const& one : step->moves)
-        if (one.subject == q_.moves[move].subject) return one.level;
-    return 0.0;
   }
 
   void tell(Member const& best) {
@@ -224,6 +225,7 @@ class Ladder {
 
   LoopQuestion const& q_;
   std::uint32_t step_ = 0;
+  Eigen::VectorXd base_terms_{};
   std::vector<LoopFit> without_{};  // of the best, without each of its moves
   LoopFacts facts_{};
 };

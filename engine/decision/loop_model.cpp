@@ -105,14 +105,19 @@ LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std
   return less;
 }
 
-LoopFit fitted(LoopQuestion const& question, LoopPoint const& from) {
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search) {
   LmOptions options;
-  options.starts = 1;
+  constexpr std::int64_t a_little = 8;
+  if (search == LoopSearch::a_little) {
+    options.iterations = a_little;
+    options.passes = 1;
+  }
   RolloutModel const begun = from.model(question);
   LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, 1)};
   if (result.fit.failed) return result;
   result.point = moved_to(from, result.fit.parameters);
   result.point.starts = result.fit.starts;
+  if (search == LoopSearch::a_little) return result;
   RolloutModel const model = result.point.model(question);
   result.train = errors_of(model, question.training, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});

@@ -64,8 +64,10 @@ struct LoopFit {
   }
 };
 
-// one thread; a fit that is `failed` holds the point that it began at
-LoopFit fitted(LoopQuestion const& question, LoopPoint const& from);
+// how far a fit is followed
+enum class LoopSearch { a_little, to_its_end };
+// one thread; a fit that is `failed` holds the point that it began at. Errors only of those followed to their end
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search = LoopSearch::to_its_end);
 
 // D of the larger model; n_eff of its residual
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts);

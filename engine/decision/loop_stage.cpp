@@ -35,7 +35,7 @@ LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& 
     facts.loop_error = tracks.loop_error;
     if (tracks.training.empty() || facts.form == LoopForm::none) return facts;
     facts.reason = LoopReason::no_controller;
-    bool const is_found = facts.form == LoopForm::identified;
+    bool const is_found = form_of(loop) == LoopForm::identified;
     if (is_found && !(facts.loop_error <= question.numbers.largest_loop_error)) return facts;
     JointScales const& scales = scan.baseline.model->reference().scales;
     Eigen::VectorXd const start = possible_start(question.regressor, scan.facts.baseline_parameters, scales);
