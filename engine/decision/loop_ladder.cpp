@@ -28,6 +28,7 @@ class Ladder {
     facts_.form = q_.loop.form;
     facts_.counts = q_.counts;
     facts_.has_validation = !q_.validation.empty();
+    tell_progress(0);
     Member base{fitted(q_, base_point(q_)), {}};
     if (base.fit.fit.failed) {
       facts_.reason = LoopReason::diverges;
@@ -41,9 +42,11 @@ class Ladder {
     for (std::size_t depth = 0; depth < q_.most_moves && !beam.empty(); ++depth) {
       beam = grown(beam, best);
       if (!beam.empty()) best = beam.front();
+      tell_progress(depth + 1);
     }
     drop_useless(best);
     tell(best);
+    tell_progress(q_.most_moves + 1);
     return std::move(facts_);
   }
 
@@ -62,6 +65,10 @@ class Ladder {
     return score;
   }
 
+  void tell_progress(std::size_t done) const {
+    if (q_.progress) q_.progress("simulations", done, q_.most_moves + 1);
+  }
+
   std::vector<std::size_t> moves_left(Member const& member) const {
     std::vector<std::size_t> left;
     for (std::size_t move = 0; move < q_.moves.size(); ++move)
@@ -69,19 +76,40 @@ class Ladder {
     return left;
   }
 
-  // warm from the parent. A law begins at the start that gains most on the plane; a number of the loop, in which the
-  // plane bends, is followed a little from each, beside the parent's joint and beside that of the base, which has not
-  // made up for what is missing in the parent; the best to its end
+  // A number of the loop bends the plane: it begins at each of its starts beside the parent, and cold, beside the base
+  // and every start of the parent's own numbers of the loop, because the parent has made up for what is missing in it
+  std::vector<LoopPoint> begun(LoopPoint const& parent, std::size_t move) const {
+    std::vector<LoopPoint> warm, cold{parent};
+    for (auto const& start : q_.moves[move].starts) warm.push_back(with_move(q_, parent, move, start));
+    if (parent.moves.empty()) return warm;
+    cold.front().terms = base_terms_;
+    for (std::size_t const one : parent.moves) {
+      LoopMove const& own = q_.moves[one];
+      if (!own.subject.is_of_command()) continue;
+      std::vector<LoopPoint> more;
+      for (auto const& point : cold)
+        for (auto const& start : own.starts) {
+          more.push_back(point);
+          more.back().loop.values[own.subject.key] = start.front();
+        }
+      cold = std::move(more);
+    }
+    for (auto const& point : cold)
+      for (auto const& start : q_.moves[move].starts) warm.push_back(with_move(q_, point, move, start));
+    return warm;
+  }
+
+  // warm from the parent: a law at the start that gains most on the plane; of a number of the loop each start is
+  // followed a little, and the best to its end
   LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
-    auto const begun = [&](std::size_t start) { return with_move(q_, parent, move, q_.moves[move].starts[start]); };
-    if (!q_.moves[move].subject.is_of_command() || starts.size() == 1) return fitted(q_, begun(starts.front()));
+    if (!q_.moves[move].subject.is_of_command())
+      return fitted(q_, with_move(q_, parent, move, q_.moves[move].starts[starts.front()]));
     LoopFit best;
-    bool const is_base = parent.moves.empty();
-    for (std::size_t i = 0; i < (is_base ? 1 : 2) * starts.size(); ++i) {
-      LoopPoint from = begun(starts[i % starts.size()]);
-      if (i >= starts.size()) from.terms = base_terms_;
-      LoopFit fit = fitted(q_, from, LoopSearch::a_little);
-      if (i == 0 || leaves_less(fit, best, q_.counts)) best = std::move(fit);
+    bool is_first = true;
+    for (auto const& point : begun(parent, move)) {
+      LoopFit fit = fitted(q_, point, LoopSearch::a_little);
+      if (is_first || leaves_less(fit, best, q_.counts)) best = std::move(fit);
+      is_first = false;
     }
     return best.fit.failed ? best : fitted(q_, best.point);
   }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,6 +37,7 @@ struct LoopQuestion {
   DecisionNumbers numbers{};
   std::uint64_t seed = 0;
   int threads = 1;
+  std::function<void(char const* stage, std::size_t done, std::size_t total)> progress{};
 };
 
 // everything that a RolloutModel is made of, and so a point of its parameters

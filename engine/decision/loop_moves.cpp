@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/effects/carry_over.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -80,14 +82,14 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   std::vector<double> const unknown;
   std::size_t const most = moves.size() + numbers.refined;
   auto const add = [&](Effect const* law, std::vector<double> const& shape) {
-    if (moves.size() < most && can_be_simulated(*law, regressor) && !has(law))
+    if (moves.size() < most && !is_clock_bound(*law) && can_be_simulated(*law, regressor) && !has(law))
       moves.push_back(move_of(*law, shape, scales));
   };
   for (auto const& law : scan.accepted)
     for (auto const* rival : law.rivals) add(rival, unknown);
   for (auto const& step : scan.steps)
     for (auto const& law : step.laws)
-      if (!step.is_of_clock && law.p <= numbers.alpha) add(law.effect, law.shape);
+      if (law.p <= numbers.alpha) add(law.effect, law.shape);
   return moves;
 }
 

@@ -42,6 +42,7 @@ LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& 
     LoopQuestion asked{question.regressor, start,           scales, tracks.setting,     tracks.training,
                        tracks.validation,  tracks.counts,   {},     question.most_laws, question.numbers,
                        question.seed,      question.threads};
+    asked.progress = question.progress;
     asked.moves = command_moves(tracks.setting, tracks.training);
     for (auto& law : law_moves(scan.facts, question.regressor, scales, question.numbers))
       asked.moves.push_back(std::move(law));
