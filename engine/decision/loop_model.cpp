@@ -155,7 +155,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
     bool low = value <= one.lower, high = value >= one.upper;
     if (!subject.is_of_command()) {
       auto const& parameter = subject.effect->parameters()[k];
-      low = low && !parameter.law_at_lower;
+      low = low && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
     if (low || high) return true;

@@ -17,7 +17,9 @@ bool can_be_simulated(Effect const& law, Regressor const& regressor) {
          std::find(terms.begin(), terms.end(), &law) == terms.end();
 }
 
-LoopMove move_of(Effect const& law, std::vector<double> const& shape, JointScales const& scales) {
+}  // namespace
+
+LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScales const& scales) {
   LoopMove move{{&law}, {}};
   auto const ranges = law.shape_bounds(scales);
   std::vector<double> begin;
@@ -25,7 +27,8 @@ LoopMove move_of(Effect const& law, std::vector<double> const& shape, JointScale
     ParameterRange const& range = ranges[k];
     bool const is_logarithmic = range.spacing == Spacing::logarithmic && range.lower > 0.0;
     double const middle = is_logarithmic ? std::sqrt(range.lower * range.upper) : 0.5 * (range.lower + range.upper);
-    begin.push_back(k < shape.size() ? shape[k] : middle);
+    bool const can_be_none = law.parameters()[law.n_linear() + k].none_at_lower;
+    begin.push_back(k < shape.size() ? shape[k] : can_be_none ? range.lower : middle);
   }
   move.starts.push_back(begin);
   if (begin.empty() || law.is_wave()) return move;
@@ -37,6 +40,8 @@ LoopMove move_of(Effect const& law, std::vector<double> const& shape, JointScale
   }
   return move;
 }
+
+namespace {
 
 // share of the positive numbers below it
 double quantile(std::vector<double> values, double share) {
@@ -78,18 +83,22 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   };
   for (auto const& law : scan.accepted)
     if (can_be_simulated(*law.effect, regressor) && (law.effect->is_wave() || !has(law.effect)))
-      moves.push_back(move_of(*law.effect, law.shape, scales));
+      moves.push_back(law_move(*law.effect, law.shape, scales));
   std::vector<double> const unknown;
   std::size_t const most = moves.size() + numbers.refined;
   auto const add = [&](Effect const* law, std::vector<double> const& shape) {
     if (moves.size() < most && !is_clock_bound(*law) && can_be_simulated(*law, regressor) && !has(law))
-      moves.push_back(move_of(*law, shape, scales));
+      moves.push_back(law_move(*law, shape, scales));
   };
   for (auto const& law : scan.accepted)
     for (auto const* rival : law.rivals) add(rival, unknown);
   for (auto const& step : scan.steps)
     for (auto const& law : step.laws)
       if (law.p <= numbers.alpha) add(law.effect, law.shape);
+  // the rows may be blind to what a simulation shows: where few are left, those that gain most
+  if (!scan.steps.empty())
+    for (auto const& law : scan.steps.front().laws)
+      if (law.gain > 0.0) add(law.effect, law.shape);
   return moves;
 }
 

@@ -15,6 +15,8 @@
 
 namespace torquescope {
 
+// shape: where it begins; what it leaves open begins at none of it, or in the middle
+LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScales const& scales);
 std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
                                 DecisionNumbers const& numbers);
 
