@@ -77,12 +77,14 @@ class Ladder {
   }
 
   // A number of the loop bends the plane: it begins at each of its starts beside the parent, and cold, beside the base
-  // and every start of the parent's own numbers of the loop, because the parent has made up for what is missing in it
+  // and every start of the parent's own number of the loop, because the parent has made up for what is missing in it.
+  // Pairs only: of three the first two have been searched so
   std::vector<LoopPoint> begun(LoopPoint const& parent, std::size_t move) const {
     std::vector<LoopPoint> warm, cold{parent};
     for (auto const& start : q_.moves[move].starts) warm.push_back(with_move(q_, parent, move, start));
     if (parent.moves.empty()) return warm;
     cold.front().terms = base_terms_;
+    if (parent.moves.size() > 1) return warm;
     for (std::size_t const one : parent.moves) {
       LoopMove const& own = q_.moves[one];
       if (!own.subject.is_of_command()) continue;
