@@ -101,19 +101,21 @@ class Ladder {
     return warm;
   }
 
-  // warm from the parent: a law at the start that gains most on the plane; of a number of the loop each start is
-  // followed a little, and the best to its end
+  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each. All are followed
+  // a little, and the best to its end, unless it has come to a bound by then
   LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
-    if (!q_.moves[move].subject.is_of_command())
-      return fitted(q_, with_move(q_, parent, move, q_.moves[move].starts[starts.front()]));
+    LoopMove const& own = q_.moves[move];
+    std::vector<LoopPoint> const points = own.subject.is_of_command()
+                                              ? begun(parent, move)
+                                              : std::vector{with_move(q_, parent, move, own.starts[starts.front()])};
     LoopFit best;
     bool is_first = true;
-    for (auto const& point : begun(parent, move)) {
+    for (auto const& point : points) {
       LoopFit fit = fitted(q_, point, LoopSearch::a_little);
       if (is_first || leaves_less(fit, best, q_.counts)) best = std::move(fit);
       is_first = false;
     }
-    return best.fit.failed ? best : fitted(q_, best.point);
+    return best.fit.failed || is_at_bound(q_, best, move) ? best : fitted(q_, best.point);
   }
 
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
