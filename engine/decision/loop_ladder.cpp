@@ -101,8 +101,8 @@ class Ladder {
     return warm;
   }
 
-  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each. All are followed
-  // a little, and the best to its end, unless it has come to a bound by then
+  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each. All are
+  // followed a little, and the best to its end, unless it has come to a bound by then
   LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
     LoopMove const& own = q_.moves[move];
     std::vector<LoopPoint> const points = own.subject.is_of_command()

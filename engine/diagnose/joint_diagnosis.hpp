@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/decision/loop_stage.hpp"
 #include "engine/inference/decision_levels.hpp"
-#include "engine/rollout/loop_options.hpp"
 #include "engine/search/selection.hpp"
 #include "engine/twin/twin_exchange.hpp"
 #include "engine/verdict/diagnosis.hpp"
