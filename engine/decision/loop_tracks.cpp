@@ -47,8 +47,10 @@ double error_of(LoopSetting const& setting, RolloutTrack const& track) {
 }
 
 // the plainest controller that answers no worse than a law of many numbers
-std::optional<LoopSetting> plain_form(LoopOptions loop, LoopLaw const& law, double most_error,
+std::optional<LoopSetting> plain_form(LoopOptions loop, LoopLaw const& law, double law_error, double computed,
                                       std::vector<RolloutTrack> const& tracks) {
+  constexpr double about_as_well = 1.1;
+  double const most_error = std::max(computed, about_as_well * law_error);
   if (std::isnan(loop.torque_limit) && std::isfinite(law.most)) loop.torque_limit = law.most;
   for (char const* form : {"p", "pd"}) {
     loop.controller = form;
@@ -56,10 +58,10 @@ std::optional<LoopSetting> plain_form(LoopOptions loop, LoopLaw const& law, doub
     setting = with_gains(std::move(setting), missing_gains(loop), loop.speed_samples == 0, tracks);
     double worst = 0.0;
     for (auto const& track : tracks) worst = std::max(worst, error_of(setting, track));
-    if (worst <= most_error) {
-      setting.free.clear();
-      return setting;
-    }
+    if (worst > most_error) continue;
+    // gains that the torque was computed with are known
+    if (worst <= computed) setting.free.clear();
+    return setting;
   }
   return std::nullopt;
 }
@@ -75,8 +77,7 @@ void find_controller(LoopTracks& made, LoopOptions const& loop, DecisionNumbers 
   double const added_gain = made.setting.values[LoopKey::added_command_gain];
   auto const first = law_in(made.training.front(), added_gain);
   double const of_law = first ? loop_error(*first, made.training.front()) : nothing;
-  if (auto const plain =
-          plain_form(loop, first.value_or(LoopLaw{}), std::max(numbers.computed_torque, of_law), made.training)) {
+  if (auto const plain = plain_form(loop, first.value_or(LoopLaw{}), of_law, numbers.computed_torque, made.training)) {
     made.setting = *plain;
     made.loop_error = error_of(*plain, made.training.front());
     return;

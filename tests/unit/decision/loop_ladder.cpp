@@ -151,6 +151,15 @@ TEST(LoopLadder, TakesNothingOfACompleteJoint) {
   }
 }
 
+TEST(LoopLadder, PoolsRecordingsOfOneJoint) {
+  Planted const planted{.speed_limit = 1.8};
+  Asked asked = asked_of(planted);
+  asked.training.push_back(recorded(planted, 0.7));
+  LoopFacts const facts = asked.climbed(2);
+  ASSERT_EQ(names_of(facts), Names{"goal_speed_limit"});
+  EXPECT_NEAR(facts.kept[0].numbers[0].value, 1.8, 0.05);
+}
+
 TEST(LoopLadder, SaysThatAModelPredictsNothing) {
   Asked asked = asked_of({});
   asked.training.front().position *= -1.0;
