@@ -119,8 +119,7 @@ class Ladder {
   }
 
   bool predicts_better(LoopErrors const& before, LoopErrors const& after) const {
-    double const share = q_.validation.empty() ? 1.0 - q_.numbers.least_fall : 1.0;
-    return after.both() < share * before.both();
+    return after.both() < (1.0 - q_.numbers.least_fall) * before.both();
   }
 
   MoveRefusal refusal_of(Member const& parent, LoopFit const& fit, std::size_t move) const {

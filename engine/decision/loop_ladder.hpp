@@ -3,8 +3,8 @@
 //
 // Base       the model fitted by simulation, with the free numbers of its loop
 // Step       every move beside each model of a beam: chance by replicates (loop_scan.hpp), then the fit itself, warm
-//            from its parent. A move is taken where p <= alpha, its fit gains, no number is at a bound, and recordings
-//            that no fit has seen are simulated better; without them, where training falls by least_fall
+//            from its parent. A move is taken where p <= alpha, its fit gains, no number is at a bound, and the error of
+//            recordings that no fit has seen falls by least_fall; of training where there are none
 // Then       what became useless goes again; rivals that stand in the place of a move about as well are its class
 // Tracks     any number; all share the parameters and the loop
 // Threads    spreads moves and fits over the question's threads; same bits for any number
