@@ -63,6 +63,19 @@ TEST(LoopVerdict, ADelayOfTheCommandIsTheScansDelay) {
   }
 }
 
+TEST(LoopVerdict, ADelayInTheClassOfALimitIsNoNameOfItsOwn) {
+  auto const names = standing_names(scanned({}, true),
+                                    simulated({kept(key(LoopKey::goal_speed_limit), {key(LoopKey::command_delay_s)})}));
+  EXPECT_FALSE(names.has_delay);
+  ASSERT_EQ(names.added.size(), 1u);
+}
+
+TEST(LoopVerdict, ALawOfAClockFallsOnlyToTheCommandSide) {
+  auto const scan = scanned({"friction_drift"}, false);
+  EXPECT_TRUE(standing_names(scan, simulated({})).laws[0]);
+  EXPECT_FALSE(standing_names(scan, simulated({kept(key(LoopKey::goal_speed_limit))})).laws[0]);
+}
+
 TEST(LoopVerdict, ADelayThatNoSimulationBearsOutIsNone) {
   EXPECT_FALSE(standing_names(scanned({}, true), simulated({})).has_delay);
   // an identified law was never asked
