@@ -30,6 +30,12 @@ struct DecisionNumbers {
   std::size_t refined = 5;
   // energy by which columns may change from the recording to a replicate and still be computed once for all
   double same_columns = 0.01;
+  // models that a ladder follows at once: greedy steps fail on ties (engine/decision/THEORY.md, In the loop)
+  std::size_t beam = 3;
+  // of the torque's rms: a gain of the position's error that leaves less is what the torque was computed with
+  double computed_torque = 0.01;
+  // of the torque's rms: an identified controller that leaves more is no law of this loop; no source
+  double largest_loop_error = 0.1;
 };
 
 }  // namespace torquescope

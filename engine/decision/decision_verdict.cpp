@@ -37,10 +37,6 @@ bool was_adequate(DecisionFacts const& facts, DecisionNumbers const& numbers) {
   return true;
 }
 
-bool is_lower(DecisionFacts const& facts, DecisionNumbers const& numbers) {
-  return facts.final.judged() <= (1.0 - numbers.least_fall) * facts.baseline.judged();
-}
-
 Verdict verdict_from(DecisionOutcome const& of) {
   if (of.neighbours_predict) return Verdict::unexplained;
   if (!of.has_names || !of.is_lower) {

@@ -22,9 +22,6 @@ bool bears_laws_of_clock(StepFacts const& step, DecisionNumbers const& numbers);
 bool is_complete(std::span<StepFacts const> steps, DecisionNumbers const& numbers);
 // of the model without laws
 bool was_adequate(DecisionFacts const& facts, DecisionNumbers const& numbers);
-// names lower the error on judged rows by least_fall
-bool is_lower(DecisionFacts const& facts, DecisionNumbers const& numbers);
-
 struct DecisionOutcome {
   bool neighbours_predict = false;  // other joints' motion says more than any name
   bool was_adequate = false, has_names = false, is_lower = false, is_complete = false;

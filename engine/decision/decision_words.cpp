@@ -50,4 +50,38 @@ std::string word(ReplicateSource source) {
   return {};
 }
 
+std::string word(LoopReason reason) {
+  switch (reason) {
+    case LoopReason::decides:
+      return "decides";
+    case LoopReason::no_reference:
+      return "no_reference";
+    case LoopReason::no_controller:
+      return "no_controller";
+    case LoopReason::diverges:
+      return "diverges";
+    case LoopReason::predicts_nothing:
+      return "predicts_nothing";
+  }
+  return {};
+}
+
+std::string word(MoveRefusal refusal) {
+  switch (refusal) {
+    case MoveRefusal::none:
+      return "none";
+    case MoveRefusal::chance:
+      return "chance";
+    case MoveRefusal::smaller:
+      return "smaller";
+    case MoveRefusal::failed_fit:
+      return "failed_fit";
+    case MoveRefusal::at_bound:
+      return "at_bound";
+    case MoveRefusal::not_predicted:
+      return "not_predicted";
+  }
+  return {};
+}
+
 }  // namespace torquescope

@@ -6,11 +6,14 @@
 #include <string>
 
 #include "engine/decision/decision_facts.hpp"
+#include "engine/decision/loop_facts.hpp"
 
 namespace torquescope {
 
 std::string word(Refusal refusal);
 std::string clause(Refusal refusal);       // why a law is no name         // "too_small"
 std::string word(ReplicateSource source);  // "own_loop"
+std::string word(LoopReason reason);       // "no_reference"
+std::string word(MoveRefusal refusal);     // "not_predicted"
 
 }  // namespace torquescope

@@ -11,8 +11,10 @@
 #include "engine/decision/decision_verdict.hpp"
 #include "engine/decision/decision_words.hpp"
 #include "engine/decision/joint_decision.hpp"
+#include "engine/decision/loop_stage.hpp"
 #include "engine/diagnose/decision_account.hpp"
 #include "engine/diagnose/first_look.hpp"
+#include "engine/diagnose/loop_names.hpp"
 #include "engine/diagnose/neighbour_load.hpp"
 #include "engine/diagnose/strip_account.hpp"
 #include "engine/locate/largest_parts.hpp"
@@ -99,8 +101,10 @@ class AllRowsWork {
     };
     why = verdict_of(Verdict::insufficient, [&]() -> std::optional<Hopeless> {
       JointDecision const decision = decide_joint(question);
-      tell(decision, question);
+      LoopFacts const loop = further_ ? LoopFacts{} : decide_in_loop(question, decision, input_.loop);
+      tell(decision, loop, question);
       joint_.decision = account_of(decision.facts, word(diagnosis_.verdict));
+      joint_.decision->loop = account_of(loop);
       if (further_) further_(decision);
       return std::nullopt;
     });
@@ -134,7 +138,7 @@ class AllRowsWork {
     if (diagnosis_.verdict == Verdict::insufficient) hopeless(noise_hides(facts.steps.front().visible));
   }
 
-  void tell(JointDecision const& decision, DecisionQuestion const& question) {
+  void tell(JointDecision const& decision, LoopFacts const& loop, DecisionQuestion const& question) {
     DecisionFacts const& facts = decision.facts;
     torque_rms_ = facts.torque_rms;
     joint_.train_relerr = facts.baseline.train;
@@ -146,15 +150,17 @@ class AllRowsWork {
     DecisionOutcome of;
     of.neighbours_predict = others_load_it(question.training.front(), facts);
     of.was_adequate = was_adequate(facts, numbers_);
-    of.has_names = !facts.accepted.empty() || facts.delay.is_named;
-    of.is_lower = is_lower(facts, numbers_);
-    of.is_complete = facts.is_complete;
+    StandingNames const names = standing_names(facts, loop);
+    of.has_names = names.any();
+    of.is_lower = is_lower(facts, loop, numbers_.least_fall);
+    of.is_complete = facts.is_complete || has_command_name(loop);
     of.can_tell_little = !facts.steps.empty() && facts.steps.front().visible > numbers_.tolerance;
     if (!of.neighbours_predict && of.has_names && of.is_lower) {
       joint_.augmented_train_relerr = facts.final.train;
       joint_.augmented_cv_relerr = facts.final.held_out;
       joint_.augmented_validation_relerr = facts.final.validation;
       tell_effects(decision);
+      keep_standing(joint_, facts, loop, names);
       // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
       bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
       of.all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);

@@ -26,7 +26,47 @@ DecisionAccount::Errors errors_account(ModelErrors const& errors) {
   return {errors.train, errors.held_out, errors.validation};
 }
 
+DecisionAccount::Number number_account(LoopNumber const& number) {
+  return {number.name, number.unit, number.value, number.lower, number.upper};
+}
+
+DecisionAccount::Rung rung_account(LoopStepFacts const& step) {
+  DecisionAccount::Rung rung;
+  for (auto const& subject : step.model) rung.model.push_back(name_of(subject));
+  rung.replicates = step.replicates;
+  for (auto const& move : step.moves)
+    rung.moves.push_back({name_of(move.subject), word(move.refusal), move.gain, move.level, move.p, move.before.both(),
+                          move.after.both()});
+  return rung;
+}
+
+DecisionAccount::Move kept_account(KeptMove const& move) {
+  DecisionAccount::Move account{name_of(move.subject), word(MoveRefusal::none), move.gain, 0.0, move.p};
+  for (auto const& number : move.numbers) account.numbers.push_back(number_account(number));
+  for (auto const& rival : move.rivals) account.rivals.push_back(name_of(rival));
+  return account;
+}
+
+DecisionAccount::Simulated simulated_account(LoopErrors const& errors) { return {errors.position, errors.torque}; }
+
 }  // namespace
+
+DecisionAccount::Loop account_of(LoopFacts const& facts) {
+  DecisionAccount::Loop account;
+  account.reason = word(facts.reason);
+  account.controller = word(facts.form);
+  account.counts_torque = facts.counts[1];
+  account.decides = facts.decides();
+  account.loop_error = facts.loop_error;
+  account.base_train = simulated_account(facts.base_train);
+  account.base_validation = simulated_account(facts.base_validation);
+  account.final_train = simulated_account(facts.final_train);
+  account.final_validation = simulated_account(facts.final_validation);
+  for (auto const& step : facts.steps) account.steps.push_back(rung_account(step));
+  for (auto const& move : facts.kept) account.kept.push_back(kept_account(move));
+  for (auto const& number : facts.numbers) account.numbers.push_back(number_account(number));
+  return account;
+}
 
 DecisionAccount account_of(DecisionFacts const& facts, std::string verdict) {
   DecisionAccount account;

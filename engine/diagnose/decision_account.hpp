@@ -4,10 +4,12 @@
 // Threads    pure function
 
 #include "engine/decision/decision_facts.hpp"
+#include "engine/decision/loop_facts.hpp"
 #include "engine/verdict/decision_account.hpp"
 
 namespace torquescope {
 
 DecisionAccount account_of(DecisionFacts const& facts, std::string verdict);
+DecisionAccount::Loop account_of(LoopFacts const& facts);
 
 }  // namespace torquescope

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/decision/loop_stage.hpp"
 #include "engine/inference/decision_levels.hpp"
 #include "engine/search/selection.hpp"
 #include "engine/twin/twin_exchange.hpp"
@@ -34,6 +35,7 @@ struct DiagnosisInput {
   std::string joint_name{};          // for texts: of the position column
   std::size_t further_training = 0;  // so many of the others
   double parameter_share = 0.0;      // SimulatorGap of an arm, whose recordings are without their simulator by now
+  LoopOptions loop{};                // [loop] of the job: what led the recordings
   TwinExchange* exchange = nullptr;  // other processes of the same diagnosis; none
 };
 

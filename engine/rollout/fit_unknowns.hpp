@@ -41,9 +41,11 @@ class FitUnknowns {
 
   // one per track, [samples][points]
   std::vector<TrackResiduals> residuals_at(std::vector<FitPoint> const& points, int threads) const;
+  // the same as trials, for who changes something about them
+  std::vector<RolloutTrial> trials_on(std::size_t track, std::vector<FitPoint> const& points) const;
+  RolloutTask const& task() const { return task_; }
 
  private:
-  std::vector<RolloutTrial> trials_on(std::size_t track, std::vector<FitPoint> const& points) const;
   double scale_of_start(Eigen::Index start) const;
   double offset_step(std::size_t track, FitPoint const& point) const;
 

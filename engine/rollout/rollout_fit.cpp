@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/random_stream.hpp"
@@ -21,8 +22,7 @@ class Search {
   Search(FitUnknowns const& unknowns, LmOptions const& options, int threads, StopAsked const& stop)
       : unknowns_(unknowns), options_(options), threads_(threads), stop_(stop), width_(options.width) {}
 
-  RolloutFit run(Eigen::VectorXd const& start) {
-    FitPoint at = unknowns_.begin_at(start);
+  RolloutFit run(FitPoint at) {
     RolloutFit fit;
     double best = infinite;
     for (std::int64_t pass = 0; pass < options_.passes; ++pass) {
@@ -38,6 +38,7 @@ class Search {
     }
     fit.failed = !std::isfinite(best);
     fit.parameters = at.parameters;
+    fit.starts = at.starts;
     fit.sums = sums_at({at}).front();
     fit.effective = effective_;
     fit.objective = fit.failed ? infinite : best;
@@ -196,7 +197,7 @@ RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> con
   if (starts.size() > 1) tried.iterations = std::min(options.iterations, a_little);
   if (starts.size() > 1) tried.passes = 1;
   auto const follow = [&](Eigen::VectorXd const& start, LmOptions const& how) {
-    RolloutFit fit = Search(unknowns, how, threads, stop).run(start);
+    RolloutFit fit = Search(unknowns, how, threads, stop).run(unknowns.begin_at(start));
     evaluations += fit.evaluations;
     iterations += fit.iterations;
     // fits of different weights compare by what they leave, both channels alike
@@ -208,6 +209,14 @@ RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> con
   best.evaluations = evaluations;
   best.iterations = iterations;
   return best;
+}
+
+RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
+                             Eigen::VectorXd const& starts, LmOptions const& options, int threads) {
+  FitUnknowns const unknowns(model, tracks, counts, options.fits_starts);
+  FitPoint at = unknowns.begin_at(model.start());
+  if (starts.size() == at.starts.size()) at.starts = starts;
+  return Search(unknowns, options, threads, {}).run(std::move(at));
 }
 
 }  // namespace torquescope

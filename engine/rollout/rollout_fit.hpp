@@ -39,6 +39,7 @@ struct LmOptions {
 
 struct RolloutFit {
   Eigen::VectorXd parameters, errors;  // errors: standard, NaN where not known
+  Eigen::VectorXd starts;              // nuisances of the tracks (fit_unknowns.hpp)
   Eigen::VectorXd lower, upper;        // 95 %
   ChannelNumbers sums{}, effective{};  // of squares, over all samples; independent ones
   double objective = 0.0;
@@ -52,5 +53,9 @@ using StopAsked = std::function<bool()>;
 
 RolloutFit fit_rollouts(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
                         LmOptions const& options, int threads, std::uint64_t seed, StopAsked const& stop = {});
+
+// from one point, the nuisances with it: [0] where they begin at zero
+RolloutFit fit_rollouts_from(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels counts,
+                             Eigen::VectorXd const& starts, LmOptions const& options, int threads);
 
 }  // namespace torquescope

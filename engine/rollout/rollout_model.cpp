@@ -81,8 +81,8 @@ RolloutModel::RolloutModel(Regressor const& regressor, Eigen::VectorXd const& st
     for (std::size_t k = 0; k < term->n_linear(); ++k, ++at) {
       parameters_.push_back(linear_parameter(term->parameters()[k], joint_, scales, start[at]));
       // the sign of a term's parameter is the recording's affair, but for what could not be a joint
-      bool const is_inertia = term->name() == "inertia";
-      parameters_.back().lower = is_inertia ? 0.0 : -parameters_.back().upper;
+      bool const has_end = term->name() == "inertia" || term->name() == "coulomb";
+      parameters_.back().lower = has_end ? 0.0 : -parameters_.back().upper;
     }
   }
   add_effect_parameters(effects, scales);

@@ -55,6 +55,8 @@ JobInput::JobInput(Experiment::Parts const& parts, int threads, TwinExchange* ex
       input_{parts.train.recordings.front(), others_, *parts.regressor, parts.filter, filter_} {
   ask(parts, threads, exchange, input_);
   input_.selection.candidates = parts.effects;
+  std::vector<Problem> already_told;  // where the job was read
+  input_.loop = read_options<LoopOptions>(parts.job, already_told);
   input_.joint_name = position_column(parts.job);
   input_.further_training = parts.train.recordings.size() - 1;
 }

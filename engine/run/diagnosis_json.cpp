@@ -135,6 +135,51 @@ Json decision_step_json(DecisionAccount::Step const& step) {
           {"laws", list(step.laws, decision_law_json)}};
 }
 
+Json loop_number_json(DecisionAccount::Number const& of) {
+  return {{"name", of.name},
+          {"unit", of.unit},
+          {"value", number(of.value)},
+          {"ci95", Json::array({number(of.lower), number(of.upper)})}};
+}
+
+Json loop_move_json(DecisionAccount::Move const& move) {
+  return {{"name", move.name},
+          {"refusal", move.refusal},
+          {"gain", number(move.gain)},
+          {"gain_by_chance", number(move.level)},
+          {"p", number(move.p)},
+          {"error_before", number(move.before)},
+          {"error_after", number(move.after)}};
+}
+
+Json kept_move_json(DecisionAccount::Move const& move) {
+  return {{"name", move.name},
+          {"gain", number(move.gain)},
+          {"p", number(move.p)},
+          {"numbers", list(move.numbers, loop_number_json)},
+          {"rivals", move.rivals}};
+}
+
+Json rung_json(DecisionAccount::Rung const& rung) {
+  return {{"model", rung.model}, {"replicates", rung.replicates}, {"moves", list(rung.moves, loop_move_json)}};
+}
+
+Json loop_json(DecisionAccount::Loop const& loop) {
+  auto const errors = [](DecisionAccount::Simulated const& of) -> Json {
+    return {{"position", number(of.position)}, {"torque", number(of.torque)}};
+  };
+  return {{"reason", loop.reason},
+          {"decides", loop.decides},
+          {"controller", loop.controller},
+          {"counts_torque", loop.counts_torque},
+          {"loop_error", number(loop.loop_error)},
+          {"base", {{"train", errors(loop.base_train)}, {"validation", errors(loop.base_validation)}}},
+          {"final", {{"train", errors(loop.final_train)}, {"validation", errors(loop.final_validation)}}},
+          {"kept", list(loop.kept, kept_move_json)},
+          {"numbers", list(loop.numbers, loop_number_json)},
+          {"steps", list(loop.steps, rung_json)}};
+}
+
 Json decision_json(DecisionAccount const& account) {
   auto const errors = [](DecisionAccount::Errors const& of) -> Json {
     return {{"train", number(of.train)}, {"held_out", number(of.held_out)}, {"validation", number(of.validation)}};
@@ -152,6 +197,7 @@ Json decision_json(DecisionAccount const& account) {
             {"p", number(account.delay.p)},
             {"size", number(account.delay.size)},
             {"is_named", account.delay.is_named}}},
+          {"loop", loop_json(account.loop)},
           {"steps", list(account.steps, decision_step_json)}};
 }
 

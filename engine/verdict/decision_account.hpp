@@ -41,12 +41,43 @@ struct DecisionAccount {
     bool is_named = false;
   };
 
+  // by simulation in the loop
+  struct Number {
+    std::string name{}, unit{};
+    double value = none, lower = none, upper = none;
+  };
+  struct Move {
+    std::string name{}, refusal{};
+    double gain = 0.0, level = 0.0, p = 1.0;
+    double before = none, after = none;  // geometric mean of the channels' errors, unseen where there is such a record
+    std::vector<Number> numbers{};       // of a move that was kept
+    std::vector<std::string> rivals{};
+  };
+  struct Rung {
+    std::vector<std::string> model{};
+    std::size_t replicates = 0;
+    std::vector<Move> moves{};
+  };
+  struct Simulated {
+    double position = none, torque = none;
+  };
+  struct Loop {
+    std::string reason{}, controller{};
+    bool counts_torque = false, decides = false;
+    double loop_error = none;
+    Simulated base_train{}, base_validation{}, final_train{}, final_validation{};
+    std::vector<Rung> steps{};
+    std::vector<Move> kept{};
+    std::vector<Number> numbers{};
+  };
+
   std::string verdict{};
   double quiet_share = 0.0, set_aside_share = 0.0;
   Errors baseline{}, final{};
   std::vector<Step> steps{};
   std::vector<Law> accepted{};
   Delay delay{};
+  Loop loop{};
 };
 
 }  // namespace torquescope

@@ -176,4 +176,14 @@ TEST(RolloutFit, StopsWhenAskedWithTheBestSoFar) {
   EXPECT_EQ(fit.iterations, 1);
 }
 
+TEST(RolloutFit, DryFrictionComesBackFromZero) {
+  PlainJoint const joint = dry_joint();
+  std::vector<RolloutTrack> const tracks{recorded(joint, controller_of("pd"), moved(samples), {})};
+  Eigen::VectorXd start = truth_of(joint);
+  start[2] = 0.0;
+  RolloutModel const model(Regressor(joint_terms(), JointKind::revolute), start, scales_of(tracks[0], joint), {},
+                           free_loop(controller_of("pd"), tracks));
+  EXPECT_NEAR(fit_rollouts(model, tracks, both, {}, 1, 1).parameters[2], joint.forward, 0.03 * joint.forward);
+}
+
 }  // namespace rollout_fit_test

@@ -1,0 +1,20 @@
+#pragma once
+// The ladder: laws and command-side numbers of a joint decided by simulating its recordings in the loop.
+//
+// Base       the model fitted by simulation, with the free numbers of its loop
+// Step       every move beside each model of a beam: chance by replicates (loop_scan.hpp), then the fit, warm from its
+//            parent. A move is taken where p <= alpha, its fit gains, no number is at a bound, and the error of
+//            recordings that no fit has seen falls by least_fall; of training where there are none
+// Then       what became useless goes again; rivals that stand in the place of a move about as well are its class
+// Tracks     any number; all share the parameters and the loop
+// Threads    spreads moves and fits over the question's threads; same bits for any number
+// Source     engine/decision/THEORY.md, In the loop
+
+#include "engine/decision/loop_model.hpp"
+
+namespace torquescope {
+
+// the facts' loop_error is the caller's
+LoopFacts climb_ladder(LoopQuestion const& question);
+
+}  // namespace torquescope

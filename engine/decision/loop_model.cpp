@@ -1,0 +1,166 @@
+#include "engine/decision/loop_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/rollout/fit_slope.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+
+bool is_law(LoopQuestion const& question, std::size_t move) { return !question.moves[move].subject.is_of_command(); }
+
+// first parameter of a move in the model's vector: terms, then laws in their order, then the loop's free numbers
+struct Place {
+  std::size_t first = 0, count = 0;
+};
+
+Place place_of(LoopQuestion const& question, LoopPoint const& point, std::size_t move) {
+  std::size_t at = static_cast<std::size_t>(point.terms.size());
+  std::optional<Place> found;
+  for (std::size_t const one : point.moves) {
+    if (!is_law(question, one)) continue;
+    std::size_t const count = question.moves[one].subject.effect->parameters().size();
+    if (one == move) found = {at, count};
+    at += count;
+  }
+  if (found) return *found;
+  auto const& free = point.loop.free;
+  auto const key = std::find(free.begin(), free.end(), question.moves[move].subject.key);
+  return {at + static_cast<std::size_t>(key - free.begin()), 1};
+}
+
+// the same model with the numbers of a vector
+LoopPoint moved_to(LoopPoint point, Eigen::VectorXd const& parameters) {
+  Index at = point.terms.size();
+  point.terms = parameters.head(at);
+  for (auto& law : point.effects)
+    for (auto const& parameter : law.effect->parameters()) law.values[parameter.name] = parameters[at++];
+  for (LoopKey const key : point.loop.free) point.loop.values[key] = parameters[at++];
+  return point;
+}
+
+LoopErrors errors_of(RolloutModel const& model, std::vector<RolloutTrack> const& tracks, CountedChannels const& counts,
+                     Eigen::VectorXd const& starts) {
+  if (tracks.empty()) return {};
+  FitUnknowns const unknowns(model, tracks, counts, starts.size() > 0);
+  FitPoint at = unknowns.begin_at(model.start());
+  if (starts.size() == at.starts.size()) at.starts = starts;
+  ChannelNumbers const left = sums_of(unknowns.residuals_at({at}, 1), 0);
+  double position = 0.0, torque = 0.0;
+  for (auto const& track : tracks) {
+    Eigen::VectorXd const untold = untold_positions(track);
+    for (auto const& segment : track.segments) {
+      position += untold.segment(segment.first, segment.samples).squaredNorm();
+      torque += track.torque.segment(segment.first, segment.samples).squaredNorm();
+    }
+  }
+  LoopErrors errors;
+  if (counts[0] && position > 0.0) errors.position = std::sqrt(left[0] / position);
+  if (counts[1] && torque > 0.0) errors.torque = std::sqrt(left[1] / torque);
+  return errors;
+}
+
+}  // namespace
+
+RolloutModel LoopPoint::model(LoopQuestion const& question) const {
+  return {question.regressor, terms, question.scales, effects, loop};
+}
+
+LoopPoint base_point(LoopQuestion const& question) { return {question.start, {}, question.loop, {}, {}}; }
+
+LoopPoint with_move(LoopQuestion const& question, LoopPoint point, std::size_t move, std::vector<double> const& start) {
+  LoopSubject const& subject = question.moves[move].subject;
+  point.moves.push_back(move);
+  if (subject.is_of_command()) {
+    point.loop.free.push_back(subject.key);
+    point.loop.values[subject.key] = start.front();
+    return point;
+  }
+  ModelEffect law{subject.effect, {}};
+  auto const& parameters = subject.effect->parameters();
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    law.values[parameters[k].name] = k < subject.effect->n_linear() ? 0.0 : start[k - subject.effect->n_linear()];
+  point.effects.push_back(std::move(law));
+  return point;
+}
+
+LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std::size_t move) {
+  LoopPoint less = point;
+  LoopSubject const& subject = question.moves[move].subject;
+  if (subject.is_of_command()) {
+    std::erase(less.loop.free, subject.key);
+    less.loop.values[subject.key] = question.loop.values[subject.key];
+  } else {
+    std::ptrdiff_t law = 0;
+    for (std::size_t const one : point.moves) {
+      if (one == move) break;
+      law += is_law(question, one) ? 1 : 0;
+    }
+    less.effects.erase(less.effects.begin() + law);
+  }
+  std::erase(less.moves, move);
+  return less;
+}
+
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search) {
+  LmOptions options;
+  constexpr std::int64_t a_little = 8;
+  if (search == LoopSearch::a_little) {
+    options.iterations = a_little;
+    options.passes = 1;
+  }
+  RolloutModel const begun = from.model(question);
+  LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, 1)};
+  if (result.fit.failed) return result;
+  result.point = moved_to(from, result.fit.parameters);
+  result.point.starts = result.fit.starts;
+  if (search == LoopSearch::a_little) return result;
+  RolloutModel const model = result.point.model(question);
+  result.train = errors_of(model, question.training, question.counts, result.point.starts);
+  result.validation = errors_of(model, question.validation, question.counts, {});
+  return result;
+}
+
+double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts) {
+  if (larger.fit.failed || smaller.fit.failed) return 0.0;
+  double gain = 0.0;
+  for (std::size_t channel = 0; channel < n_channels; ++channel)
+    if (counts[channel] && larger.fit.sums[channel] > 0.0)
+      gain += larger.fit.effective[channel] * std::log(smaller.fit.sums[channel] / larger.fit.sums[channel]);
+  return gain;
+}
+
+std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& fit, std::optional<std::size_t> move) {
+  RolloutModel const model = fit.point.model(question);
+  Place const place = move ? place_of(question, fit.point, *move) : Place{0, model.size()};
+  std::vector<LoopNumber> numbers;
+  for (std::size_t k = place.first; k < place.first + place.count; ++k) {
+    auto const& one = model.parameters()[k];
+    auto const at = static_cast<Index>(k);
+    numbers.push_back({one.name, one.unit, fit.fit.parameters[at], fit.fit.lower[at], fit.fit.upper[at]});
+  }
+  return numbers;
+}
+
+bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t move) {
+  RolloutModel const model = fit.point.model(question);
+  Place const place = place_of(question, fit.point, move);
+  LoopSubject const& subject = question.moves[move].subject;
+  for (std::size_t k = 0; k < place.count; ++k) {
+    auto const& one = model.parameters()[place.first + k];
+    double const value = fit.fit.parameters[static_cast<Index>(place.first + k)];
+    bool low = value <= one.lower, high = value >= one.upper;
+    if (!subject.is_of_command()) {
+      auto const& parameter = subject.effect->parameters()[k];
+      low = low && !parameter.law_at_lower && !parameter.none_at_lower;
+      high = high && !parameter.law_at_upper;
+    }
+    if (low || high) return true;
+  }
+  return false;
+}
+
+}  // namespace torquescope

@@ -1,0 +1,26 @@
+#pragma once
+// What a ladder asks for: laws that the scan of rows found worth a look, and what may act between command and motor.
+//
+// Laws       those taken by the scan, with their rivals, then those beyond chance; no law of a given column, of an
+//            instant that the scan did not take, or of the torque's time
+// Starts     of a law: the scan's shape and a coarse grid of its first; of a limit: shares of how fast the joint moves;
+//            of a delay: samples and more. Replicates get the same
+// Units      SI of the joint's kind
+// Threads    pure functions
+
+#include <vector>
+
+#include "engine/decision/decision_facts.hpp"
+#include "engine/decision/loop_model.hpp"
+
+namespace torquescope {
+
+// shape: where it begins; what it leaves open begins at none of it, or in the middle
+LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScales const& scales);
+std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
+                                DecisionNumbers const& numbers);
+
+// numbers of the command side that the loop has neither given nor free; none of an identified law
+std::vector<LoopMove> command_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training);
+
+}  // namespace torquescope

@@ -1,0 +1,91 @@
+#include "engine/diagnose/loop_names.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace torquescope {
+namespace {
+
+struct CommandWords {
+  LoopKey key;
+  char const* title;
+  char const* equation;
+};
+
+constexpr CommandWords command_words[] = {
+    {LoopKey::goal_speed_limit, "Speed limit of the command", "|d goal / dt| <= goal_speed_limit"},
+    {LoopKey::goal_acceleration_limit, "Acceleration limit of the command",
+     "|d2 goal / dt2| <= goal_acceleration_limit"},
+    {LoopKey::command_delay_s, "Delay of the command", "goal(t) = reference(t - command_delay)"}};
+
+NamedEffect named_command(LoopSubject const& subject) {
+  NamedEffect named;
+  named.name = subject.key == LoopKey::command_delay_s ? "delay" : name_of(subject);
+  named.family = "command";
+  for (auto const& words : command_words)
+    if (words.key == subject.key) {
+      named.title = words.title;
+      named.equation = words.equation;
+    }
+  named.acts_on = word(ActsOn::joint);
+  return named;
+}
+
+NamedEffect named_move(KeptMove const& move) {
+  NamedEffect named = move.subject.is_of_command() ? named_command(move.subject) : named_after(*move.subject.effect);
+  named.p = named.q = move.p;
+  named.z = std::sqrt(std::max(move.gain, 0.0));
+  for (auto const& rival : move.rivals) named.equivalent.push_back(name_of(rival));
+  for (auto const& one : move.numbers)
+    named.parameters.push_back({one.name, one.unit, one.value, one.lower, one.upper});
+  return named;
+}
+
+}  // namespace
+
+void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts const& loop,
+                   StandingNames const& names) {
+  if (!names.by_loop) return;
+  std::vector<NamedEffect> standing;
+  bool const had_all = std::find(names.laws.begin(), names.laws.end(), false) == names.laws.end();
+  bool const keeps_delay = scan.delay.is_named && names.has_delay && !names.command_delay;
+  for (auto& effect : joint.effects) {
+    bool is_law = false, stands = false;
+    // waves of one law are one name
+    for (std::size_t i = 0; i < scan.accepted.size(); ++i) {
+      if (scan.accepted[i].effect->name() != effect.name) continue;
+      is_law = true;
+      stands = stands || names.laws[i];
+    }
+    if (is_law ? stands : keeps_delay) standing.push_back(std::move(effect));
+  }
+  for (auto const& move : loop.kept) {
+    bool const is_delay = move.subject.is_of_command() && move.subject.key == LoopKey::command_delay_s;
+    bool const is_added = std::any_of(names.added.begin(), names.added.end(),
+                                      [&](KeptMove const& one) { return one.subject == move.subject; });
+    if (is_delay || is_added) standing.push_back(named_move(move));
+  }
+  joint.effects = std::move(standing);
+  if (had_all && names.added.empty()) return;
+  // the scan's model is none of these names': numbers and errors are the simulations' own, or none
+  joint.augmented.clear();
+  for (auto const& one : loop.numbers)
+    if (!one.name.starts_with("loop_"))
+      joint.augmented.push_back({one.name, one.unit, one.value, one.lower, one.upper});
+  joint.augmented_train_relerr = joint.augmented_cv_relerr = joint.augmented_validation_relerr = unknown;
+}
+
+bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall) {
+  if (!loop.decides() || loop.kept.empty()) return scan.final.judged() <= (1.0 - least_fall) * scan.baseline.judged();
+  LoopErrors const& before = loop.has_validation ? loop.base_validation : loop.base_train;
+  LoopErrors const& after = loop.has_validation ? loop.final_validation : loop.final_train;
+  return after.both() <= (1.0 - least_fall) * before.both();
+}
+
+bool has_command_name(LoopFacts const& loop) {
+  return loop.decides() && std::any_of(loop.kept.begin(), loop.kept.end(),
+                                       [](KeptMove const& move) { return move.subject.is_of_command(); });
+}
+
+}  // namespace torquescope

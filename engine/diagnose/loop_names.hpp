@@ -1,0 +1,23 @@
+#pragma once
+// Names of a diagnosis after the simulations in the loop: laws that did not stand go, what acts between command and
+// motor comes.
+//
+// Numbers    where simulations decided, those of their final model
+// Threads    pure functions
+// Source     engine/decision/THEORY.md, In the loop
+
+#include "engine/decision/loop_verdict.hpp"
+#include "engine/verdict/diagnosis.hpp"
+
+namespace torquescope {
+
+// joint: with a name for each law that the scan took, then its delay if that is named
+void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts const& loop, StandingNames const& names);
+
+// whether what is left falls by least_fall: of the simulations where they decided, else of the judged rows
+bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall);
+
+// whether a name acts between command and motor, which rows of torque and motion do not show
+bool has_command_name(LoopFacts const& loop);
+
+}  // namespace torquescope
