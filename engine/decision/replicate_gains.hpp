@@ -5,7 +5,8 @@
 //            is no replicate of it; where too few are left, those that leave least stand for them
 // Noise      of rows: what the recording leaves beyond the replicates, with the recording's spectrum (row_noise.hpp)
 // Enough     the law that gains most has come out and no replicate reached it; or of no asked or doubted law, and of no
-//            smooth function, p may still come to either side of alpha (Besag, Clifford 1991, doi:10.1093/biomet/78.2.301)
+//            smooth function, p may still come to either side of alpha (Besag, Clifford 1991,
+//            doi:10.1093/biomet/78.2.301)
 // Threads    spreads replicates over the threads of the question; same bits for any number
 // Source     engine/decision/THEORY.md, Chance
 
