@@ -12,7 +12,7 @@ bool speaks_against(LawFacts const& law, DecisionNumbers const& numbers) {
 }  // namespace
 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
-  if (step.correction.p <= numbers.alpha && step.correction.size >= numbers.delta) return false;
+  if (step.correction.p <= numbers.correction_alpha() && step.correction.size >= numbers.delta) return false;
   return std::none_of(step.laws.begin(), step.laws.end(),
                       [&](LawFacts const& law) { return speaks_against(law, numbers); });
 }

@@ -155,10 +155,15 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
     bool low = value <= one.lower, high = value >= one.upper;
     if (!subject.is_of_command()) {
       auto const& parameter = subject.effect->parameters()[k];
-      low = low && !parameter.law_at_lower && !parameter.none_at_lower;
+      // 0 of a shape that cannot be negative is a limit of physics (law_shape.cpp)
+      bool const is_zero = parameter.is_shape && parameter.lower.factor == 0.0;
+      low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    if (low || high) return true;
+    // a number of which the samples tell nothing, as the rest of a spring that does not harden, is at no bound
+    auto const at = static_cast<Index>(place.first + k);
+    bool const is_told = fit.fit.upper[at] - fit.fit.lower[at] < one.upper - one.lower;
+    if ((low || high) && is_told) return true;
   }
   return false;
 }

@@ -60,9 +60,9 @@ class Replicates {
   }
 
   // p is at most alpha, or cannot be any more
-  bool is_told(double p) const {
+  bool is_told(double p, double alpha) const {
     double const all = static_cast<double>(count()) + 1.0;
-    return p <= q_.numbers.alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
+    return p <= alpha || p * all - 1.0 >= static_cast<double>(q_.numbers.exceedances);
   }
 
   // The first of the laws in question has come out and no replicate reached it; or it is told of all of them, and
@@ -71,11 +71,12 @@ class Replicates {
     if (count() < 2) return false;
     Eigen::VectorXd const p = result_.chance.p(task_.gains);
     double least = std::numeric_limits<double>::infinity();
-    bool are_told = !correction_ || is_told(empirical_p(*correction_, result_.corrections));
+    bool are_told =
+        !correction_ || is_told(empirical_p(*correction_, result_.corrections), q_.numbers.correction_alpha());
     for (Eigen::Index law = 0; law < p.size(); ++law) {
       auto const at = static_cast<std::size_t>(law);
       if (task_.asked.open[at]) least = std::min(least, p[law]);
-      if (task_.asked.open[at] || task_.asked.doubted[at]) are_told = are_told && is_told(p[law]);
+      if (task_.asked.open[at] || task_.asked.doubted[at]) are_told = are_told && is_told(p[law], q_.numbers.alpha);
     }
     if (least * (static_cast<double>(count()) + 1.0) < 1.5 && least <= q_.numbers.alpha) return true;
     return count() >= fewest && are_told;

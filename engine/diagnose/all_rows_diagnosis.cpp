@@ -39,7 +39,7 @@ ParameterEstimate estimate(std::string name, std::string unit, FittedNumber cons
 
 // so many that chance below alpha can be counted
 std::size_t replicates_for(DecisionNumbers const& numbers) {
-  return std::max(numbers.replicates, static_cast<std::size_t>(std::ceil(1.0 / numbers.alpha - 1e-9)));
+  return std::max(numbers.replicates, static_cast<std::size_t>(std::ceil(1.0 / numbers.correction_alpha() - 1e-9)));
 }
 
 class AllRowsWork {
@@ -55,6 +55,7 @@ class AllRowsWork {
     diagnosis_.seed = input.seed;
     diagnosis_.q = input.selection.q;
     numbers_.alpha = input.selection.q;
+    numbers_.replicates = std::min(numbers_.replicates, input.twins);
     numbers_.delta = input.levels.delta;
     numbers_.least_fall = input.levels.least_fall;
     numbers_.tolerance = input.levels.tolerance;
@@ -149,11 +150,12 @@ class AllRowsWork {
     tell_candidates(facts);
     DecisionOutcome of;
     of.neighbours_predict = others_load_it(question.training.front(), facts);
-    of.was_adequate = was_adequate(facts, numbers_);
+    // what the rows show beyond chance is there, whether or not its name stands in the loop
+    of.was_adequate = was_adequate(facts, numbers_) && !facts.delay.is_named;
     StandingNames const names = standing_names(facts, loop);
     of.has_names = names.any();
     of.is_lower = is_lower(facts, loop, numbers_.least_fall);
-    of.is_complete = facts.is_complete || has_command_name(loop);
+    of.is_complete = facts.is_complete;
     of.can_tell_little = !facts.steps.empty() && facts.steps.front().visible > numbers_.tolerance;
     if (!of.neighbours_predict && of.has_names && of.is_lower) {
       joint_.augmented_train_relerr = facts.final.train;
@@ -161,6 +163,7 @@ class AllRowsWork {
       joint_.augmented_validation_relerr = facts.final.validation;
       tell_effects(decision);
       keep_standing(joint_, facts, loop, names);
+      if (names.command_delay && !facts.delay.is_named) tell_errors_with_delay(facts);
       // a torque that comes before its motion is a command that the drive follows late: no fault of a channel
       bool const follows_command = facts.delay.is_named && facts.delay.late_s < 0.0;
       of.all_on_channel = !follows_command && std::all_of(joint_.effects.begin(), joint_.effects.end(), is_fault);
@@ -172,6 +175,13 @@ class AllRowsWork {
     if (joint_.effects.empty() && !of.neighbours_predict) nothing_named(facts);
     if (diagnosis_.verdict == Verdict::data_fault && !joint_.effects.empty())
       diagnosis_.way_out = way_out_of_a_fault(joint_);
+  }
+
+  // the delay between command and motor shows in the rows as one of the torque
+  void tell_errors_with_delay(DecisionFacts const& facts) {
+    bool const predicts = facts.final.validation == facts.final.validation;
+    (predicts ? joint_.validation_relerr : joint_.cv_relerr) = facts.delay.judged_without;
+    (predicts ? joint_.augmented_validation_relerr : joint_.augmented_cv_relerr) = facts.final.judged();
   }
 
   void tell_parameters(std::vector<ParameterEstimate>& into, FittedModel const& by,
@@ -318,12 +328,13 @@ class AllRowsWork {
 
 }  // namespace
 
-std::vector<std::string> decider_words() { return {"moving_rows", "all_rows", "both"}; }
+std::vector<std::string> decider_words() { return {"auto", "moving_rows", "all_rows", "both"}; }
 
 Decider decider_of(std::string const& word) {
-  TORQUESCOPE_EXPECT(word == "moving_rows" || word == "all_rows" || word == "both");
-  if (word == "both") return Decider::both;
-  return word == "all_rows" ? Decider::all_rows : Decider::moving_rows;
+  auto const words = decider_words();
+  auto const found = std::find(words.begin(), words.end(), word);
+  TORQUESCOPE_EXPECT(found != words.end());
+  return static_cast<Decider>(found - words.begin());
 }
 
 JointOutcome diagnose_on_all_rows(DiagnosisInput const& input, StageSink const& progress, DecisionSink const& further) {

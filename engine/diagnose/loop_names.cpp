@@ -38,7 +38,8 @@ NamedEffect named_move(KeptMove const& move) {
   named.z = std::sqrt(std::max(move.gain, 0.0));
   for (auto const& rival : move.rivals) named.equivalent.push_back(name_of(rival));
   for (auto const& one : move.numbers)
-    named.parameters.push_back({one.name, one.unit, one.value, one.lower, one.upper});
+    named.parameters.push_back(
+        {move.subject.is_of_command() ? named.name : one.name, one.unit, one.value, one.lower, one.upper});
   return named;
 }
 
@@ -81,11 +82,6 @@ bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fal
   LoopErrors const& before = loop.has_validation ? loop.base_validation : loop.base_train;
   LoopErrors const& after = loop.has_validation ? loop.final_validation : loop.final_train;
   return after.both() <= (1.0 - least_fall) * before.both();
-}
-
-bool has_command_name(LoopFacts const& loop) {
-  return loop.decides() && std::any_of(loop.kept.begin(), loop.kept.end(),
-                                       [](KeptMove const& move) { return move.subject.is_of_command(); });
 }
 
 }  // namespace torquescope

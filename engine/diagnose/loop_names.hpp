@@ -17,7 +17,4 @@ void keep_standing(JointDiagnosis& joint, DecisionFacts const& scan, LoopFacts c
 // whether what is left falls by least_fall: of the simulations where they decided, else of the judged rows
 bool is_lower(DecisionFacts const& scan, LoopFacts const& loop, double least_fall);
 
-// whether a name acts between command and motor, which rows of torque and motion do not show
-bool has_command_name(LoopFacts const& loop);
-
 }  // namespace torquescope

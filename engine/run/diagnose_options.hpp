@@ -22,7 +22,7 @@ struct DiagnoseOptions {
   double least_fall = 0.05;
   std::string shape_optimiser = "de";
   std::string reversals = "both";
-  std::string decider = "moving_rows";
+  std::string decider = "auto";
   // ablations (ablation.hpp)
   std::string null = "twins";
   bool indirect_inference = true;

@@ -18,6 +18,7 @@
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/twin_folder.hpp"
 #include "engine/store/shard_lock.hpp"
+#include "engine/words/error_words.hpp"
 #include "engine/words/sentences.hpp"
 
 namespace torquescope {
@@ -144,14 +145,34 @@ Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts)
   return diagnosis;
 }
 
+// Rows that move one way have explained nothing, and hold less than half of what the model leaves
+bool hides_most(Diagnosis const& diagnosis) {
+  bool const is_silent = diagnosis.verdict == Verdict::unexplained || diagnosis.verdict == Verdict::insufficient;
+  return is_silent && looks_at_less_than_half(diagnosis.joints.front());
+}
+
+// the decision on all samples where it names something; else the first one, with what the other says beside it
+Diagnosis with_all_samples(Diagnosis first, Diagnosis all) {
+  bool const says_more = names_physics(all.verdict) || all.verdict == Verdict::data_fault;
+  if (says_more) {
+    all.reason += " " + all_samples_sentence();
+    return all;
+  }
+  first.joints.front().decision = std::move(all.joints.front().decision);
+  return first;
+}
+
 Diagnosis diagnose_one_joint(Experiment::Parts const& parts, int threads, TwinExchange* exchange,
                              StageSink const& sink) {
   JobInput const job(parts, threads, exchange);
   Decider const decider = decider_of(parts.diagnose.decider);
-  if (decider == Decider::all_rows) return diagnose_on_all_rows(job.input(), sink).diagnosis;
+  auto const on_all_rows = [&] { return diagnose_on_all_rows(job.input(), sink).diagnosis; };
+  if (decider == Decider::all_rows) return on_all_rows();
   Diagnosis diagnosis = diagnose_joint(job.input(), sink).diagnosis;
-  if (decider == Decider::both)
-    diagnosis.joints.front().decision = diagnose_on_all_rows(job.input(), sink).diagnosis.joints.front().decision;
+  if (decider == Decider::both) diagnosis.joints.front().decision = on_all_rows().joints.front().decision;
+  bool const is_whole = parts.diagnose.ablations().empty();
+  if (decider == Decider::by_job && is_whole && hides_most(diagnosis))
+    return with_all_samples(std::move(diagnosis), on_all_rows());
   return diagnosis;
 }
 

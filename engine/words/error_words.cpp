@@ -150,4 +150,8 @@ std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& 
       which_joint(joint), omnibus_text(joint), refused->name, refused->reason);
 }
 
+std::string all_samples_sentence() {
+  return "All samples decide: rows that move one way explain nothing and hold less than half of what the model leaves.";
+}
+
 }  // namespace torquescope

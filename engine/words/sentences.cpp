@@ -159,7 +159,28 @@ std::string name_clause(JointDiagnosis const& joint, NamedEffect const& effect, 
   return fmt::format("{} ({})", title, brackets);
 }
 
+// of what acts between command and motor: its number, for no torque shows it
+std::string command_clause(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
+  std::string text = "between command and motor: " + name_clause(joint, effect, one_of_class);
+  for (auto const& number : effect.parameters) text += ", " + quantity_text(number.value, number.unit);
+  return text;
+}
+
+// what the simulation from the commands gains, where it decided; "" elsewhere
+std::string simulated_sentence(JointDiagnosis const& joint) {
+  if (!joint.decision || !joint.decision->loop.decides || joint.decision->loop.kept.empty()) return "";
+  auto const& loop = joint.decision->loop;
+  bool const predicts = std::isfinite(loop.base_validation.position);
+  double const before = predicts ? loop.base_validation.position : loop.base_train.position;
+  double const after = predicts ? loop.final_validation.position : loop.final_train.position;
+  return fmt::format(
+      "Simulated from its commands, the {} position is off by {} instead of {} of its motion, over all "
+      "samples.",
+      predicts ? "unseen" : "training", percent_text(after), percent_text(before));
+}
+
 std::string effect_clauses(JointDiagnosis const& joint, NamedEffect const& effect, bool one_of_class) {
+  if (effect.family == "command") return sentence(command_clause(joint, effect, one_of_class));
   return sentence(finding_clause(joint, effect) + ": " + name_clause(joint, effect, one_of_class));
 }
 
@@ -182,6 +203,7 @@ std::string names_and_gain(JointDiagnosis const& joint, bool one_of_class) {
   }
   if (!others.empty()) append(text, fmt::format("Also named: {}.", name_list(others, "and")));
   append(text, gain_sentence(joint));
+  append(text, simulated_sentence(joint));
   return text;
 }
 

@@ -57,6 +57,12 @@ class Verdicts(unittest.TestCase):
         (cls.folder / "another.toml").write_text(SIMULATED.replace('name = "verdicts"', 'name = "another"\nseed = 2'))
         cls.run_program("simulate", "another.toml", "--out", "another.csv")
         cls.other_rows = cls.logged("another.csv")[1:]
+        # a spring in the joint itself, which its loop feels
+        too = SIMULATED.replace('name = "verdicts"', 'name = "too"\nseed = 2')
+        for name, job in (("sprung", SIMULATED), ("sprung_too", too)):
+            (cls.folder / f"{name}.toml").write_text(job.replace("coulomb = 0.6\n", "coulomb = 0.6\nspring = 0.5\n"))
+            cls.run_program("simulate", f"{name}.toml", "--out", f"{name}.csv")
+        cls.sprung, cls.sprung_too = cls.logged("sprung.csv")[1:], cls.logged("sprung_too.csv")[1:]
 
     @classmethod
     def logged(cls, name):
@@ -116,7 +122,7 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(one["verdict"], "unexplained", "what one has and the other has not is no clean joint")
 
     def test_the_decision_on_all_samples_stands_beside_the_other_or_alone(self):
-        sprung, other = self.with_spring(self.rows), self.with_spring(self.other_rows)
+        sprung, other = self.sprung, self.sprung_too
         beside = self.said_of(sprung, unseen=other, further_options='decider = "both"\n')
         alone = self.said_of(sprung, unseen=other, further_options='decider = "all_rows"\n')
         plain = self.said_of(sprung, unseen=other)
@@ -137,7 +143,7 @@ class Verdicts(unittest.TestCase):
         options = 'decider = "all_rows"\n'
         sound = self.said_of(self.rows, unseen=self.other_rows, further_options=options)["joints"][0]
         self.assertEqual(sound["decision"]["accepted"], [])
-        both = self.said_of(self.with_spring(self.rows), self.with_spring(self.other_rows), further_options=options)
+        both = self.said_of(self.sprung, self.sprung_too, further_options=options)
         self.assertEqual([law["name"] for law in both["joints"][0]["decision"]["accepted"]], ["spring"])
 
     def test_rows_near_reversals_are_weighed_where_hardly_any_other_is_left(self):
