@@ -53,6 +53,7 @@ struct StepFacts {
   bool is_of_clock = false;
   bool has_taken = false;  // a law
   double visible = 0.0;    // over the torque's rms: what most laws must be to come out
+  double error = 0.0;      // of the model that the step began with, in training
   CorrectionFacts correction{};
 };
 

@@ -9,10 +9,17 @@ bool speaks_against(LawFacts const& law, DecisionNumbers const& numbers) {
   return law.p <= numbers.alpha && law.refusal != Refusal::too_small && law.refusal != Refusal::smaller;
 }
 
+// a torque of which the error would fall by least_fall
+bool is_worth_naming(double size, double error, DecisionNumbers const& numbers) {
+  double const left = 1.0 - numbers.least_fall;
+  return size >= numbers.delta && size * size >= (1.0 - left * left) * error * error;
+}
+
 }  // namespace
 
 bool is_adequate(StepFacts const& step, DecisionNumbers const& numbers) {
-  if (step.correction.p <= numbers.correction_alpha() && step.correction.size >= numbers.delta) return false;
+  bool const counts = is_worth_naming(step.correction.size, step.error, numbers);
+  if (counts && step.correction.p <= numbers.correction_alpha()) return false;
   return std::none_of(step.laws.begin(), step.laws.end(),
                       [&](LawFacts const& law) { return speaks_against(law, numbers); });
 }

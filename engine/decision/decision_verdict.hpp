@@ -1,8 +1,8 @@
 #pragma once
 // What the facts of a decision say of its model and of its names: the table of verdicts.
 //
-// Adequate   replicates of the model leave as much as the recording: no smooth correction is beyond chance, no law is
-//            but such as are too small, or smaller than one that is taken
+// Adequate   replicates of the model leave as much as the recording: no smooth correction is beyond chance, and no law,
+//            but such as would not lower the error by least_fall, or are smaller than one that is taken
 // Complete   adequate, and a law as large as the tolerance would most likely have come out
 // Threads    pure functions
 // Source     engine/decision/THEORY.md, Adequacy

@@ -146,6 +146,7 @@ class Search {
                     of_clock,
                     false,
                     visible_share(null.chance, score, kind),
+                    std::sqrt(recording.chosen().fit.energy() / rows().training_energy),
                     {correction.axis, correction.gain, empirical_p(correction.gain, null.corrections),
                      correction.rms / rows().torque_rms()}};
     facts.laws = law_facts(questions, findings, tried, null.chance);

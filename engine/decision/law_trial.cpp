@@ -19,10 +19,11 @@ bool is_beyond_bounds(LawFacts const& law, RefinedLaw const& refined, JointScale
 
 Refusal refusal_of(LawFacts const& law, RefinedLaw const& refined, JointScales const& scales,
                    DecisionNumbers const& numbers) {
-  if (!(law.size >= numbers.delta)) return Refusal::too_small;
+  bool const falls = law.judged_after < law.judged_before;
+  bool const falls_enough = law.judged_after <= (1.0 - numbers.least_fall) * law.judged_before;
+  if (!(law.size >= numbers.delta) || (falls && !falls_enough)) return Refusal::too_small;
   if (is_beyond_bounds(law, refined, scales)) return Refusal::at_bound;
-  if (!(law.judged_after < law.judged_before)) return Refusal::not_predicted;
-  return law.judged_after <= (1.0 - numbers.least_fall) * law.judged_before ? Refusal::none : Refusal::too_small;
+  return falls ? Refusal::none : Refusal::not_predicted;
 }
 
 TriedLaw tried(DecisionQuestion const& question, TrialModel const& beside, LawQuestion const& law,

@@ -82,6 +82,9 @@ TEST(DecisionVerdict, ASmoothCorrectionCountsOnlyWithASize) {
   step.correction.size = 2.0 * numbers.delta;
   EXPECT_FALSE(is_adequate(step, numbers));
   EXPECT_TRUE(bears_laws_of_clock(step, numbers));
+  // beside an error ten times as large it would not lower it by a twentieth
+  step.error = 20.0 * numbers.delta;
+  EXPECT_TRUE(is_adequate(step, numbers));
 }
 
 TEST(DecisionVerdict, AModelIsCompleteOnlyWhereALawWouldHaveShown) {
