@@ -145,6 +145,27 @@ std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& 
   return numbers;
 }
 
+namespace {
+
+// whether a number at an end of its range does: the rest of a spring that does not harden is at no bound
+bool changes_anything(LoopQuestion const& question, RolloutModel const& model, Eigen::VectorXd const& at,
+                      std::size_t number) {
+  constexpr double no_change = 1e-6;  // of the squares (law_shape.cpp)
+  auto const& range = model.parameters()[number];
+  Eigen::VectorXd inside = at;
+  inside[static_cast<Index>(number)] = 0.5 * (range.lower + range.upper);
+  RolloutTask task{question.training, {}, question.counts};
+  for (auto const& track : question.training) task.structures.push_back(model.structure_for(at, track.tick_s()));
+  std::vector<RolloutTrial> const trials{model.trial(at), model.trial(inside)};
+  auto const sums = sums_of_squares(task, trials, 1);
+  for (std::size_t channel = 0; channel < n_channels; ++channel)
+    if (question.counts[channel] && !(std::abs(sums[1][channel] - sums[0][channel]) <= no_change * sums[0][channel]))
+      return true;
+  return false;
+}
+
+}  // namespace
+
 bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t move) {
   RolloutModel const model = fit.point.model(question);
   Place const place = place_of(question, fit.point, move);
@@ -160,10 +181,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
       low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    // a number of which the samples tell nothing, as the rest of a spring that does not harden, is at no bound
-    auto const at = static_cast<Index>(place.first + k);
-    bool const is_told = fit.fit.upper[at] - fit.fit.lower[at] < one.upper - one.lower;
-    if ((low || high) && is_told) return true;
+    if ((low || high) && changes_anything(question, model, fit.fit.parameters, place.first + k)) return true;
   }
   return false;
 }
