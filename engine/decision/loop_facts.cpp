@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/rollout/drive_law.hpp"
+
 namespace torquescope {
 
 std::string name_of(LoopSubject const& subject) {
   if (subject.effect != nullptr) return subject.effect->name();
-  std::string name = facts_of(subject.key).name;
-  if (name.ends_with("_s")) name.resize(name.size() - 2);
-  return name;
+  return drive_law_of(subject.key).name;
 }
 
 double LoopErrors::both() const {

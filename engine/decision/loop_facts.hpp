@@ -43,10 +43,10 @@ struct LoopNumber {
   double value = 0.0, lower = 0.0, upper = 0.0;  // 95 %; NaN: not known
 };
 
-// a law of the joint, or a number of its loop
+// a law of the joint, or one of its drive and gear (rollout/drive_law.hpp)
 struct LoopSubject {
   Effect const* effect = nullptr;
-  LoopKey key = LoopKey::command_delay_s;  // without an effect
+  LoopKey key = LoopKey::command_delay_s;  // without an effect: the first of the law
 
   bool operator==(LoopSubject const&) const = default;
   bool is_of_command() const { return effect == nullptr; }

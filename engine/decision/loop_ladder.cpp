@@ -7,6 +7,7 @@
 
 #include "engine/base/parallel.hpp"
 #include "engine/decision/loop_scan.hpp"
+#include "engine/rollout/drive_law.hpp"
 
 namespace torquescope {
 namespace {
@@ -20,20 +21,24 @@ bool leaves_less(LoopFit const& a, LoopFit const& b, CountedChannels const& coun
   return difference < 0.0;
 }
 
+// a number of the loop that does not begin at nothing changes what all others do
+bool bends(LoopMove const& move) { return move.subject.is_of_command() && !drive_law_of(move.subject.key).adds; }
+
 class Ladder {
  public:
   explicit Ladder(LoopQuestion const& question) : q_(question) {}
 
-  LoopFacts run() && {
+  LoopClimb run(std::vector<LoopPoint> const& starts) && {
     facts_.form = q_.loop.form;
     facts_.counts = q_.counts;
     facts_.has_validation = !q_.validation.empty();
     tell_progress(0);
-    Member base{fitted(q_, base_point(q_)), {}};
+    Member base{base_of(starts), {}};
     if (base.fit.fit.failed) {
       facts_.reason = LoopReason::diverges;
-      return std::move(facts_);
+      return {std::move(facts_), {}, {}};
     }
+    LoopFit const first = base.fit;
     facts_.base_train = base.fit.train;
     facts_.base_validation = base.fit.validation;
     base_terms_ = base.fit.point.terms;
@@ -47,7 +52,7 @@ class Ladder {
     drop_useless(best);
     tell(best);
     tell_progress(q_.most_moves + 1);
-    return std::move(facts_);
+    return {std::move(facts_), first, best.fit};
   }
 
  private:
@@ -55,6 +60,13 @@ class Ladder {
     LoopFit fit;
     std::map<std::size_t, ScannedMove> taken{};  // as the step that took them saw them
   };
+
+  // each start is followed a little, the best to its end
+  LoopFit base_of(std::vector<LoopPoint> const& starts) const {
+    if (starts.empty()) return fitted(q_, base_point(q_), LoopSearch::to_its_end, q_.threads);
+    LoopFit const best = best_of(starts, q_.threads);
+    return best.fit.failed ? best : fitted(q_, best.point, LoopSearch::to_its_end, q_.threads);
+  }
 
   // gain over another, both by the noise that the other leaves
   double score(Member const& one, Member const& beside) const {
@@ -87,12 +99,13 @@ class Ladder {
     if (parent.moves.size() > 1) return warm;
     for (std::size_t const one : parent.moves) {
       LoopMove const& own = q_.moves[one];
-      if (!own.subject.is_of_command()) continue;
+      if (!bends(own)) continue;
       std::vector<LoopPoint> more;
       for (auto const& point : cold)
         for (auto const& start : own.starts) {
           more.push_back(point);
-          more.back().loop.values[own.subject.key] = start.front();
+          auto const& keys = drive_law_of(own.subject.key).keys;
+          for (std::size_t k = 0; k < keys.size(); ++k) more.back().loop.values[keys[k]] = start[k];
         }
       cold = std::move(more);
     }
@@ -101,20 +114,27 @@ class Ladder {
     return warm;
   }
 
-  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each. All are
-  // followed a little, and the best to its end, unless it has come to a bound by then
+  // The best of several starts: all get a look, the better third and no fewer than three are followed a little
+  // (successive halving: Jamieson, Talwalkar 2016, AISTATS, arXiv:1502.07943)
+  LoopFit best_of(std::vector<LoopPoint> const& points, int threads) const {
+    std::vector<LoopFit> fits;
+    for (auto const& point : points) fits.push_back(fitted(q_, point, LoopSearch::a_look, threads));
+    std::stable_sort(fits.begin(), fits.end(),
+                     [&](LoopFit const& a, LoopFit const& b) { return leaves_less(a, b, q_.counts); });
+    fits.resize(std::min(fits.size(), std::max<std::size_t>(3, (fits.size() + 2) / 3)));
+    for (auto& fit : fits)
+      if (!fit.fit.failed) fit = fitted(q_, fit.point, LoopSearch::a_little, threads);
+    return *std::min_element(fits.begin(), fits.end(),
+                             [&](LoopFit const& a, LoopFit const& b) { return leaves_less(a, b, q_.counts); });
+  }
+
+  // Warm from the parent: a law at the start that gains most on the plane, a number of the loop at each; the best to
+  // its end, unless it has come to a bound by then
   LoopFit with(LoopPoint const& parent, std::size_t move, std::vector<std::size_t> const& starts) const {
     LoopMove const& own = q_.moves[move];
-    std::vector<LoopPoint> const points = own.subject.is_of_command()
-                                              ? begun(parent, move)
-                                              : std::vector{with_move(q_, parent, move, own.starts[starts.front()])};
-    LoopFit best;
-    bool is_first = true;
-    for (auto const& point : points) {
-      LoopFit fit = fitted(q_, point, LoopSearch::a_little);
-      if (is_first || leaves_less(fit, best, q_.counts)) best = std::move(fit);
-      is_first = false;
-    }
+    std::vector<LoopPoint> const points =
+        bends(own) ? begun(parent, move) : std::vector{with_move(q_, parent, move, own.starts[starts.front()])};
+    LoopFit const best = best_of(points, 1);
     return best.fit.failed || is_at_bound(q_, best, move) ? best : fitted(q_, best.point);
   }
 
@@ -263,6 +283,8 @@ class Ladder {
 
 }  // namespace
 
-LoopFacts climb_ladder(LoopQuestion const& question) { return Ladder(question).run(); }
+LoopClimb climb_ladder(LoopQuestion const& question, std::vector<LoopPoint> const& starts) {
+  return Ladder(question).run(starts);
+}
 
 }  // namespace torquescope

@@ -14,7 +14,11 @@
 
 namespace torquescope {
 
-// the facts' loop_error is the caller's
-LoopFacts climb_ladder(LoopQuestion const& question);
+struct LoopClimb {
+  LoopFacts facts;          // their loop_error is the caller's
+  LoopFit base{}, final{};  // of nothing where the base has failed
+};
+// starts: of the base, the best is taken; none: the question's own
+LoopClimb climb_ladder(LoopQuestion const& question, std::vector<LoopPoint> const& starts = {});
 
 }  // namespace torquescope

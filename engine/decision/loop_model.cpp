@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "engine/rollout/drive_law.hpp"
 #include "engine/rollout/fit_slope.hpp"
 
 namespace torquescope {
@@ -12,24 +14,25 @@ using Eigen::Index;
 
 bool is_law(LoopQuestion const& question, std::size_t move) { return !question.moves[move].subject.is_of_command(); }
 
-// first parameter of a move in the model's vector: terms, then laws in their order, then the loop's free numbers
-struct Place {
-  std::size_t first = 0, count = 0;
-};
+std::vector<LoopKey> const& keys_of(LoopQuestion const& question, std::size_t move) {
+  return drive_law_of(question.moves[move].subject.key).keys;
+}
 
-Place place_of(LoopQuestion const& question, LoopPoint const& point, std::size_t move) {
+// parameters of a move in the model's vector: terms, then laws in their order, then the loop's free numbers
+std::vector<std::size_t> places_of(LoopQuestion const& question, LoopPoint const& point, std::size_t move) {
   std::size_t at = static_cast<std::size_t>(point.terms.size());
-  std::optional<Place> found;
+  std::vector<std::size_t> places;
   for (std::size_t const one : point.moves) {
     if (!is_law(question, one)) continue;
     std::size_t const count = question.moves[one].subject.effect->parameters().size();
-    if (one == move) found = {at, count};
+    for (std::size_t k = 0; one == move && k < count; ++k) places.push_back(at + k);
     at += count;
   }
-  if (found) return *found;
+  if (is_law(question, move)) return places;
   auto const& free = point.loop.free;
-  auto const key = std::find(free.begin(), free.end(), question.moves[move].subject.key);
-  return {at + static_cast<std::size_t>(key - free.begin()), 1};
+  for (LoopKey const key : keys_of(question, move))
+    places.push_back(at + static_cast<std::size_t>(std::find(free.begin(), free.end(), key) - free.begin()));
+  return places;
 }
 
 // the same model with the numbers of a vector
@@ -75,8 +78,14 @@ LoopPoint with_move(LoopQuestion const& question, LoopPoint point, std::size_t m
   LoopSubject const& subject = question.moves[move].subject;
   point.moves.push_back(move);
   if (subject.is_of_command()) {
-    point.loop.free.push_back(subject.key);
-    point.loop.values[subject.key] = start.front();
+    auto& free = point.loop.free;
+    auto const& keys = keys_of(question, move);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      // laws may share a number, which then stands already
+      if (std::find(free.begin(), free.end(), keys[k]) != free.end()) continue;
+      free.push_back(keys[k]);
+      point.loop.values[keys[k]] = start[k];
+    }
     return point;
   }
   ModelEffect law{subject.effect, {}};
@@ -91,8 +100,16 @@ LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std
   LoopPoint less = point;
   LoopSubject const& subject = question.moves[move].subject;
   if (subject.is_of_command()) {
-    std::erase(less.loop.free, subject.key);
-    less.loop.values[subject.key] = question.loop.values[subject.key];
+    for (LoopKey const key : keys_of(question, move)) {
+      bool const is_shared = std::any_of(point.moves.begin(), point.moves.end(), [&](std::size_t one) {
+        if (one == move || is_law(question, one)) return false;
+        auto const& others = keys_of(question, one);
+        return std::find(others.begin(), others.end(), key) != others.end();
+      });
+      if (is_shared) continue;
+      std::erase(less.loop.free, key);
+      less.loop.values[key] = question.loop.values[key];
+    }
   } else {
     std::ptrdiff_t law = 0;
     for (std::size_t const one : point.moves) {
@@ -105,19 +122,20 @@ LoopPoint without_move(LoopQuestion const& question, LoopPoint const& point, std
   return less;
 }
 
-LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search) {
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search, int threads) {
   LmOptions options;
-  constexpr std::int64_t a_little = 8;
-  if (search == LoopSearch::a_little) {
-    options.iterations = a_little;
+  options.fits_starts = question.fits_starts;
+  constexpr std::int64_t a_look = 2, a_little = 8;
+  if (search != LoopSearch::to_its_end) {
+    options.iterations = search == LoopSearch::a_look ? a_look : a_little;
     options.passes = 1;
   }
   RolloutModel const begun = from.model(question);
-  LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, 1)};
+  LoopFit result{from, fit_rollouts_from(begun, question.training, question.counts, from.starts, options, threads)};
   if (result.fit.failed) return result;
   result.point = moved_to(from, result.fit.parameters);
   result.point.starts = result.fit.starts;
-  if (search == LoopSearch::a_little) return result;
+  if (search != LoopSearch::to_its_end) return result;
   RolloutModel const model = result.point.model(question);
   result.train = errors_of(model, question.training, question.counts, result.point.starts);
   result.validation = errors_of(model, question.validation, question.counts, {});
@@ -135,9 +153,11 @@ double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels co
 
 std::vector<LoopNumber> numbers_of(LoopQuestion const& question, LoopFit const& fit, std::optional<std::size_t> move) {
   RolloutModel const model = fit.point.model(question);
-  Place const place = move ? place_of(question, fit.point, *move) : Place{0, model.size()};
+  std::vector<std::size_t> places(model.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (move) places = places_of(question, fit.point, *move);
   std::vector<LoopNumber> numbers;
-  for (std::size_t k = place.first; k < place.first + place.count; ++k) {
+  for (std::size_t const k : places) {
     auto const& one = model.parameters()[k];
     auto const at = static_cast<Index>(k);
     numbers.push_back({one.name, one.unit, fit.fit.parameters[at], fit.fit.lower[at], fit.fit.upper[at]});
@@ -168,11 +188,11 @@ bool changes_anything(LoopQuestion const& question, RolloutModel const& model, E
 
 bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t move) {
   RolloutModel const model = fit.point.model(question);
-  Place const place = place_of(question, fit.point, move);
+  auto const places = places_of(question, fit.point, move);
   LoopSubject const& subject = question.moves[move].subject;
-  for (std::size_t k = 0; k < place.count; ++k) {
-    auto const& one = model.parameters()[place.first + k];
-    double const value = fit.fit.parameters[static_cast<Index>(place.first + k)];
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    auto const& one = model.parameters()[places[k]];
+    double const value = fit.fit.parameters[static_cast<Index>(places[k])];
     bool low = value <= one.lower, high = value >= one.upper;
     if (!subject.is_of_command()) {
       auto const& parameter = subject.effect->parameters()[k];
@@ -181,7 +201,7 @@ bool is_at_bound(LoopQuestion const& question, LoopFit const& fit, std::size_t m
       low = low && !is_zero && !parameter.law_at_lower && !parameter.none_at_lower;
       high = high && !parameter.law_at_upper;
     }
-    if ((low || high) && changes_anything(question, model, fit.fit.parameters, place.first + k)) return true;
+    if ((low || high) && changes_anything(question, model, fit.fit.parameters, places[k])) return true;
   }
   return false;
 }

@@ -21,7 +21,7 @@ namespace torquescope {
 
 struct LoopMove {
   LoopSubject subject{};
-  std::vector<std::vector<double>> starts{};  // shapes of the law, or one number of the loop; at least one
+  std::vector<std::vector<double>> starts{};  // shapes of the law, or the numbers of one of the drive; at least one
 };
 
 struct LoopQuestion {
@@ -37,6 +37,7 @@ struct LoopQuestion {
   DecisionNumbers numbers{};
   std::uint64_t seed = 0;
   int threads = 1;
+  bool fits_starts = true;  // what each recording has of its own (fit_unknowns.hpp)
   std::function<void(char const* stage, std::size_t done, std::size_t total)> progress{};
 };
 
@@ -67,9 +68,10 @@ struct LoopFit {
 };
 
 // how far a fit is followed
-enum class LoopSearch { a_little, to_its_end };
-// one thread; a fit that is `failed` holds the point that it began at. Errors only of those followed to their end
-LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search = LoopSearch::to_its_end);
+enum class LoopSearch { a_look, a_little, to_its_end };
+// a fit that is `failed` holds the point that it began at. Errors only of those followed to their end
+LoopFit fitted(LoopQuestion const& question, LoopPoint const& from, LoopSearch search = LoopSearch::to_its_end,
+               int threads = 1);
 
 // D of the larger model; n_eff of its residual
 double gain_of(LoopFit const& smaller, LoopFit const& larger, CountedChannels const& counts);

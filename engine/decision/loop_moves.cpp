@@ -1,15 +1,12 @@
 #include "engine/decision/loop_moves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/effects/carry_over.hpp"
 
 namespace torquescope {
 namespace {
-
-using Eigen::Index;
 
 bool can_be_simulated(Effect const& law, Regressor const& regressor) {
   auto const& terms = regressor.terms();
@@ -41,40 +38,6 @@ LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScal
   return move;
 }
 
-namespace {
-
-// share of the positive numbers below it
-double quantile(std::vector<double> values, double share) {
-  std::erase_if(values, [](double one) { return !(one > 0.0) || !std::isfinite(one); });
-  if (values.empty()) return 0.0;
-  auto const place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place), values.end());
-  return values[place];
-}
-
-// how fast the joints move, by differences over a twentieth of a second, which an encoder's steps hardly show in
-struct Pace {
-  double speed = 0.0, acceleration = 0.0;
-};
-
-Pace pace_of(std::vector<RolloutTrack> const& tracks) {
-  constexpr double span_s = 0.05, nearly_all = 0.98;
-  std::vector<double> speeds, accelerations;
-  for (auto const& track : tracks) {
-    Index const span = std::max<Index>(1, std::llround(span_s * track.rate_hz));
-    double const apart_s = static_cast<double>(span) / track.rate_hz;
-    for (auto const& segment : track.segments)
-      for (Index k = segment.first + span; k + span < segment.first + segment.samples; ++k) {
-        double const before = track.position[k - span], here = track.position[k], after = track.position[k + span];
-        speeds.push_back(std::abs(after - before) / (2.0 * apart_s));
-        accelerations.push_back(std::abs(after - 2.0 * here + before) / (apart_s * apart_s));
-      }
-  }
-  return {quantile(std::move(speeds), nearly_all), quantile(std::move(accelerations), nearly_all)};
-}
-
-}  // namespace
-
 std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
                                 DecisionNumbers const& numbers) {
   std::vector<LoopMove> moves;
@@ -103,24 +66,22 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   return moves;
 }
 
-std::vector<LoopMove> command_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training) {
-  using enum LoopKey;
+std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
+                                  std::vector<DriveLawKind> const& kinds) {
   std::vector<LoopMove> moves;
   if (loop.form == LoopForm::identified || loop.form == LoopForm::none) return moves;
-  Pace const pace = pace_of(training);
-  double const sample_s = 1.0 / training.front().rate_hz;
-  auto const add = [&](LoopKey key, std::vector<double> const& starts) {
-    bool const is_free = std::find(loop.free.begin(), loop.free.end(), key) != loop.free.end();
-    if (is_free || loop.values[key] != facts_of(key).none) return;
-    LoopMove move{{nullptr, key}, {}};
-    for (double const start : starts)
-      if (start > facts_of(key).least && start < facts_of(key).most) move.starts.push_back({start});
+  DriveScales const scales = drive_scales(training, numbers_of(loop.form, loop.values));
+  for (DriveLaw const* law : drive_laws()) {
+    LoopKey const own = law->keys.front();
+    bool const is_free = std::find(loop.free.begin(), loop.free.end(), own) != loop.free.end();
+    bool const is_asked = std::find(kinds.begin(), kinds.end(), law->kind) != kinds.end();
+    if (!is_asked || is_free || loop.values[own] != facts_of(own).none) continue;
+    LoopMove move{{nullptr, own}, {}};
+    for (auto const& start : law->starts(scales))
+      if (law->adds || (start.front() > facts_of(own).least && start.front() < facts_of(own).most))
+        move.starts.push_back(start);
     if (!move.starts.empty()) moves.push_back(std::move(move));
-  };
-  add(goal_speed_limit, {0.5 * pace.speed, 0.7 * pace.speed, 0.9 * pace.speed, 1.1 * pace.speed});
-  add(goal_acceleration_limit,
-      {0.25 * pace.acceleration, 0.5 * pace.acceleration, pace.acceleration, 2.0 * pace.acceleration});
-  add(command_delay_s, {0.5 * sample_s, 2.0 * sample_s, 0.02, 0.06});
+  }
   return moves;
 }
 

@@ -12,6 +12,7 @@
 
 #include "engine/decision/decision_facts.hpp"
 #include "engine/decision/loop_model.hpp"
+#include "engine/rollout/drive_law.hpp"
 
 namespace torquescope {
 
@@ -20,7 +21,8 @@ LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScal
 std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
                                 DecisionNumbers const& numbers);
 
-// numbers of the command side that the loop has neither given nor free; none of an identified law
-std::vector<LoopMove> command_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training);
+// laws of the drive and the gear whose own number the loop has neither given nor free; none of an identified law
+std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
+                                  std::vector<DriveLawKind> const& kinds);
 
 }  // namespace torquescope

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.hpp"
 #include "engine/decision/chance.hpp"
 #include "engine/decision/loop_replicates.hpp"
+#include "engine/rollout/drive_law.hpp"
 
 namespace torquescope {
 namespace {
@@ -20,7 +21,7 @@ class Scan {
       : q_(question),
         fit_(fit),
         model_(fit.point.model(question)),
-        unknowns_(model_, question.training, question.counts, true),
+        unknowns_(model_, question.training, question.counts, question.fits_starts),
         at_(unknowns_.begin_at(model_.start())) {
     if (fit.point.starts.size() == at_.starts.size()) at_.starts = fit.point.starts;
     plane_ = tangent_at(unknowns_, at_);
@@ -64,17 +65,22 @@ class Scan {
     std::vector<FitPoint> points;
     LoopPoint const first = with_move(q_, fit_.point, move, q_.moves[move].starts.front());
     RolloutModel const one = first.model(q_);
-    FitUnknowns const unknowns(one, q_.training, q_.counts, true);
+    FitUnknowns const unknowns(one, q_.training, q_.counts, q_.fits_starts);
     for (auto const& start : q_.moves[move].starts)
       points.push_back(begun(with_move(q_, fit_.point, move, start).model(q_), unknowns));
-    if (subject.is_of_command()) {
+    DriveLaw const* const drive = subject.is_of_command() ? &drive_law_of(subject.key) : nullptr;
+    if (drive != nullptr && !drive->adds) {
       for (auto const& point : points) planes.push_back(tangent_at(unknowns, point));
       return planes;
     }
     // a law that is nothing yet leaves the others' columns as they are
     std::vector<Index> own;
-    Index const at = static_cast<Index>(one.size() - first.loop.free.size() - subject.effect->parameters().size());
-    for (std::size_t k = 0; k < subject.effect->n_linear(); ++k) own.push_back(at + static_cast<Index>(k));
+    if (drive != nullptr) {
+      own.push_back(static_cast<Index>(one.size() - (first.loop.free.size() - fit_.point.loop.free.size())));
+    } else {
+      Index const at = static_cast<Index>(one.size() - first.loop.free.size() - subject.effect->parameters().size());
+      for (std::size_t k = 0; k < subject.effect->n_linear(); ++k) own.push_back(at + static_cast<Index>(k));
+    }
     for (auto const& columns : columns_at(unknowns, points, own)) planes.push_back(beside(plane_, columns));
     return planes;
   }
@@ -89,8 +95,10 @@ class Scan {
         if (left > 0.0) gains[k] += fit_.fit.effective[channel] * std::log(before_.squares[channel][k] / left);
       }
     }
-    Effect const* const law = q_.moves[move].subject.effect;
-    bool const has_sign = law != nullptr && law->n_linear() == 1 && law->parameters()[0].sign() == Sign::non_negative;
+    LoopSubject const& subject = q_.moves[move].subject;
+    bool const has_sign = subject.is_of_command() ? drive_law_of(subject.key).adds && facts_of(subject.key).least == 0.0
+                                                  : subject.effect->n_linear() == 1 &&
+                                                        subject.effect->parameters()[0].sign() == Sign::non_negative;
     for (Index k = 0; k < columns(); ++k)
       if (!std::isfinite(gains[k]) || gains[k] < 0.0 || (has_sign && after.step(after.step.rows() - 1, k) < 0.0))
         gains[k] = 0.0;

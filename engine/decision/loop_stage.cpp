@@ -43,11 +43,11 @@ LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& 
                        tracks.validation,  tracks.counts,   {},     question.most_laws, question.numbers,
                        question.seed,      question.threads};
     asked.progress = question.progress;
-    asked.moves = command_moves(tracks.setting, tracks.training);
+    asked.moves = drive_moves(tracks.setting, tracks.training, {DriveLawKind::profile});
     for (auto& law : law_moves(scan.facts, question.regressor, scales, question.numbers))
       asked.moves.push_back(std::move(law));
     double const loop_error = facts.loop_error;
-    facts = climb_ladder(asked);
+    facts = climb_ladder(asked).facts;
     facts.loop_error = loop_error;
   } catch (Error const&) {
     // a recording with no stretch long enough to be simulated

@@ -4,30 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/rollout/drive_law.hpp"
+
 namespace torquescope {
 namespace {
-
-struct CommandWords {
-  LoopKey key;
-  char const* title;
-  char const* equation;
-};
-
-constexpr CommandWords command_words[] = {
-    {LoopKey::goal_speed_limit, "Speed limit of the command", "|d goal / dt| <= goal_speed_limit"},
-    {LoopKey::goal_acceleration_limit, "Acceleration limit of the command",
-     "|d2 goal / dt2| <= goal_acceleration_limit"},
-    {LoopKey::command_delay_s, "Delay of the command", "goal(t) = reference(t - command_delay)"}};
 
 NamedEffect named_command(LoopSubject const& subject) {
   NamedEffect named;
   named.name = subject.key == LoopKey::command_delay_s ? "delay" : name_of(subject);
   named.family = "command";
-  for (auto const& words : command_words)
-    if (words.key == subject.key) {
-      named.title = words.title;
-      named.equation = words.equation;
-    }
+  named.title = drive_law_of(subject.key).title;
+  named.equation = drive_law_of(subject.key).equation;
   named.acts_on = word(ActsOn::joint);
   return named;
 }

@@ -18,23 +18,35 @@ constexpr std::array<std::pair<LoopForm, char const*>, 8> forms{{{LoopForm::iden
                                                                  {LoopForm::p_pi, "p_pi"},
                                                                  {LoopForm::none, "none"}}};
 
+using enum LoopMeasure;
 constexpr std::array<LoopKeyFacts, loop_keys> facts{{
-    {LoopKey::kp, "kp", "", "", 0.0, 0.0, largest},
-    {LoopKey::ki, "ki", "", "", 0.0, 0.0, largest},
-    {LoopKey::kd, "kd", "N m s/rad", "N s/m", 0.0, 0.0, largest},
-    {LoopKey::kv, "kv", "N m s/rad", "N s/m", 0.0, 0.0, largest},
-    {LoopKey::feed_speed, "feed_speed", "1", "1", 0.0, -2.0, 2.0},
-    {LoopKey::feed_acceleration, "feed_acceleration", "kg m2", "kg", 0.0, -largest, largest},
-    {LoopKey::added_command_gain, "added_command_gain", "N m per unit", "N per unit", 1.0, -largest, largest},
-    {LoopKey::torque_limit, "torque_limit", "N m", "N", no_limit, 0.0, largest},
-    {LoopKey::speed_lag_s, "speed_lag_s", "s", "s", 0.0, 0.0, 1.0},
-    {LoopKey::back_emf, "back_emf", "N m s/rad", "N s/m", 0.0, 0.0, largest},
-    {LoopKey::goal_speed_limit, "goal_speed_limit", "rad/s", "m/s", no_limit, 1e-6, largest},
-    {LoopKey::goal_acceleration_limit, "goal_acceleration_limit", "rad/s2", "m/s2", no_limit, 1e-6, largest},
-    {LoopKey::command_delay_s, "command_delay_s", "s", "s", 0.0, 0.0, 0.25},
-    {LoopKey::torque_delay_s, "torque_delay_s", "s", "s", 0.0, 0.0, 0.25},
-    {LoopKey::torque_lag_s, "torque_lag_s", "s", "s", 0.0, 0.0, 1.0},
-    {LoopKey::torque_log_lag_s, "torque_log_lag_s", "s", "s", 0.0, 0.0, 1.0},
+    {LoopKey::kp, "kp", "", "", number, 0.0, 0.0, largest},
+    {LoopKey::ki, "ki", "", "", number, 0.0, 0.0, largest},
+    {LoopKey::kd, "kd", "N m s/rad", "N s/m", number, 0.0, 0.0, largest},
+    {LoopKey::kv, "kv", "N m s/rad", "N s/m", number, 0.0, 0.0, largest},
+    {LoopKey::feed_speed, "feed_speed", "1", "1", number, 0.0, -2.0, 2.0},
+    {LoopKey::feed_acceleration, "feed_acceleration", "kg m2", "kg", number, 0.0, -largest, largest},
+    {LoopKey::added_command_gain, "added_command_gain", "N m per unit", "N per unit", number, 1.0, -largest, largest},
+    {LoopKey::torque_limit, "torque_limit", "N m", "N", number, no_limit, 0.0, largest},
+    {LoopKey::speed_lag_s, "speed_lag_s", "s", "s", time, 0.0, 0.0, 1.0},
+    {LoopKey::back_emf, "back_emf", "N m s/rad", "N s/m", torque_per_speed, 0.0, 0.0, largest},
+    {LoopKey::goal_speed_limit, "goal_speed_limit", "rad/s", "m/s", speed, no_limit, 1e-6, largest},
+    {LoopKey::goal_acceleration_limit, "goal_acceleration_limit", "rad/s2", "m/s2", acceleration, no_limit, 1e-6,
+     largest},
+    {LoopKey::command_delay_s, "command_delay_s", "s", "s", time, 0.0, 0.0, 0.25},
+    {LoopKey::torque_delay_s, "torque_delay_s", "s", "s", time, 0.0, 0.0, 0.25},
+    {LoopKey::torque_lag_s, "torque_lag_s", "s", "s", time, 0.0, 0.0, 1.0},
+    {LoopKey::torque_log_lag_s, "torque_log_lag_s", "s", "s", time, 0.0, 0.0, 1.0},
+    {LoopKey::motor_gain, "motor_gain", "N m per unit", "N per unit", number, 1.0, 0.0, largest},
+    {LoopKey::dead_band, "dead_band", "rad", "m", position, 0.0, 0.0, largest},
+    {LoopKey::punch, "punch", "unit of the command", "unit of the command", torque, 0.0, 0.0, largest},
+    {LoopKey::load_friction, "load_friction", "1", "1", number, 0.0, 0.0, 1.0},
+    {LoopKey::load_square_friction, "load_square_friction", "1/(N m)", "1/N", per_torque, 0.0, 0.0, largest},
+    {LoopKey::stribeck_friction, "stribeck_friction", "N m", "N", torque, 0.0, 0.0, largest},
+    {LoopKey::stribeck_speed, "stribeck_speed", "rad/s", "m/s", speed, 0.1, 1e-6, largest},
+    {LoopKey::load_stribeck_friction, "load_stribeck_friction", "1", "1", number, 0.0, 0.0, 1.0},
+    {LoopKey::arm_mass, "arm_mass", "kg", "kg", mass, 0.0, 0.0, largest},
+    {LoopKey::motor_gain_per_kelvin, "motor_gain_per_kelvin", "1/K", "1/K", number, 0.0, -0.05, 0.05},
 }};
 
 }  // namespace
@@ -118,7 +130,16 @@ LoopNumbers numbers_of(LoopForm form, LoopValues const& values) {
   numbers.torque_delay_s = values[torque_delay_s];
   numbers.torque_lag_s = values[torque_lag_s];
   numbers.log_lag_s = values[torque_log_lag_s];
+  numbers.motor_gain = values[motor_gain];
+  numbers.dead_band = values[dead_band];
+  numbers.punch = values[punch];
   return numbers;
+}
+
+GearFriction gear_of(LoopValues const& values) {
+  using enum LoopKey;
+  return {values[load_friction], values[load_square_friction], values[stribeck_friction],
+          values[load_stribeck_friction], values[stribeck_speed]};
 }
 
 }  // namespace torquescope

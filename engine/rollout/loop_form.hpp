@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/rollout/gear_friction.hpp"
 #include "engine/rollout/loop_numbers.hpp"
 
 namespace torquescope {
@@ -21,7 +22,7 @@ std::string word(LoopForm form);
 std::optional<LoopForm> loop_form_of(std::string const& word);
 std::vector<std::string> loop_form_words();
 
-// one number of a loop as people write it
+// one number of a loop and its gear as people write it
 enum class LoopKey {
   kp,
   ki,
@@ -38,15 +39,29 @@ enum class LoopKey {
   command_delay_s,
   torque_delay_s,
   torque_lag_s,
-  torque_log_lag_s
+  torque_log_lag_s,
+  motor_gain,
+  dead_band,
+  punch,
+  load_friction,
+  load_square_friction,
+  stribeck_friction,
+  stribeck_speed,
+  load_stribeck_friction,
+  arm_mass,
+  motor_gain_per_kelvin
 };
-inline constexpr std::size_t loop_keys = 16;
+inline constexpr std::size_t loop_keys = 26;
+
+// what a number is measured in: its natural size follows from those of the joint
+enum class LoopMeasure { number, time, torque, torque_per_speed, speed, acceleration, position, mass, per_torque };
 
 struct LoopKeyFacts {
   LoopKey key;
   char const* name;
   char const* unit_revolute;
   char const* unit_prismatic;
+  LoopMeasure measure;
   double none;         // its value where nothing is written and nothing fitted
   double least, most;  // plausible, for a fit
 };
@@ -65,5 +80,6 @@ struct LoopValues {
 };
 
 LoopNumbers numbers_of(LoopForm form, LoopValues const& values);
+GearFriction gear_of(LoopValues const& values);
 
 }  // namespace torquescope

@@ -54,6 +54,44 @@ HWY_INLINE V delayed(LaneLoops const& loops, LaneLoopState& loop, V command, std
   return hn::Add(now, hn::Mul(load(loops.late_share, lane), hn::Sub(hn::Load(d, older), now)));
 }
 
+// a drive that takes a small error for none, and gives no less than its least drive for a larger one
+HWY_INLINE V driven(LaneLoops const& loops, V error, V asked, std::size_t lane) {
+  V const least = hn::Max(hn::Abs(asked), load(loops.punch, lane));
+  V const driven = hn::IfThenElse(hn::Lt(asked, hn::Zero(d)), hn::Neg(least), least);
+  M const is_quiet = hn::Or(hn::Le(hn::Abs(error), load(loops.dead_band, lane)), hn::Eq(asked, hn::Zero(d)));
+  return hn::IfThenElseZero(hn::Not(is_quiet), driven);
+}
+
+// what the encoder shows
+HWY_INLINE V read_by_steps(LaneLoops const& loops, V q, std::size_t lane) {
+  V const step = load(loops.encoder_step, lane), phase = load(loops.encoder_phase, lane);
+  M const has_steps = hn::Gt(step, hn::Zero(d));
+  V const in_steps = hn::Div(hn::Add(q, phase), hn::IfThenElse(has_steps, step, hn::Set(d, 1.0)));
+  V const shown = hn::Sub(hn::Mul(step, hn::Floor(hn::Add(in_steps, hn::Set(d, 0.5)))), phase);
+  return hn::IfThenElse(has_steps, shown, q);
+}
+
+// gear_friction.hpp; motor, weight: torques
+HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, std::size_t lane) {
+  V const one = hn::Set(d, 1.0);
+  V const load_torque = hn::Mul(hn::Set(d, 0.5), hn::Abs(hn::Add(motor, weight)));
+  V const turn = hn::Mul(dq, load(gears.per_speed, lane));
+  V const width = hn::Add(one, hn::Mul(hn::Mul(turn, turn), hn::Set(d, 1.0 / 16.0)));
+  V const square = hn::Mul(width, width), fourth = hn::Mul(square, square), eighth = hn::Mul(fourth, fourth);
+  V const bell = hn::Div(one, hn::Mul(eighth, eighth));
+  V const slow = hn::Add(load(gears.stribeck, lane), hn::Mul(load(gears.load_stribeck, lane), load_torque));
+  V const loaded = hn::Add(load(gears.load, lane), hn::Mul(load(gears.load_square, lane), load_torque));
+  return hn::Add(hn::Mul(loaded, load_torque), hn::Mul(slow, bell));
+}
+
+void gear_friction_lanes(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
+                         double* friction) {
+  for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes)
+    hn::StoreU(friction_of_gear(gears, hn::LoadU(d, motor + lane), hn::LoadU(d, weight + lane),
+                                hn::LoadU(d, speed + lane), lane),
+               d, friction + lane);
+}
+
 // a command on its way to the motor: what acts on average until the next tick
 HWY_INLINE V pass_on(LaneLoops const& loops, TickInputs const& in, std::size_t row, V command, LaneLoopState& loop,
                      std::size_t lane) {
@@ -67,7 +105,7 @@ HWY_INLINE V pass_on(LaneLoops const& loops, TickInputs const& in, std::size_t r
     store(hn::Add(acting, hn::Mul(lagging, load(loops.lag_end, lane))), loop.lagged, lane);
     acting = hn::Add(acting, hn::Mul(lagging, load(loops.lag_mean, lane)));
   }
-  return acting;
+  return hn::Mul(acting, load(loops.motor_gain, lane));
 }
 
 // what the motor gives on average until the next tick
@@ -113,6 +151,7 @@ HWY_INLINE V answer(LaneLoops const& loops, TickInputs const& in, std::size_t ro
       store(integral, loop.integral, lane);
       asked = hn::Add(asked, integral);
     }
+    if (loops.has_least_drive) asked = driven(loops, error, asked, lane);
     command = clamped(asked, least, most);
     store(command, loop.command, lane);
   }
@@ -176,9 +215,10 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
     for (std::size_t tick = 0; tick < ticks; ++tick) {
       for (std::size_t i = 0; i < n_vectors; ++i) {
         std::size_t const lane = first + i * vector_lanes, at = tick * twin_lanes + lane;
-        hn::StoreU(q[i], d, out.position + at);
+        V const read = loops.has_encoder ? read_by_steps(loops, q[i], lane) : q[i];
+        hn::StoreU(read, d, out.position + at);
         if (out.velocity != nullptr) hn::StoreU(dq[i], d, out.velocity + at);
-        V const motor = answer(loops, in, tick, q[i], dq[i], loop, lane);
+        V const motor = answer(loops, in, tick, read, dq[i], loop, lane);
         hn::StoreU(load(loop.logged, lane), d, out.torque + at);
         V held = hn::Sub(motor, load(rolled.offset, lane));
         if (in.outside != nullptr) held = hn::Add(held, hn::Set(d, in.outside[tick]));
@@ -192,10 +232,17 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
           slope =
               hn::Mul(per_inertia[i], hn::Sub(hn::Mul(by_sine, angle[i].cosine), hn::Mul(by_cosine, angle[i].sine)));
         }
-        Field<has_weight> const field(hn::Mul(hn::Sub(held, load(rolled.dry.forward, lane)), per_inertia[i]),
-                                      hn::Mul(hn::Sub(held, load(rolled.dry.backward, lane)), per_inertia[i]),
-                                      hn::Mul(hn::Add(load(joints.viscous, lane), braking), per_inertia[i]), q[i],
-                                      weight, slope);
+        V forward = load(rolled.dry.forward, lane), backward = load(rolled.dry.backward, lane);
+        if (rolled.gears.any) {
+          V const motor_torque = hn::Sub(motor, hn::Mul(braking, dq[i]));
+          V const weight_torque = hn::Mul(weight, load(joints.inertia, lane));
+          V const more = friction_of_gear(rolled.gears, motor_torque, weight_torque, dq[i], lane);
+          forward = hn::Add(forward, more);
+          backward = hn::Sub(backward, more);
+        }
+        Field<has_weight> const field(
+            hn::Mul(hn::Sub(held, forward), per_inertia[i]), hn::Mul(hn::Sub(held, backward), per_inertia[i]),
+            hn::Mul(hn::Add(load(joints.viscous, lane), braking), per_inertia[i]), q[i], weight, slope);
         V const from = q[i];
         for (std::size_t k = 0; k < steps; ++k) slide_step(field, step, q[i], dq[i], ddq[i]);
         if constexpr (has_weight) angle[i].turn(hn::Sub(q[i], from));
@@ -231,6 +278,7 @@ TORQUESCOPE_EXPORT(roll_light);
 TORQUESCOPE_EXPORT(roll_heavy);
 TORQUESCOPE_EXPORT(answer_lanes);
 TORQUESCOPE_EXPORT(pass_on_lanes);
+TORQUESCOPE_EXPORT(gear_friction_lanes);
 
 // share of a first-order lag that is left after a tick, and its mean over the tick; 0, 0 without a lag
 struct LagOfTick {
@@ -264,6 +312,9 @@ void LaneLoops::set(std::size_t lane, LoopNumbers const& numbers) {
   least[lane] = numbers.least;
   most[lane] = numbers.most;
   back_emf[lane] = numbers.back_emf;
+  motor_gain[lane] = numbers.motor_gain;
+  dead_band[lane] = numbers.dead_band;
+  punch[lane] = numbers.punch;
   goal_step[lane] = numbers.goal_speed * tick_s;
   goal_change[lane] = numbers.goal_acceleration * tick_s * tick_s;
   speed_share[lane] = 1.0 - LagOfTick(numbers.speed_lag_s, tick_s * static_cast<double>(hold_ticks)).end;
@@ -279,6 +330,27 @@ void LaneLoops::set(std::size_t lane, LoopNumbers const& numbers) {
   has_integral = has_integral || numbers.ki != 0.0 || numbers.ki_speed != 0.0;
   has_delay = has_delay || late > 0.0;
   has_lag = has_lag || lag.end > 0.0;
+  has_least_drive = has_least_drive || numbers.dead_band > 0.0 || numbers.punch > 0.0;
+}
+
+void LaneLoops::set_encoder(std::size_t lane, double step, double phase) {
+  encoder_step[lane] = step;
+  encoder_phase[lane] = phase;
+  has_encoder = has_encoder || step > 0.0;
+}
+
+void LaneGears::set(std::size_t lane, GearFriction const& gear) {
+  load[lane] = gear.load;
+  load_square[lane] = gear.load_square;
+  stribeck[lane] = gear.stribeck;
+  load_stribeck[lane] = gear.load_stribeck;
+  per_speed[lane] = 1.0 / gear.stribeck_speed;
+  any = any || !gear.is_none();
+}
+
+void gear_friction(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
+                   double* friction) {
+  TORQUESCOPE_DISPATCH(gear_friction_lanes)(gears, motor, weight, speed, friction);
 }
 
 void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double const* first_goal, double torque) {
@@ -293,10 +365,11 @@ void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double
       reads[k][lane] = joint.q[lane] - joint.dq[lane] * loops.period_s * static_cast<double>(loops.speed_samples - k);
     double const rest = loops.kp[lane] * (first_goal[lane] - joint.q[lane]) - loops.kd[lane] * joint.dq[lane];
     bool const sums = loops.ki[lane] != 0.0 || loops.ki_speed[lane] != 0.0;
-    integral[lane] = sums ? torque - rest : 0.0;
-    command[lane] = lagged[lane] = logged[lane] = torque;
+    double const before = std::isnan(torque) ? std::clamp(rest, loops.least[lane], loops.most[lane]) : torque;
+    integral[lane] = sums ? before - rest : 0.0;
+    command[lane] = lagged[lane] = logged[lane] = before;
   }
-  for (auto& row : commands) std::fill_n(row, twin_lanes, torque);
+  for (auto& row : commands) std::copy_n(command, twin_lanes, row);
 }
 
 void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& inputs, std::size_t ticks,

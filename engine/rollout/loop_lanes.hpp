@@ -12,6 +12,7 @@
 
 #include <cstddef>
 
+#include "engine/rollout/gear_friction.hpp"
 #include "engine/rollout/loop_numbers.hpp"
 #include "engine/simulate/lane_step.hpp"
 #include "engine/simulate/twin_lanes.hpp"
@@ -28,16 +29,20 @@ struct LaneLoops {
   alignas(64) Lanes kp{}, kd{}, ki{}, ki_speed{}, feed_speed{}, feed_acceleration{}, added_gain{};
   alignas(64) Lanes least{}, most{}, speed_share{}, back_emf{}, goal_step{}, goal_change{};
   alignas(64) Lanes late_share{}, lag_end{}, lag_mean{}, log_share{};
+  alignas(64) Lanes motor_gain{}, dead_band{}, punch{};
+  alignas(64) Lanes encoder_step{}, encoder_phase{};  // that the loop and the record read by; 0: exactly
   std::size_t late_ticks[twin_lanes] = {};
   double tick_s = 0.0;
   std::size_t hold_ticks = 1;
   bool has_profile = false, has_feed = false, has_integral = false, has_delay = false, has_lag = false;
+  bool has_least_drive = false, has_encoder = false;
 
   std::size_t speed_samples = 1;  // that the difference of what it reads spans; 0: it sees the joint's own speed
   double period_s = 0.0, per_period = 0.0, per_span = 0.0;  // between two answers; over so many samples
 
   LaneLoops(double tick_s, std::size_t hold_ticks, std::size_t speed_samples = 1);
   void set(std::size_t lane, LoopNumbers const& numbers);
+  void set_encoder(std::size_t lane, double step, double phase);
 };
 
 // where the loop stands between its answers, the same for all lanes
@@ -63,8 +68,8 @@ struct LaneLoopState {
   alignas(64) double reads[most_speed_samples][twin_lanes] = {};   // a ring, by answer
   alignas(64) double commands[most_delay_ticks][twin_lanes] = {};  // a ring, by tick
 
-  // at a first tick that follows rest or an even motion: position, velocity, goal and the torque that was held before;
-  // the integral takes up what the other parts leave of it
+  // at a first tick that follows rest or an even motion: position, velocity, goal and the command that was held before;
+  // the integral takes up what the other parts leave of it. NaN: the command is what the loop answers at rest
   void start(LaneLoops const& loops, LaneState const& joint, double const* goal, double torque);
 };
 
@@ -84,18 +89,32 @@ struct TickOutputs {
   double* torque = nullptr;
 };
 
+// gear_friction.hpp, one a lane
+struct LaneGears {
+  using Lanes = double[twin_lanes];
+  alignas(64) Lanes load{}, load_square{}, stribeck{}, load_stribeck{}, per_speed{};
+  bool any = false;
+
+  void set(std::size_t lane, GearFriction const& gear);
+};
+
 struct RolledJoints {
   LaneJoints joints{};
   LaneDryFriction dry{};
+  LaneGears gears{};
   alignas(64) double offset[twin_lanes] = {};
 };
+
+// what the gears add to dry friction at this tick: motor, weight: torques on the joint; [lanes]
+void gear_friction(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
+                   double* friction);
 
 // `ticks` <= chunk_ticks ticks of `steps` steps each, of a joint without effects
 void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& inputs, std::size_t ticks,
                 std::size_t steps, LaneState& joint, LaneLoopState& loop, TickOutputs const& outputs);
 
-// the loop's half of one tick: read -> held, what the motor gives until the next, and logged. read: the positions that
-// the encoder shows; speed: of the joint; row: of the inputs
+// the loop's half of one tick: read -> held, what the motor gives until the next, and logged, the command as it is
+// logged. read: the positions that the encoder shows; speed: of the joint; row: of the inputs
 void answer_tick(LaneLoops const& loops, TickInputs const& inputs, std::size_t row, double const* read,
                  double const* speed, LaneLoopState& loop, double* held, double* logged);
 // the same from a command on, where another law gave it

@@ -3,9 +3,9 @@
 //
 // Equation   e = goal - q,  s = feed_speed dgoal - v,  v: low-passed backward difference of the q that is read
 //              u = kp e + kd s + I + feed_acceleration ddgoal + added_gain a,   dI/dt = ki e + ki_speed s
-//            least <= u <= most; the integral stops where it would push further into a limit, and
-//            while the drive is off
-//            motor: u, torque_delay later, through a lag of first order, less back_emf dq while the drive is on
+//            a dead band of the error, a least drive (punch), least <= u <= most; the integral stops where it would push
+//            further into a limit, and while the drive is off
+//            motor: motor_gain u, torque_delay later, through a lag, less back_emf dq while the drive is on
 //            logged: u through a low-pass of log_lag
 // Goal       the reference command_delay later, led by at most goal_speed and goal_acceleration
 // Units      SI of the joint's kind: kp N m/rad, kd N m s/rad, ki N m/(rad s), ki_speed N m/rad; s; rad/s, rad/s^2
@@ -24,6 +24,8 @@ struct LoopNumbers {
   double most = std::numeric_limits<double>::infinity();
   double speed_lag_s = 0.0;  // of the low-pass of the speed; 0: none
   double back_emf = 0.0;
+  double motor_gain = 1.0;              // torque per unit of the command
+  double dead_band = 0.0, punch = 0.0;  // errors that the drive takes for none; the least command of a larger one
   double goal_speed = std::numeric_limits<double>::infinity();
   double goal_acceleration = std::numeric_limits<double>::infinity();
   double command_delay_s = 0.0, torque_delay_s = 0.0, torque_lag_s = 0.0, log_lag_s = 0.0;

@@ -27,7 +27,17 @@ constexpr std::array<Member, loop_keys> members{&LoopOptions::kp,
                                                 &LoopOptions::command_delay_s,
                                                 &LoopOptions::torque_delay_s,
                                                 &LoopOptions::torque_lag_s,
-                                                &LoopOptions::torque_log_lag_s};
+                                                &LoopOptions::torque_log_lag_s,
+                                                &LoopOptions::motor_gain,
+                                                &LoopOptions::dead_band,
+                                                &LoopOptions::punch,
+                                                &LoopOptions::load_friction,
+                                                &LoopOptions::load_square_friction,
+                                                &LoopOptions::stribeck_friction,
+                                                &LoopOptions::stribeck_speed,
+                                                &LoopOptions::load_stribeck_friction,
+                                                &LoopOptions::arm_mass,
+                                                &LoopOptions::motor_gain_per_kelvin};
 
 double given(LoopOptions const& options, LoopKey key) { return options.*members[static_cast<std::size_t>(key)]; }
 
@@ -83,7 +93,19 @@ OptionTable<LoopOptions> const& LoopOptions::table() {
        {"command_delay_s", &Options::command_delay_s, "s", 0.0, 0.25, "until the controller sees the reference"},
        {"torque_delay_s", &Options::torque_delay_s, "s", 0.0, 0.25, "until the motor gives what was commanded"},
        {"torque_lag_s", &Options::torque_lag_s, "s", 0.0, 1.0, "first-order lag of the motor's torque"},
-       {"torque_log_lag_s", &Options::torque_log_lag_s, "s", 0.0, 1.0, "low-pass of the torque as it was logged"}});
+       {"torque_log_lag_s", &Options::torque_log_lag_s, "s", 0.0, 1.0, "low-pass of the torque as it was logged"},
+       {"motor_gain", &Options::motor_gain, "N m per unit", 0.0, 1e9, "torque per unit of the drive's command; 1"},
+       {"dead_band", &Options::dead_band, "rad; m", 0.0, 1e9, "error that the drive takes for none"},
+       {"punch", &Options::punch, "unit of the command", 0.0, 1e9, "least command of an error that is not none"},
+       {"load_friction", &Options::load_friction, "1", 0.0, 1.0, "dry friction per torque on the gear"},
+       {"load_square_friction", &Options::load_square_friction, "1/(N m)", 0.0, 1e9,
+        "the same by the square of that torque"},
+       {"stribeck_friction", &Options::stribeck_friction, "N m", 0.0, 1e9, "dry friction that goes with speed"},
+       {"stribeck_speed", &Options::stribeck_speed, "rad/s", 1e-6, 1e9, "at which a third of it is left; 0.1"},
+       {"load_stribeck_friction", &Options::load_stribeck_friction, "1", 0.0, 1.0, "the same per torque on the gear"},
+       {"arm_mass", &Options::arm_mass, "kg", 0.0, 1e6, "of a bar of known.arm_length that carries the load"},
+       {"motor_gain_per_kelvin", &Options::motor_gain_per_kelvin, "1/K", -1.0, 1.0,
+        "of motor_gain, from 25 deg C on, over known.temperature"}});
   return table;
 }
 

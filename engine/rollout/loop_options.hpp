@@ -32,6 +32,10 @@ struct LoopOptions {
   double goal_speed_limit = not_given, goal_acceleration_limit = not_given;
   double command_delay_s = not_given, torque_delay_s = not_given, torque_lag_s = not_given,
          torque_log_lag_s = not_given;
+  double motor_gain = not_given, dead_band = not_given, punch = not_given;
+  double load_friction = not_given, load_square_friction = not_given, stribeck_friction = not_given,
+         stribeck_speed = not_given, load_stribeck_friction = not_given;
+  double arm_mass = not_given, motor_gain_per_kelvin = not_given;
 
   static OptionTable<LoopOptions> const& table();
 };

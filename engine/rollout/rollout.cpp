@@ -30,6 +30,25 @@ LoopNumbers loop_on(RolloutTrack const& track, LoopNumbers loop) {
   return loop;
 }
 
+// with what is known of the recording: a bar of the arm's mass turns about its end
+RolloutTrial on_track(RolloutTrack const& track, RolloutTrial trial) {
+  TrackKnown const& known = track.known;
+  constexpr double gravity = 9.80665, warm_room = 25.0;
+  double const arm_moment = trial.arm_mass * known.arm_length;
+  trial.joint.inertia += known.inertia + arm_moment * known.arm_length / 3.0;
+  trial.joint.gravity_sin += known.gravity_moment + 0.5 * gravity * arm_moment;
+  trial.loop = loop_on(track, trial.loop);
+  if (track.drive == TrackDrive::reference) {
+    for (double* gain : {&trial.loop.kp, &trial.loop.kd, &trial.loop.ki, &trial.loop.ki_speed})
+      *gain *= known.command_gain;
+    trial.loop.most = std::min(trial.loop.most, known.command_limit);
+    trial.loop.least = std::max(trial.loop.least, -known.command_limit);
+  }
+  if (std::isfinite(known.temperature))
+    trial.loop.motor_gain *= 1.0 + trial.motor_gain_per_kelvin * (known.temperature - warm_room);
+  return trial;
+}
+
 // sixteen trials as lanes; those beyond the last repeat the first
 class Lanes {
  public:
@@ -37,16 +56,17 @@ class Lanes {
       : has_law_(track.law.has_value()), loops(track.tick_s(), structure.hold_ticks, structure.speed_samples) {
     std::vector<std::vector<std::vector<double>>> parameters(structure.effects.size());
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      RolloutTrial const& trial = trials[lane < trials.size() ? lane : 0];
-      used.push_back(&trial);
+      used.push_back(on_track(track, trials[lane < trials.size() ? lane : 0]));
+      RolloutTrial const& trial = used.back();
       rolled.joints.set(lane, trial.joint);
       rolled.dry.forward[lane] = trial.forward;
       rolled.dry.backward[lane] = trial.backward;
       rolled.offset[lane] = trial.offset;
-      loops.set(lane, loop_on(track, trial.loop));
+      rolled.gears.set(lane, trial.gear);
+      loops.set(lane, trial.loop);
+      loops.set_encoder(lane, trial.encoder_step, trial.encoder_phase);
       delay_ticks.push_back(trial.loop.command_delay_s / track.tick_s());
       for (std::size_t e = 0; e < parameters.size(); ++e) parameters[e].push_back(trial.effects[e]);
-      reads_by_steps = reads_by_steps || trial.encoder_step > 0.0;
     }
     LaneBaseline beside;
     beside.joint = rolled.joints;
@@ -58,12 +78,12 @@ class Lanes {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) braked.viscous[lane] += loops.back_emf[lane];
   }
 
-  bool is_fast() const { return makers.empty() && !has_law_ && !reads_by_steps; }
+  bool is_fast() const { return makers.empty() && !has_law_; }
 
   void read_encoder(double* position) const {
-    if (!reads_by_steps) return;
+    if (!loops.has_encoder) return;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      double const step = used[lane]->encoder_step, phase = used[lane]->encoder_phase;
+      double const step = used[lane].encoder_step, phase = used[lane].encoder_phase;
       if (step > 0.0) position[lane] = step * std::floor((position[lane] + phase) / step + 0.5) - phase;
     }
   }
@@ -75,11 +95,10 @@ class Lanes {
   LaneLoops loops;
   RolledJoints rolled{};
   LaneJoints braked{};  // with the back-EMF of a drive that is on
-  std::vector<RolloutTrial const*> used{};
+  std::vector<RolloutTrial> used{};
   std::vector<double> delay_ticks{};
   std::vector<LaneEffectMaker> makers{};
   std::size_t steps = 1;
-  bool reads_by_steps = false;
 };
 
 struct Chunk {
@@ -139,6 +158,7 @@ class SlowSegment {
       for (std::size_t lane = 0; lane < twin_lanes; ++lane)
         acts[lane] = held[lane] - lanes_.rolled.offset[lane] + outside;
       bool const is_on = inputs.enabled == nullptr || inputs.enabled[row] != 0.0;
+      if (lanes_.rolled.gears.any) rub_gears(is_on, state);
       motion_.advance_tick(is_on ? lanes_.braked : lanes_.rolled.joints, time_s, motor_, acts, ones_, nullptr, state);
     }
   }
@@ -156,6 +176,23 @@ class SlowSegment {
     for (std::size_t lane = 0; lane < twin_lanes; ++lane)
       whole[lane] = command_[lane] + lanes_.loops.added_gain[lane] * added;
     pass_on_tick(lanes_.loops, inputs, row, whole, loop, held, logged);
+  }
+
+  void rub_gears(bool is_on, LaneState const& state) {
+    alignas(64) double motor[twin_lanes], weight[twin_lanes], friction[twin_lanes];
+    LaneJoints const& joints = lanes_.rolled.joints;
+    LaneDryFriction dry = lanes_.rolled.dry;
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      motor[lane] = motor_[lane] - (is_on ? lanes_.loops.back_emf[lane] * state.dq[lane] : 0.0);
+      weight[lane] =
+          joints.gravity_sin[lane] * std::sin(state.q[lane]) + joints.gravity_cos[lane] * std::cos(state.q[lane]);
+    }
+    gear_friction(lanes_.rolled.gears, motor, weight, state.dq, friction);
+    for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
+      dry.forward[lane] += friction[lane];
+      dry.backward[lane] -= friction[lane];
+    }
+    motion_.set_dry_friction(dry);
   }
 
   RolloutTrack const& track_;
@@ -230,8 +267,8 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes 
   ChunkInputs inputs(track, segment, lanes.delay_ticks);
   LaneState state;
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    state.q[lane] = segment.position + lanes.used[lane]->position_step;
-    state.dq[lane] = segment.velocity + lanes.used[lane]->velocity_step;
+    state.q[lane] = segment.position + lanes.used[lane].position_step;
+    state.dq[lane] = segment.velocity + lanes.used[lane].velocity_step;
   }
   LaneLoopState loop;
   double first_goal[twin_lanes];

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/effects/effect.hpp"
+#include "engine/rollout/gear_friction.hpp"
 #include "engine/rollout/loop_numbers.hpp"
 #include "engine/rollout/track.hpp"
 #include "engine/simulate/twin_lanes.hpp"
@@ -33,7 +34,9 @@ struct RolloutTrial {
   LaneJoint joint{};
   double forward = 0.0, backward = 0.0;  // dry friction
   double offset = 0.0;
-  std::vector<std::vector<double>> effects{};  // of each, as Effect::runner takes them
+  GearFriction gear{};
+  double arm_mass = 0.0, motor_gain_per_kelvin = 0.0;  // for what is known of a track (track_known.hpp)
+  std::vector<std::vector<double>> effects{};          // of each, as Effect::runner takes them
   LoopNumbers loop{};
   double position_step = 0.0, velocity_step = 0.0;  // beside the measured start
   double encoder_step = 0.0, encoder_phase = 0.0;   // that the loop and the record read by; 0: exactly

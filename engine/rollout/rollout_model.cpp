@@ -54,6 +54,30 @@ RolloutParameter shape_of(EffectParameter const& parameter, ParameterRange const
   return made;
 }
 
+// of a number of the loop: a tenth of what moves the joint, a sample, a step of the encoder
+double natural_size(LoopMeasure measure, JointScales const& scales) {
+  constexpr double tenth = 0.1;
+  switch (measure) {
+    case LoopMeasure::time:
+      return 1.0 / scales.rate_hz;
+    case LoopMeasure::torque:
+      return tenth * scales.torque_rms;
+    case LoopMeasure::torque_per_speed:
+      return scales.torque_rms / scales.peak_speed;
+    case LoopMeasure::speed:
+      return tenth * scales.peak_speed;
+    case LoopMeasure::position:
+      return std::max(scales.encoder_step, 1e-3 * scales.position_range);
+    case LoopMeasure::per_torque:
+      return tenth / scales.torque_rms;
+    case LoopMeasure::mass:
+    case LoopMeasure::acceleration:
+    case LoopMeasure::number:
+      break;
+  }
+  return tenth;
+}
+
 void begin_at(RolloutParameter& parameter, double value) {
   parameter.start = value;
   parameter.is_given = true;
@@ -126,12 +150,8 @@ void RolloutModel::add_loop_parameters(JointScales const& scales) {
     made.lower = facts.least;
     made.upper = facts.most;
     made.is_given = true;
-    constexpr double tenth = 0.1;
-    bool const is_time = std::string(facts.name).ends_with("_s");
-    double const sample_s = 1.0 / scales.rate_hz;
-    double const size = is_time ? sample_s : key == LoopKey::back_emf ? scales.torque_rms / scales.peak_speed : tenth;
-    made.scale = std::max(std::abs(made.start), size);
-    if (key == LoopKey::goal_speed_limit) made.scale = std::min(made.scale, scales.peak_speed);
+    made.scale = std::max(std::abs(made.start), natural_size(facts.measure, scales));
+    if (facts.measure == LoopMeasure::speed) made.scale = std::min(made.scale, scales.peak_speed);
     parameters_.push_back(std::move(made));
   }
 }
@@ -174,13 +194,16 @@ RolloutTrial RolloutModel::trial(Eigen::Ref<Eigen::VectorXd const> const& parame
   LoopValues values = loop_.values;
   for (LoopKey const key : loop_.free) values[key] = *value++;
   trial.loop = numbers_of(loop_.form, values);
+  trial.gear = gear_of(values);
+  trial.arm_mass = values[LoopKey::arm_mass];
+  trial.motor_gain_per_kelvin = values[LoopKey::motor_gain_per_kelvin];
   trial.is_possible = parameters.allFinite() && trial.joint.inertia > 0.0 && trial.backward <= trial.forward;
   return trial;
 }
 
 RolloutStructure RolloutModel::structure_for(Eigen::VectorXd const& parameters, double tick_s) const {
   RolloutStructure structure = structure_;
-  structure.step_s = longest_step_s(trial(parameters), structure_, tick_s);
+  structure.step_s = loop_.steps_by_ticks ? tick_s : longest_step_s(trial(parameters), structure_, tick_s);
   return structure;
 }
 

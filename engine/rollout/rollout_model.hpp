@@ -40,6 +40,7 @@ struct LoopSetting {
   std::vector<LoopKey> free{};  // those that are searched
   std::size_t hold_ticks = 1;
   std::size_t speed_samples = 1;  // 0: the controller sees the joint's own speed
+  bool steps_by_ticks = false;    // one step of the integration a tick, however fast the joint
 };
 
 class RolloutModel {

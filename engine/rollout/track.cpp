@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/dense_solvers.hpp"
 #include "engine/base/error.hpp"
@@ -126,7 +127,8 @@ RolloutTrack track_of(Recording const& recording, TrackOptions const& options) {
         std::find_if(runs.rbegin(), runs.rend(), [&](auto const& one) { return one.first <= segment.first; });
     segment.position = track.position[segment.first];
     segment.velocity = velocity_at(track, run->first, segment.first, run->first + run->samples);
-    segment.torque = track.torque[std::max(segment.first - 1, run->first)];
+    segment.torque = options.has_torque ? track.torque[std::max(segment.first - 1, run->first)]
+                                        : std::numeric_limits<double>::quiet_NaN();
   }
   return track;
 }

@@ -15,13 +15,14 @@
 #include <vector>
 
 #include "engine/data/recording.hpp"
+#include "engine/rollout/track_known.hpp"
 #include "engine/simulate/loop_law.hpp"
 
 namespace torquescope {
 
 struct TrackSegment {
   Eigen::Index first = 0, samples = 0;
-  double position = 0.0, velocity = 0.0, torque = 0.0;  // at its start
+  double position = 0.0, velocity = 0.0, torque = 0.0;  // at its start; torque NaN: not recorded
 };
 
 enum class TrackDrive { reference, torque };
@@ -36,6 +37,7 @@ struct RolloutTrack {
   Eigen::VectorXd time_s, reference, position, torque;
   Eigen::VectorXd added, outside, enabled;
   std::vector<TrackSegment> segments;
+  TrackKnown known{};
   std::optional<LoopLaw> law{};  // found in this recording; none: the loop's numbers are the whole of it
 
   double tick_s() const { return 1.0 / (rate_hz * static_cast<double>(ticks_per_sample)); }
@@ -46,6 +48,7 @@ struct TrackOptions {
   double controller_rate_hz = 0.0;  // 0: the recording's
   bool straight_reference = false;
   double window_s = 0.05;  // of a track without a reference
+  bool has_torque = true;  // else the recording's torque is no measurement, and its command begins at the loop's own
 };
 
 // What a simulation of the positions has to tell, [n]: measured less what is known anyhow. That is their mean; in

@@ -29,6 +29,9 @@ class LaneMotion {
 
   std::vector<std::unique_ptr<LaneEffect>> const& effects() const { return effects_; }
 
+  // from the next tick on
+  void set_dry_friction(LaneDryFriction const& dry) { dry_ = dry; }
+
   // command: of the motor, as effects see it; acts: on the joint beside them; level: of dry friction, one per lane;
   // sticking: none, where friction holds at once
   void advance_tick(LaneJoints const& joints, double time_s, double const* command, double const* acts,

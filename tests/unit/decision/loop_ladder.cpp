@@ -80,13 +80,13 @@ struct Asked {
   std::vector<RolloutTrack> training, validation;
   LoopFacts climbed(int threads) const {
     LoopQuestion question{terms, start, scales, loop, training, validation};
-    question.moves = command_moves(loop, training);
+    question.moves = drive_moves(loop, training, {DriveLawKind::profile});
     question.moves.push_back(law_move(*find_effect("cogging"), {7.1}, scales));
     question.moves.push_back(law_move(*find_effect("asymmetric_viscous"), {}, scales));
     question.moves.push_back(law_move(*find_effect("spring"), {}, scales));
     question.seed = 5;
     question.threads = threads;
-    return climb_ladder(question);
+    return climb_ladder(question).facts;
   }
 };
 

@@ -1,0 +1,109 @@
+#include "engine/decision/servo_decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/decision/loop_moves.hpp"
+#include "engine/decision/servo_start.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+
+// sizes of the joint that bounds and steps of a fit are measured by
+JointScales scales_of(ServoStart const& start, DriveScales const& recorded, std::vector<RolloutTrack> const& tracks) {
+  JointScales scales;
+  double lowest = tracks.front().position[0], highest = lowest;
+  for (auto const& track : tracks) {
+    lowest = std::min(lowest, track.position.minCoeff());
+    highest = std::max(highest, track.position.maxCoeff());
+    scales.duration_s = std::max(scales.duration_s, static_cast<double>(track.position.size()) / track.rate_hz);
+    scales.gravity_sin = std::max(scales.gravity_sin, track.known.gravity_moment);
+    scales.inertia = std::max(scales.inertia, track.known.inertia);
+  }
+  scales.rate_hz = 1.0 / recorded.sample_s;
+  scales.peak_speed = recorded.speed;
+  scales.position_range = highest - lowest;
+  scales.position_centre = 0.5 * (highest + lowest);
+  scales.encoder_step = recorded.encoder_step;
+  scales.torque_rms = start.motor_gain * recorded.command;
+  scales.torque_peak = scales.torque_highest = scales.torque_lowest = 3.0 * scales.torque_rms;
+  return scales;
+}
+
+void free_key(LoopSetting& loop, LoopKey key, double value) {
+  if (std::find(loop.free.begin(), loop.free.end(), key) != loop.free.end()) return;
+  if (loop.values[key] != facts_of(key).none) return;  // the job gives it
+  loop.free.push_back(key);
+  loop.values[key] = value;
+}
+
+LoopSetting loop_of(ServoQuestion const& question, ServoStart const& start) {
+  LoopSetting loop = question.loop;
+  loop.steps_by_ticks = true;
+  if (start.fixes_scale) free_key(loop, LoopKey::motor_gain, start.motor_gain);
+  bool const brakes = question.command == DriveCommand::voltage;
+  if (brakes) free_key(loop, LoopKey::back_emf, 0.5 * start.damping);
+  return loop;
+}
+
+// What least squares says of friction is bent by delays, and of inertia by the encoder: both larger and smaller ones
+std::vector<LoopPoint> starts_of(LoopQuestion const& question, Regressor const& regressor) {
+  std::vector<LoopPoint> starts{base_point(question)};
+  for (double const inertia : {0.2, 1.0, 5.0})
+    for (double const friction : {0.3, 1.0, 3.0}) {
+      LoopPoint other = base_point(question);
+      Index at = 0;
+      for (auto const* term : regressor.terms()) {
+        if (term->name() == "inertia") other.terms[at] *= inertia;
+        if (term->name() == "coulomb") other.terms[at] *= friction;
+        at += static_cast<Index>(term->n_linear());
+      }
+      starts.push_back(std::move(other));
+    }
+  return starts;
+}
+
+LoopQuestion asked_of(ServoQuestion const& question, ServoStart const& start, LoopSetting const& loop,
+                      JointScales const& scales) {
+  LoopQuestion asked{question.regressor, start.terms,         scales,        loop,
+                     question.training,  question.validation, {true, false}, {},
+                     question.most_laws};
+  asked.numbers = question.numbers;
+  asked.seed = question.seed;
+  asked.threads = question.threads;
+  asked.fits_starts = false;
+  asked.progress = question.progress;
+  return asked;
+}
+
+}  // namespace
+
+RolloutModel ServoDecision::model(ServoQuestion const& question, LoopFit const& fit) const {
+  return {question.regressor, fit.point.terms, scales, fit.point.effects, fit.point.loop};
+}
+
+ServoDecision decide_servo(ServoQuestion const& question) {
+  ServoStart const start = servo_start(question.regressor, question.loop, question.training);
+  LoopSetting const loop = loop_of(question, start);
+  ServoDecision decision;
+  decision.fixes_scale = start.fixes_scale;
+  decision.recorded = drive_scales(question.training, numbers_of(loop.form, loop.values));
+  decision.scales = scales_of(start, decision.recorded, question.training);
+  LoopQuestion asked = asked_of(question, start, loop, decision.scales);
+  asked.moves = drive_moves(loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear});
+  LoopClimb climb = climb_ladder(asked, starts_of(asked, question.regressor));
+  decision.facts = std::move(climb.facts);
+  decision.base = std::move(climb.base);
+  decision.final = std::move(climb.final);
+  return decision;
+}
+
+LoopFit refitted(ServoQuestion const& question, ServoDecision const& decision, LoopFit const& structure) {
+  ServoStart const start = servo_start(question.regressor, question.loop, question.training);
+  LoopQuestion const asked = asked_of(question, start, structure.point.loop, decision.scales);
+  return fitted(asked, structure.point, LoopSearch::to_its_end, question.threads);
+}
+
+}  // namespace torquescope

@@ -1,0 +1,23 @@
+#include <algorithm>
+
+#include "engine/rollout/drive_laws/drive_laws.hpp"
+
+namespace torquescope {
+
+DriveLaw const& dead_band_law() {
+  static DriveLaw const law{
+      .name = "dead_band",
+      .title = "Dead band of the drive",
+      .equation = "no command while |error| <= dead_band",
+      .confused = "coulomb friction at one gain; another gain tells",
+      .kind = DriveLawKind::drive,
+      .keys = {LoopKey::dead_band},
+      .adds = false,
+      .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
+        return {{std::max(of.encoder_step, 0.1 * of.error)}, {std::max(2.0 * of.encoder_step, 0.3 * of.error)}};
+      },
+  };
+  return law;
+}
+
+}  // namespace torquescope
