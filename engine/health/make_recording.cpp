@@ -345,8 +345,13 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   take("simulated_position", recording.simulated_position, 0.0);
   take("added_command", recording.added_command, 0.0);
   take("external_torque", recording.external_torque, 0.0);
+  // between rows the nearer one says whether the drive is on
+  constexpr double half = 0.5;
+  if (exam.has("enabled"))
+    for (double& value : exam.values("enabled"))
+      if (std::isfinite(value)) value = value != 0.0 ? 1.0 : 0.0;
   take("enabled", recording.enabled, 0.0);
-  recording.enabled = (recording.enabled.array() != 0.0).cast<double>();
+  recording.enabled = (recording.enabled.array() > half).cast<double>();
   if (others == OtherJoints::kept) take_other_joints(exam, sampling, sampled, grid, recording);
   recording.left_out = merged(std::move(recording.left_out));
   report_left_out(exam, recording.left_out);
