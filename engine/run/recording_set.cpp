@@ -280,7 +280,9 @@ std::vector<SetEntry> read_recording_set(Job const& job, std::vector<Problem>& p
     problems.push_back(
         problem_at(*sections.front(), "role", fmt::format("none of the {} recordings is for training", entries.size()),
                    "write role = \"train\" in a [[recordings]], or train in the manifest's role column"));
-  evaluate_known(job, entries, problems);
+  // of a part of the set one would miss quantities that the other part has
+  std::vector<SetEntry> none;
+  evaluate_known(job, problems.size() == before ? entries : none, problems);
   return entries;
 }
 

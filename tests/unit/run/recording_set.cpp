@@ -293,6 +293,11 @@ TEST_F(KnownOfSet, RefusesAnUnknownQuantityWithTheNearestName) {
   EXPECT_THAT(problem.notes, ElementsAre("quantities: kp, length_mm, mass_kg, motion, motor, supply_v"));
 }
 
+TEST_F(KnownOfSet, AsksForNoQuantityOfRecordingsThatWereNotFound) {
+  auto const job = with("command_gain = \"gain\"\n[[recordings]]\nfiles = \"test/{gain}.csv\"");
+  expect_problem(problem_of(job), ExitCode::no_input, 9, "recordings.files", "matches no file", "relative to the job");
+}
+
 TEST_F(KnownOfSet, SaysTheFactorWhereOnlyTheUnitDiffers) {
   auto const problem = problem_of(with("gravity_moment = \"9.80665 * mass_kg * length_m\""));
   expect_problem(problem, ExitCode::bad_job, 7, "known.gravity_moment", "names length_m",
