@@ -40,8 +40,8 @@ bool ends_in(std::string const& path, std::string const& name) {
 
 class ColumnPicker {
  public:
-  ColumnPicker(RawTable const& table, RecordingOptions const& options, Section const& section)
-      : table_(table), options_(options), section_(section) {}
+  ColumnPicker(RawTable const& table, RecordingOptions const& options, Section const& section, TorqueColumn torque)
+      : table_(table), options_(options), section_(section), torque_(torque) {}
 
   Channels pick() {
     check_mapping();
@@ -75,8 +75,9 @@ class ColumnPicker {
       throw Error(std::move(problems_));
     }
     for (auto const& [channel, column] : options_.columns) check_channel(channel);
-    for (auto const* required : {"position", "torque"})
-      if (!options_.columns.contains(required)) missing(required, fmt::format("columns names no {}", required));
+    if (!options_.columns.contains("position")) missing("position", "columns names no position");
+    if (torque_ == TorqueColumn::required && !options_.columns.contains("torque"))
+      missing("torque", "columns names no torque");
     bool const has_time = options_.columns.contains("time"), has_rate = options_.rate_hz > 0;
     if (!has_time && !has_rate) {
       missing("time", "columns names no time, and there is no rate_hz");
@@ -155,6 +156,7 @@ class ColumnPicker {
   RawTable const& table_;
   RecordingOptions const& options_;
   Section const& section_;
+  TorqueColumn torque_;
   std::vector<Problem> problems_;
 };
 
@@ -172,8 +174,9 @@ std::vector<double> const& values_of(RawTable const& table, std::string const& c
   return table.columns.at(static_cast<std::size_t>(at));
 }
 
-Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section) {
-  return ColumnPicker(table, options, section).pick();
+Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section,
+                       TorqueColumn torque) {
+  return ColumnPicker(table, options, section, torque).pick();
 }
 
 }  // namespace torquescope

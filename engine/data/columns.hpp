@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/torque_column.hpp"
 
 namespace torquescope {
 
@@ -22,7 +23,8 @@ struct Channel {
 };
 using Channels = std::map<std::string, Channel>;
 
-Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section);
+Channels pick_channels(RawTable const& table, RecordingOptions const& options, Section const& section,
+                       TorqueColumn torque = TorqueColumn::required);
 
 std::string file_name(RawTable const& table);  // without its folder
 // Requires   `column` is one of the table's names, whole

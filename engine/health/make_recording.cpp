@@ -300,9 +300,9 @@ void report_left_out(Examination& exam, std::vector<Stretch> const& stretches) {
 }  // namespace
 
 Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section,
-                         OtherJoints others) {
+                         OtherJoints others, TorqueColumn torque) {
   check_options(options, section);
-  Examination exam{table, options, section, pick_channels(table, options, section)};
+  Examination exam{table, options, section, pick_channels(table, options, section, torque)};
   check_rows(table);
   auto missing_words = missing_values(exam.channels, table, options);
   check_moves(exam.channels, table);
@@ -336,6 +336,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
     out = on_grid(known, sampling, grid, delay_s) * unit_of(name, options);
   };
   take("position", recording.position, 0.0);
+  recording.torque = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
   take("torque", recording.torque, options.delay_s);
   take("reference", recording.reference, 0.0);
   take("velocity", recording.velocity, 0.0);
@@ -344,8 +345,13 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   take("simulated_position", recording.simulated_position, 0.0);
   take("added_command", recording.added_command, 0.0);
   take("external_torque", recording.external_torque, 0.0);
+  // between rows the nearer one says whether the drive is on
+  constexpr double half = 0.5;
+  if (exam.has("enabled"))
+    for (double& value : exam.values("enabled"))
+      if (std::isfinite(value)) value = value != 0.0 ? 1.0 : 0.0;
   take("enabled", recording.enabled, 0.0);
-  recording.enabled = (recording.enabled.array() != 0.0).cast<double>();
+  recording.enabled = (recording.enabled.array() > half).cast<double>();
   if (others == OtherJoints::kept) take_other_joints(exam, sampling, sampled, grid, recording);
   recording.left_out = merged(std::move(recording.left_out));
   report_left_out(exam, recording.left_out);
@@ -359,7 +365,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
     return values;
   };
   recording.rows.encoder_step = quantisation_step(known_of("position")) * std::fabs(options.position_per_unit);
-  recording.rows.torque_limit_share = limit_share(known_of("torque"));
+  if (exam.has("torque")) recording.rows.torque_limit_share = limit_share(known_of("torque"));
   recording.warnings = std::move(missing_words);
   for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));
   recording.findings = std::move(exam.findings);

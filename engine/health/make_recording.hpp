@@ -6,10 +6,12 @@
 // Left out   stretches without values, and those of recording.leave_out: filled, and not looked at
 //            (Recording::left_out)
 // Faults     are findings as well: who calls decides whether they end the work (health/finding_text.hpp)
+// Torque     zeros where TorqueColumn::optional and the mapping names none
 // Errors     Error 78 of the mapping; 65: too few rows, a signal that never changes, a clock that cannot be mended
 // Threads    free function
 
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/torque_column.hpp"
 
 namespace torquescope {
 
@@ -18,6 +20,6 @@ enum class OtherJoints { ignored, kept };
 
 // `section` is the job's [recording]: its places stand in the messages
 Recording make_recording(RawTable const& table, RecordingOptions const& options, Section const& section,
-                         OtherJoints others = OtherJoints::ignored);
+                         OtherJoints others = OtherJoints::ignored, TorqueColumn torque = TorqueColumn::required);
 
 }  // namespace torquescope

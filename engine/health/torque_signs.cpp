@@ -74,6 +74,7 @@ double difference_of_ways(std::vector<double> const& position, std::vector<doubl
 }  // namespace
 
 void examine_torque_sign(Examination& exam) {
+  if (!exam.has("torque")) return;
   auto const& torque = exam.values("torque");
   auto const rows = known_rows(torque);
   bool const never_negative =
@@ -93,6 +94,7 @@ void examine_torque_sign(Examination& exam) {
 // at least, for a torque that comes down by itself does so over many rows
 void leave_out_switched_off(Examination& exam) {
   constexpr double shortest_s = 0.5, within_noise = 4.5, far_above = 10.0, most_of_the_time = 0.5, moves = 0.01;
+  if (!exam.has("torque")) return;
   auto& torque = exam.values("torque");
   auto const known = known_rows(torque);
   if (known.size() < 64) return;

@@ -19,6 +19,8 @@ bool is_zero_row(Examination const& exam, std::size_t row) {
 // a logger that starts before the first message, or a table that was allocated longer than it was filled
 void leave_out_zeros_at_the_ends(Examination& exam) {
   constexpr std::size_t fewest = 3;  // a recording may begin at zero
+  // a joint that waits at zero for a command that is zero looks the same, but for its torque
+  if (!exam.has("torque")) return;
   auto const leave_out = [&](std::size_t from, std::size_t until) {
     std::vector<std::size_t> rows;
     for (std::size_t i = from; i < until; ++i) rows.push_back(i);
@@ -76,7 +78,8 @@ void fill_excursions(Examination& exam, Roughness const& roughness) {
   }
   // a row of zeros is a message that was never filled: none of its channels says anything
   for (std::size_t row : rows) {
-    bool const all = is_zero_row(exam, row) || (position[row] == 0.0 && exam.values("torque")[row] == 0.0);
+    bool const torque_is_none = !exam.has("torque") || exam.values("torque")[row] == 0.0;
+    bool const all = is_zero_row(exam, row) || (position[row] == 0.0 && torque_is_none);
     for (auto const* name : {"torque", "velocity", "acceleration", "reference", "simulated_torque"})
       if (all && exam.has(name) && exam.values(name)[row] == 0.0) exam.values(name)[row] = missing;
     position[row] = missing;
@@ -112,6 +115,7 @@ void examine_torque_rows(Examination& exam) {
   // a spike is at most three rows, and no other row reaches a quarter of it: in a recording of many impacts some do
   constexpr double beyond_all_others = 4.0, most_rows = 0.002;
   constexpr std::size_t longest = 3;
+  if (!exam.has("torque")) return;
   auto& torque = exam.values("torque");
   auto const known = known_rows(torque);
   std::vector<double> sizes;

@@ -7,7 +7,7 @@ namespace torquescope {
 
 std::vector<Section> parse_sections(std::string const& text, std::string const& file) {
   static TomlDialect const dialect{.noun = "job",
-                                   .repeated = {"estimator", "model.effects", "simulate.effects"},
+                                   .repeated = {"estimator", "recordings", "model.effects", "simulate.effects"},
                                    .map_keys = {"columns", "encoding"},
                                    .section_example = "a section is written [filter], an estimator [[estimator]]",
                                    .where_to_read = "      (torquescope describe experiment)",

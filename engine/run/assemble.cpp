@@ -62,6 +62,14 @@ void check_name(Job const& job, std::string const& name, std::vector<Problem>& p
 void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {
   bool const reads = !recording.train.empty();
   bool const simulates = job.find("simulate") != nullptr;
+  if (Section const* set = job.find("recordings")) {
+    problems.push_back(problem_at(*set, "", "this command works on recording.train, and the job has [[recordings]]",
+                                  "write [recording] with train = [\"FILE.csv\"] in place of [[recordings]]"));
+    return;
+  }
+  if (Section const* known = job.find("known"))
+    problems.push_back(problem_at(*known, "", "[known] is about the recordings of [[recordings]], and there are none",
+                                  "remove it, or write [[recordings]] with files = \"train/*.csv\""));
   if (!reads && !simulates)
     problems.push_back(missing(job, "the job has no data: neither recording.train nor [simulate]",
                                "write [recording] with train = \"FILE.csv\", or [simulate] with a plant"));
@@ -80,26 +88,6 @@ std::vector<Recording> read_recordings(Job const& job, std::vector<std::string> 
     recordings.push_back(make_recording(table, options, section, others));
   }
   return recordings;
-}
-
-// of a column that only some recordings need, one has it: else its name is wrong
-void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
-                    std::vector<Recording> const& unseen) {
-  std::vector<Problem> problems;
-  auto const check = [&](char const* channel, Eigen::VectorXd Recording::*values) {
-    auto const column = options.columns.find(channel);
-    auto const has_it = [&](Recording const& one) { return (one.*values).size() > 0; };
-    if (column == options.columns.end() || std::any_of(train.begin(), train.end(), has_it) ||
-        std::any_of(unseen.begin(), unseen.end(), has_it))
-      return;
-    problems.push_back(problem_at(section_or_empty(job, "recording"), "columns",
-                                  fmt::format("no recording has the column \"{}\" ({})", column->second, channel),
-                                  "write its name as one of the files has it, or remove it"));
-  };
-  check("added_command", &Recording::added_command);
-  check("external_torque", &Recording::external_torque);
-  check("enabled", &Recording::enabled);
-  if (!problems.empty()) throw Error(std::move(problems));
 }
 
 // what cannot be fitted: a joint that stands still tells nothing, in training

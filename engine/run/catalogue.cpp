@@ -18,6 +18,7 @@
 #include "engine/rollout/loop_options.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
+#include "engine/run/recording_set.hpp"
 #include "engine/simulate/simulation_plan.hpp"
 
 namespace torquescope {
@@ -117,6 +118,17 @@ void add_section(std::vector<CatalogueEntry>& entries, char const* kind = "secti
 void add_sections(std::vector<CatalogueEntry>& entries) {
   add_section<ExperimentOptions>(entries);
   add_section<RecordingOptions>(entries);
+  add_section<RecordingsOptions>(entries);
+  entries.back().text = {
+      "files = \"train/servo_m{mass_kg}_kp{kp}_{motion}.csv.gz\"    a name whose matches are all numbers is a number",
+      "supply_v = 12.0    any other key is a quantity of each of these recordings, a number or a text",
+      "Channels and units are those of [recording], whose train is left out; columns.torque may be missing."};
+  entries.push_back(
+      {"known",
+       "section",
+       "what is known of each recording: a number, or a product of numbers and its quantities, joined by *",
+       {},
+       describe_known()});
   add_section<FilterOptions>(entries);
   entries.back().text = {
       "Choosing: cutoff_hz well above the fastest motion (ten times it, or where the measured acceleration drowns in "

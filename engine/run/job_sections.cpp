@@ -10,6 +10,8 @@ namespace torquescope {
 std::vector<std::string> const& known_sections() {
   static std::vector<std::string> const names{"experiment",
                                               "recording",
+                                              "recordings",
+                                              "known",
                                               "filter",
                                               "model",
                                               "model.joint_1",

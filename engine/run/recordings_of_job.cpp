@@ -9,6 +9,7 @@
 
 #include "engine/data/change_of_rate.hpp"
 #include "engine/data/split_recording.hpp"
+#include "engine/run/job_sections.hpp"
 
 namespace torquescope {
 
@@ -50,6 +51,25 @@ void bring_joints_to_rate(std::vector<Recording>& joints, double rate_hz) {
   std::optional<DataWarning> warning;
   for (auto& joint : joints) warning = brought_to_rate(joint, rate_hz);
   if (warning) joints.front().warnings.push_back(*warning);
+}
+
+void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
+                    std::vector<Recording> const& unseen) {
+  std::vector<Problem> problems;
+  auto const check = [&](char const* channel, Eigen::VectorXd Recording::*values) {
+    auto const column = options.columns.find(channel);
+    auto const has_it = [&](Recording const& one) { return (one.*values).size() > 0; };
+    if (column == options.columns.end() || std::any_of(train.begin(), train.end(), has_it) ||
+        std::any_of(unseen.begin(), unseen.end(), has_it))
+      return;
+    problems.push_back(problem_at(section_or_empty(job, "recording"), "columns",
+                                  fmt::format("no recording has the column \"{}\" ({})", column->second, channel),
+                                  "write its name as one of the files has it, or remove it"));
+  };
+  check("added_command", &Recording::added_command);
+  check("external_torque", &Recording::external_torque);
+  check("enabled", &Recording::enabled);
+  if (!problems.empty()) throw Error(std::move(problems));
 }
 
 void split_off_unseen(std::vector<Recording>& train, std::vector<Recording>& unseen, double share) {

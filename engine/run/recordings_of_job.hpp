@@ -15,6 +15,10 @@ namespace torquescope {
 // the table in memory of this name, else that of the file beside the job; Errors: those of read_table()
 RawTable table_of_job(Job const& job, std::string const& name, Section const& section, RecordedTables const& tables);
 
+// of a column that only some recordings need, one has it: else its name is wrong (Error 78)
+void require_inputs(Job const& job, RecordingOptions const& options, std::vector<Recording> const& train,
+                    std::vector<Recording> const& unseen);
+
 // that of the first where all are about the same, else the lowest
 double rate_of_job(std::vector<Recording> const& train, std::vector<Recording> const& validate);
 // what is resampled says so in its warnings

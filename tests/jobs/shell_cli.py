@@ -148,7 +148,7 @@ class Bash(WithShell):
         self.assertIn("rec.csv", self.offers("init", ""))
         self.assertEqual(self.offers("list", "eff"), ["effects"])
         self.assertEqual(self.offers("describe", "strib"), ["stribeck"])
-        self.assertEqual(self.offers("describe", "rec"), ["rec.csv", "recording"])
+        self.assertEqual(self.offers("describe", "rec"), ["rec.csv", "recording", "recordings"])
         self.assertEqual(self.offers("completion", ""), ["bash", "fish", "zsh"])
 
 

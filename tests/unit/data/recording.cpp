@@ -168,6 +168,35 @@ TEST(MakeRecording, JitteredRowsAreResampledOntoAnEvenGridAndReported) {
   EXPECT_THAT(recording.warnings[0].text, HasSubstr("1 repeated time stamp, 3 missing"));
 }
 
+TEST(MakeRecording, DriveIsOnOrOffAsTheNearestRowSays) {
+  auto times = even_times(2000);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] += 2e-4 * std::sin(1.7 * static_cast<double>(i));
+  auto const is_on = [](double row) { return std::fmod(row, 100.0) < 50.0; };
+  auto table = table_at(times);
+  table.names.push_back("state");
+  table.columns.emplace_back();
+  for (std::size_t i = 0; i < times.size(); ++i)
+    table.columns.back().push_back(is_on(static_cast<double>(i)) ? 5.0 : 0.0);
+  auto options = options_of();
+  options.columns["enabled"] = "state";
+  auto const recording = made(table, options);
+  for (Eigen::Index i = 1; i + 1 < recording.enabled.size(); ++i) {
+    double const row = recording.time_s[i] * 1000, half_way = std::fmod(row + 0.5, 50.0);
+    if (std::min(half_way, 50.0 - half_way) < 0.4) continue;  // either row may be the nearer one
+    ASSERT_EQ(recording.enabled[i], is_on(row + 0.5) ? 1.0 : 0.0) << row;
+  }
+}
+
+TEST(MakeRecording, TorqueMayBeMissingWhereItIsOptional) {
+  auto const table = table_at(even_times());
+  auto const options = options_of({{"time", "t_s"}, {"position", "q_rad"}});
+  EXPECT_EQ(refused(table, options).what, "columns names no torque");
+  auto const recording =
+      make_recording(table, options, recording_section(), OtherJoints::ignored, TorqueColumn::optional);
+  EXPECT_EQ(recording.torque, Eigen::VectorXd::Zero(2000));
+  EXPECT_EQ(recording.position, made(table, options_of()).position);
+}
+
 TEST(MakeRecording, WithoutColumnsItSaysWhatToWriteAndGuessesNothing) {
   auto const problem = refused(table_at(even_times()), options_of({}));
   EXPECT_EQ(problem.code, ExitCode::bad_job);
