@@ -11,8 +11,8 @@ constexpr double rounding = 1e-12;  // rad between a led goal and one that has b
 
 }  // namespace
 
-// The greatest speed from which whole ticks of braking end within the way: with c = acceleration tick, n ticks slow down
-// by c each and one by the rest r, so that way = tick (r (n + 1) + c n (n + 1) / 2) and the speed is r + n c
+// The greatest speed from which whole ticks of braking end within the way: with c = acceleration tick, n ticks slow
+// down by c each and one by the rest r, so that way = tick (r (n + 1) + c n (n + 1) / 2) and the speed is r + n c
 double LedGoal::arriving_speed(double way) const {
   if (std::isinf(acceleration_limit_)) return std::min(speed_limit_, way / tick_s);
   double const change = acceleration_limit_ * tick_s;

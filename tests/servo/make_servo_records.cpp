@@ -80,7 +80,10 @@ void run(Words const& words) {
 
 int main(int argc, char** argv) {
   try {
-    run({argv + 1, argv + argc});
+    if (argc == 2 && std::string{argv[1]} == "--help")
+      std::cout << usage;
+    else
+      run({argv + 1, argv + argc});
     return 0;
   } catch (std::invalid_argument const& problem) {
     std::cerr << "make_servo_records: " << problem.what() << '\n' << usage;
