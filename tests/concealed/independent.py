@@ -12,7 +12,7 @@ FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torques
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
 PLANTS = ("concealed", "concealed_arms", "sticking", "servo")
 READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
-           "score_arms.py", "one_arm.py", "independent.py", "run.py", "grade.py", "test_cases.py"}
+           "score_arms.py", "one_arm.py", "independent.py", "run.py", "grade.py", "test_cases.py", "test_sets.py"}
 
 
 def foreign_includes(sources):
