@@ -1,6 +1,6 @@
 """The plants that conceal physics and the engine that looks for it share nothing but the recordings.
 
-Of joints: this folder, and sticking; of whole arms: concealed_arms. No include of engine/ or kernels/ in them, no
+Of joints: this folder, sticking and servo; of whole arms: concealed_arms. No include of engine/ or kernels/ in them, no
 engine library linked to them, and nobody but the scorers reads a truth.
 """
 
@@ -10,9 +10,9 @@ import sys
 
 FOREIGN = re.compile(r'^\s*#\s*include\s+[<"](?:\.\./)*(?:engine|kernels|torquescope|support)/[^>"]+[>"]', re.MULTILINE)
 LINK = re.compile(r"torquescope_(?!flags\b)\w+|torquescope::\w+")
-PLANTS = ("concealed", "concealed_arms", "sticking")
+PLANTS = ("concealed", "concealed_arms", "sticking", "servo")
 READERS = {"ablation_score.py", "calibrate.py", "test_calibrate.py", "gather.py", "test_gather.py", "test_run_suite.py",
-           "score_arms.py", "one_arm.py", "independent.py", "run.py", "grade.py", "test_cases.py"}
+           "score_arms.py", "one_arm.py", "independent.py", "run.py", "grade.py", "test_cases.py", "test_sets.py"}
 
 
 def foreign_includes(sources):
@@ -44,7 +44,7 @@ def main(root):
             text = path.read_text(errors="replace")
             # a person may be told where the truth lies; nothing may open it
             text = re.sub(r"^echo .*$", "", text, flags=re.MULTILINE)
-            if "truth.json" in text or re.search(r'#\s*include\s+"(?:concealed(?:_arms)?|sticking)/', text):
+            if "truth.json" in text or re.search(r'#\s*include\s+"(?:concealed(?:_arms)?|sticking|servo)/', text):
                 found.append(f"{path.relative_to(root)} looks at the concealed plant")
     for path in files:
         if path.suffix == ".py" and path.name not in READERS and "truth.json" in path.read_text():
