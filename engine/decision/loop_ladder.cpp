@@ -213,7 +213,9 @@ class Ladder {
     return fits;
   }
 
+  // all that goes may together cost less than least_fall
   void drop_useless(Member& best) {
+    LoopErrors const whole = best.fit.judged(q_);
     without_ = without_each(best);
     while (!without_.empty()) {
       std::size_t weakest = without_.size();
@@ -222,8 +224,7 @@ class Ladder {
         if (without_[i].fit.failed) continue;
         std::size_t const move = best.fit.point.moves[i];
         double const beyond = gain_of(without_[i], best.fit, q_.counts) - best.taken.at(move).level;
-        bool const is_needed =
-            !q_.validation.empty() && predicts_better(without_[i].judged(q_), best.fit.judged(q_)) && beyond > 0.0;
+        bool const is_needed = !q_.validation.empty() && predicts_better(without_[i].judged(q_), whole) && beyond > 0.0;
         bool const is_useless = beyond <= 0.0 || (!q_.validation.empty() && !is_needed);
         if (!is_useless || (weakest < without_.size() && beyond >= least)) continue;
         weakest = i;

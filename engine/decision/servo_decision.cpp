@@ -48,20 +48,26 @@ LoopSetting loop_of(ServoQuestion const& question, ServoStart const& start) {
   return loop;
 }
 
-// What least squares says of friction is bent by delays, and of inertia by the encoder: both larger and smaller ones
+// What least squares says is bent: friction by delays, inertia by the encoder, and a motor's gain comes out too small
+// because its command follows errors (Fuller 1987, Measurement Error Models, doi:10.1002/9780470316665)
 std::vector<LoopPoint> starts_of(LoopQuestion const& question, Regressor const& regressor) {
   std::vector<LoopPoint> starts{base_point(question)};
-  for (double const inertia : {0.2, 1.0, 5.0})
-    for (double const friction : {0.3, 1.0, 3.0}) {
-      LoopPoint other = base_point(question);
-      Index at = 0;
-      for (auto const* term : regressor.terms()) {
-        if (term->name() == "inertia") other.terms[at] *= inertia;
-        if (term->name() == "coulomb") other.terms[at] *= friction;
-        at += static_cast<Index>(term->n_linear());
-      }
-      starts.push_back(std::move(other));
+  auto const& free = question.loop.free;
+  bool const has_gain = std::find(free.begin(), free.end(), LoopKey::motor_gain) != free.end();
+  std::vector<double> const gains = has_gain ? std::vector<double>{1.0, 3.0} : std::vector<double>{1.0};
+  constexpr double sides[] = {0.2, 1.0, 5.0};
+  for (std::size_t i = 0; i < 9 * gains.size(); ++i) {
+    double const inertia = sides[i % 3], friction = sides[i / 3 % 3], gain = gains[i / 9];
+    LoopPoint other = base_point(question);
+    if (has_gain) other.loop.values[LoopKey::motor_gain] *= gain;
+    Index at = 0;
+    for (auto const* term : regressor.terms()) {
+      if (term->name() == "inertia") other.terms[at] *= inertia;
+      if (term->name() == "coulomb") other.terms[at] *= friction;
+      at += static_cast<Index>(term->n_linear());
     }
+    starts.push_back(std::move(other));
+  }
   return starts;
 }
 
@@ -98,6 +104,18 @@ ServoDecision decide_servo(ServoQuestion const& question) {
   decision.base = std::move(climb.base);
   decision.final = std::move(climb.final);
   return decision;
+}
+
+std::vector<LoopNumber> numbers_of_fit(ServoQuestion const& question, ServoDecision const& decision,
+                                       LoopFit const& fit) {
+  RolloutModel const model = decision.model(question, fit);
+  std::vector<LoopNumber> numbers;
+  for (std::size_t k = 0; k < model.size(); ++k) {
+    auto const& one = model.parameters()[k];
+    auto const at = static_cast<Index>(k);
+    numbers.push_back({one.name, one.unit, fit.fit.parameters[at], fit.fit.lower[at], fit.fit.upper[at]});
+  }
+  return numbers;
 }
 
 LoopFit refitted(ServoQuestion const& question, ServoDecision const& decision, LoopFit const& structure) {

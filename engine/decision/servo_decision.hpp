@@ -47,6 +47,9 @@ struct ServoDecision {
 };
 
 ServoDecision decide_servo(ServoQuestion const& question);
+// parameters of one of its fits, with their intervals
+std::vector<LoopNumber> numbers_of_fit(ServoQuestion const& question, ServoDecision const& decision,
+                                       LoopFit const& fit);
 
 // one fit of the same structure on other recordings, from where the first came to rest
 LoopFit refitted(ServoQuestion const& question, ServoDecision const& decision, LoopFit const& structure);

@@ -1,8 +1,14 @@
 #include "engine/rollout/chunk_inputs.hpp"
 
-#include <algorithm>
-
 namespace torquescope {
+
+SegmentReference::SegmentReference(RolloutTrack const& track, TrackSegment const& segment)
+    : track_(track), segment_(segment) {
+  if (track.reference.size() == 0) return;
+  std::size_t const ticks = static_cast<std::size_t>(segment.samples) * track.ticks_per_sample;
+  last_ = static_cast<double>(ticks) - 1.0;
+  for (std::size_t tick = 0; tick <= ticks; ++tick) at_ticks_.push_back(at_tick(tick));
+}
 
 Eigen::Index SegmentReference::sample_of(std::size_t tick) const {
   auto const sample = static_cast<Eigen::Index>(tick / track_.ticks_per_sample);
@@ -16,15 +22,6 @@ double SegmentReference::at_tick(std::size_t tick) const {
   if (!track_.straight_reference || within == 0 || sample + 1 >= segment_.first + segment_.samples) return here;
   double const share = static_cast<double>(within) / static_cast<double>(track_.ticks_per_sample);
   return here + share * (track_.reference[sample + 1] - here);
-}
-
-double SegmentReference::at(double tick) const {
-  if (track_.reference.size() == 0) return segment_.position;
-  double const last = static_cast<double>(segment_.samples) * static_cast<double>(track_.ticks_per_sample) - 1.0;
-  double const within = std::clamp(tick, 0.0, last);
-  auto const before = static_cast<std::size_t>(within);
-  double const share = within - static_cast<double>(before), from = at_tick(before);
-  return share > 0.0 ? from + share * (at_tick(before + 1) - from) : from;
 }
 
 ChunkInputs::ChunkInputs(RolloutTrack const& track, TrackSegment const& segment, std::vector<double> const& delay_ticks)

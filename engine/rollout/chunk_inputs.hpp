@@ -6,6 +6,7 @@
 // Threads    SegmentReference: const object; ChunkInputs belongs to one thread
 // Requires   the track outlives both
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/rollout/loop_lanes.hpp"
@@ -16,18 +17,26 @@ namespace torquescope {
 
 class SegmentReference {
  public:
-  SegmentReference(RolloutTrack const& track, TrackSegment const& segment) : track_(track), segment_(segment) {}
+  SegmentReference(RolloutTrack const& track, TrackSegment const& segment);
 
   Eigen::Index sample_of(std::size_t tick) const;
   // so many ticks after the start; before it and behind the end: the first and the last. Without a reference: where the
   // segment begins
-  double at(double tick) const;
+  double at(double tick) const {
+    if (at_ticks_.empty()) return segment_.position;
+    double const within = std::clamp(tick, 0.0, last_);
+    auto const before = static_cast<std::size_t>(within);
+    double const share = within - static_cast<double>(before), from = at_ticks_[before];
+    return share > 0.0 ? from + share * (at_ticks_[before + 1] - from) : from;
+  }
 
  private:
   double at_tick(std::size_t tick) const;
 
   RolloutTrack const& track_;
   TrackSegment segment_;
+  double last_ = 0.0;
+  std::vector<double> at_ticks_{};  // of the segment, and one more; empty: there is no reference
 };
 
 class ChunkInputs {

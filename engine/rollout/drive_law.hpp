@@ -21,7 +21,7 @@ struct DriveScales {
   double torque = 1.0;                     // N m, rms
   double error = 0.1, command = 1.0;       // rms of reference - position; of the command that answers it
   double encoder_step = 0.0;
-  bool has_several_loads = false;  // recordings differ in what hung there
+  bool has_load = false, has_several_loads = false;  // known; recordings differ in what hung there
   bool has_arm = false, has_temperatures = false;
 };
 

@@ -72,6 +72,7 @@ DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers co
     scales.command = std::sqrt(commands / samples);
     scales.torque = std::sqrt(torques / samples);
   }
+  scales.has_load = most_load > 0.0;
   scales.has_several_loads = differ(least_load, most_load);
   scales.has_arm = arm > 0.0 && scales.has_several_loads;
   scales.has_temperatures = hottest - coldest > 1.0;

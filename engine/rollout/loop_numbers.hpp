@@ -3,8 +3,8 @@
 //
 // Equation   e = goal - q,  s = feed_speed dgoal - v,  v: low-passed backward difference of the q that is read
 //              u = kp e + kd s + I + feed_acceleration ddgoal + added_gain a,   dI/dt = ki e + ki_speed s
-//            a dead band of the error, a least drive (punch), least <= u <= most; the integral stops where it would push
-//            further into a limit, and while the drive is off
+//            a dead band of the error, a least drive (punch), least <= u <= most; the integral stops where it would
+//            push further into a limit, and while the drive is off
 //            motor: motor_gain u, torque_delay later, through a lag, less back_emf dq while the drive is on
 //            logged: u through a low-pass of log_lag
 // Goal       the reference command_delay later, led by at most goal_speed and goal_acceleration

@@ -60,6 +60,9 @@ OptionTable<LoopOptions> const& LoopOptions::table() {
       {{"controller", &Options::controller, loop_form_words(),
         "identified: a linear law found in the recording; p_velocity: kv (kp e - dq); p_pi: kv s + ki (integral of s) "
         "with s = kp e - dq; none: the recorded torque drives the joint"},
+       {"drive", &Options::drive,
+        "what the command of a servo is, in a job with [[recordings]]: voltage (with back-EMF), current, or position "
+        "servo (the error of the position itself); voltage where known.command_gain is given"},
        {"rate_hz", &Options::rate_hz, "Hz", 0.0, 1e6,
         "of the controller; 0: that of the recording. Above it the reference changes between answers"},
        {"reference", &Options::reference, std::vector<std::string>{"held", "straight"},

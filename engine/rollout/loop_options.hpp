@@ -17,6 +17,7 @@ namespace torquescope {
 
 struct LoopOptions {
   std::string controller = "identified";
+  std::string drive{};  // of a set of recordings
   double rate_hz = 0.0;
   std::string reference = "held";
   std::string speed = "difference";

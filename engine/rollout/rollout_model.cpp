@@ -96,6 +96,7 @@ RolloutModel::RolloutModel(Regressor const& regressor, Eigen::VectorXd const& st
   structure_.scales = scales;
   structure_.hold_ticks = loop_.hold_ticks;
   structure_.speed_samples = loop_.speed_samples;
+  bool const fits_back_emf = std::find(loop_.free.begin(), loop_.free.end(), LoopKey::back_emf) != loop_.free.end();
   Eigen::Index at = 0;
   for (auto const* term : terms_) {
     TwinJoint ignored;
@@ -105,7 +106,9 @@ RolloutModel::RolloutModel(Regressor const& regressor, Eigen::VectorXd const& st
     for (std::size_t k = 0; k < term->n_linear(); ++k, ++at) {
       parameters_.push_back(linear_parameter(term->parameters()[k], joint_, scales, start[at]));
       // the sign of a term's parameter is the recording's affair, but for what could not be a joint
-      bool const has_end = term->name() == "inertia" || term->name() == "coulomb";
+      // beside a back-EMF, which the drive has while it is on, a joint that speeds itself up when it is off is none
+      bool const has_end = term->name() == "inertia" || term->name() == "coulomb" ||
+                           (term->name() == "viscous" && fits_back_emf);
       parameters_.back().lower = has_end ? 0.0 : -parameters_.back().upper;
     }
   }

@@ -18,7 +18,7 @@ constexpr double any = -std::numeric_limits<double>::infinity();
 
 struct KnownKey {
   char const* key;
-  double KnownOfRecording::*value;
+  double TrackKnown::*value;
   bool KnownKeys::*is_given;
   char const* unit;
   double least;           // included
@@ -28,7 +28,7 @@ struct KnownKey {
 };
 
 std::vector<KnownKey> const& known_key_table() {
-  using Value = KnownOfRecording;
+  using Value = TrackKnown;
   using Given = KnownKeys;
   static std::vector<KnownKey> const table{
       {"gravity_moment", &Value::gravity_moment, &Given::gravity_moment, "N m", any, true, "0",

@@ -7,24 +7,15 @@
 // Threads    plain records; functions of their arguments
 
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "engine/base/options.hpp"
 #include "engine/job/job.hpp"
+#include "engine/rollout/track_known.hpp"
 
 namespace torquescope {
-
-struct KnownOfRecording {
-  double gravity_moment = 0.0;                                     // N m, times sin(position)
-  double inertia = 0.0;                                            // kg m2
-  double command_gain = 1.0;                                       // command per rad of error
-  double command_limit = std::numeric_limits<double>::infinity();  // command
-  double arm_length = 0.0;                                         // m
-  double temperature = std::numeric_limits<double>::quiet_NaN();   // deg C; NaN: not known
-};
 
 // which keys [known] has
 struct KnownKeys {
@@ -39,7 +30,7 @@ struct SetEntry {
   bool is_validation = false;
   std::map<std::string, double> numbers{};     // its quantities
   std::map<std::string, std::string> words{};  // and those that are text
-  KnownOfRecording known{};
+  TrackKnown known{};
   SourcePlace place{};  // where the job or a manifest names it
 };
 

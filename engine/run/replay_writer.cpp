@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/experiment_parts.hpp"
+#include "engine/run/json_values.hpp"
 #include "engine/run/provenance_writer.hpp"
 #include "engine/run/replay_workflow.hpp"
 #include "engine/run/study_writer.hpp"
@@ -64,20 +65,18 @@ void write_channel(ResultWriter& writer, std::string const& group, ReplayChannel
   writer.numbers(group + "/relerr", {models}, relerr, {"1", "rms over signal_rms"});
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json channel_json(ReplayChannel which, ChannelReplay const& channel, Replay const& replay) {
   Json models = Json::array();
   for (std::size_t m = 0; m < channel.errors.size(); ++m) {
     auto const& error = channel.errors[m];
     models.push_back({{"model", replay.models[m]},
                       {"n", error.samples},
-                      {"rms", number(error.rms)},
-                      {"mae", number(error.mae)},
-                      {"relerr", number(error.relerr)}});
+                      {"rms", json_number(error.rms)},
+                      {"mae", json_number(error.mae)},
+                      {"relerr", json_number(error.relerr)}});
   }
   return {{"unit", unit_of(which, replay.is_prismatic)},
-          {"signal_rms", number(channel.signal_rms)},
+          {"signal_rms", json_number(channel.signal_rms)},
           {"models", std::move(models)}};
 }
 
@@ -146,13 +145,13 @@ std::string replay_json(Replay const& replay) {
     for (bool const lost : one.diverged) diverged.push_back(lost);
     recordings.push_back({{"name", one.name},
                           {"purpose", one.is_validation ? "validate" : "train"},
-                          {"rate_hz", number(one.rate_hz)},
+                          {"rate_hz", json_number(one.rate_hz)},
                           {"drive", drive_word(one)},
-                          {"window_s", number(one.window_s)},
+                          {"window_s", json_number(one.window_s)},
                           {"loop", one.loop},
                           {"loop_words", one.loop_words},
-                          {"loop_error", number(one.loop_error)},
-                          {"horizon_s", number(one.horizon_s)},
+                          {"loop_error", json_number(one.loop_error)},
+                          {"horizon_s", json_number(one.horizon_s)},
                           {"diverged", std::move(diverged)},
                           {"channels", std::move(channels)}});
   }

@@ -18,6 +18,7 @@
 #include "engine/app/result/diagnosis_text.hpp"
 #include "engine/app/result/finished_result.hpp"
 #include "engine/app/result/result_summary.hpp"
+#include "engine/app/result/servo_text.hpp"
 #include "engine/app/session_progress.hpp"
 #include "engine/app/terminal/environment.hpp"
 #include "engine/app/terminal/interrupt.hpp"
@@ -27,6 +28,7 @@
 #include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/diagnosis_json.hpp"
 #include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/servo_workflow.hpp"
 
 namespace torquescope {
 
@@ -37,6 +39,7 @@ struct DiagnoseArguments {
   std::string out{};
   std::string columns{};
   std::string shard{};
+  std::vector<std::string> leave_out{};
   int threads = 0;  // 0: not given
   bool all = false;
   bool allow_full_disk = false;
@@ -119,8 +122,63 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
   return code_of(arguments, diagnosis);
 }
 
+constexpr StopWords words_of_set{"stopping after the running fits", "stopped: nothing was written"};
+
+// many recordings of drives, which share one set of parameters
+ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Session const& session) {
+  validate(arguments.shard.empty() && arguments.columns.empty(), [] {
+    Problem problem{ExitCode::usage,
+                    "--shard and --columns are about one joint or arm, and the job has [[recordings]]"};
+    problem.help = "leave them out";
+    return problem;
+  });
+  ServoJob const servo = [&] {
+    SessionProgress const bar(session, "read");
+    return read_servo_job(std::move(job));
+  }();
+  ServoRequest request;
+  request.threads = choose_threads(arguments.threads);
+  request.output = !arguments.out.empty()      ? std::filesystem::path(arguments.out)
+                   : servo.output.file.empty() ? std::filesystem::path(servo.experiment.name + ".h5")
+                                               : std::filesystem::path(servo.output.file);
+  request.leave_out = arguments.leave_out;
+  request.stop_requested = stop_requested;
+  session.note(session.topic_line(
+      "job",
+      fmt::format("{}: {} recordings to fit, {} to judge; {} parameters and the laws of drive and gear",
+                  servo.experiment.name, servo.training.size(), servo.validation.size(), servo.regressor->size())));
+  session.note(session.topic_line("threads", fmt::format("{} ({}), seed {}", request.threads.count,
+                                                         request.threads.reason, servo.experiment.seed)));
+  for (auto const& warning : warnings_of(servo)) session.note(session.topic_line("warning", warning));
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken, words_of_set);
+  PhaseTimes phases(progress_settings(session).clock);
+  ServoReport report;
+  {
+    SessionProgress print_progress(session);
+    report = diagnose_servo(servo, request, [&](ProgressUpdate const& update) {
+      phases.note(update);
+      print_progress(update);
+    });
+  }
+  print_stages(session, phases.finish());
+  session.note("\n");
+  session.verdict(servo_verdict_text(report, session.result_ink()));
+  session.result(servo_text(report, arguments.all, session.result_ink()));
+  session.document(servo_json(report));
+  write_servo_file(servo, report, request);
+  note_whereabouts(session, "wrote", request.output, session.options().json);
+  return arguments.exit_code ? code_of(report.verdict) : ExitCode::ok;
+}
+
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
   keep_heap();
+  if (Job job = read_job(arguments.job); has_recording_set(job))
+    return diagnose_recordings(std::move(job), arguments, session);
+  validate(arguments.leave_out.empty(), [] {
+    Problem problem{ExitCode::usage, "--leave-out is about the recordings of [[recordings]], and the job has none"};
+    problem.help = "leave it out, or write [[recordings]] (torquescope describe recordings)";
+    return problem;
+  });
   PhaseTimes phases(progress_settings(session).clock);
   ShardChoice const shard = choose_shard(arguments.shard, environment);
   Experiment const experiment = load_with_bar(session, arguments.job, Experiment::Purpose::diagnose);
@@ -188,6 +246,7 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
   command->footer(
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
       "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n"
+      "  torquescope diagnose jobs/servo_loads.toml --leave-out mass_kg\n"
       "  for i in 0 1; do torquescope diagnose lab.toml --shard $i/2 & done; wait\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();
   add_result_option(*command, arguments->out);
@@ -207,6 +266,12 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       ->type_name("I/N")
       ->check(no_shard)
       ->group("machine");
+  command
+      ->add_option("--leave-out", arguments->leave_out,
+                   "of a job with [[recordings]]: fits again without the recordings of each value of this quantity, "
+                   "and says how these are simulated then: mass_kg, kp, motion")
+      ->type_name("QUANTITY")
+      ->group("results");
   add_threads_option(*command, arguments->threads);
   add_full_disk_option(*command, arguments->allow_full_disk);
   add_progress_option(*command, chosen);

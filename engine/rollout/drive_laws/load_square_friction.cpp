@@ -12,7 +12,7 @@ DriveLaw const& load_square_friction_law() {
       .keys = {LoopKey::load_square_friction},
       .adds = true,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        if (!of.has_several_loads) return {};
+        if (!of.has_load) return {};
         return {{0.0}};
       },
   };

@@ -12,7 +12,7 @@ DriveLaw const& load_stribeck_friction_law() {
       .keys = {LoopKey::load_stribeck_friction, LoopKey::stribeck_speed},
       .adds = true,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        if (!of.has_several_loads) return {};
+        if (!of.has_load) return {};
         return {{0.0, 0.02 * of.speed}, {0.0, 0.1 * of.speed}, {0.0, 0.3 * of.speed}};
       },
   };

@@ -10,8 +10,10 @@ DriveLaw const& punch_law() {
       .confused = "coulomb friction that is smaller; a motion with the drive off tells",
       .kind = DriveLawKind::drive,
       .keys = {LoopKey::punch},
-      .adds = true,
-      .starts = [](DriveScales const&) -> std::vector<std::vector<double>> { return {{0.0}}; },
+      .adds = false,
+      .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
+        return {{0.05 * of.command}, {0.2 * of.command}};
+      },
   };
   return law;
 }

@@ -1,0 +1,41 @@
+#include "engine/base/error.hpp"
+#include "engine/run/provenance_writer.hpp"
+#include "engine/run/replay_writer.hpp"
+#include "engine/run/servo_words.hpp"
+#include "engine/run/servo_workflow.hpp"
+#include "engine/store/result_reader.hpp"
+
+namespace torquescope {
+namespace {
+
+void refuse_other_result(std::filesystem::path const& output) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(output, ignored)) return;
+  ResultReader const there(output);
+  validate(there.exists("/servo"), [&] {
+    Problem problem{ExitCode::exists, output.string() + " is no earlier diagnosis of a set of recordings"};
+    problem.help = "--out another name, or delete it";
+    return problem;
+  });
+}
+
+}  // namespace
+
+void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request) {
+  refuse_other_result(request.output);
+  Beginning const beginning;
+  ResultWriter writer(request.output, {.gzip = job.output.compression == "gzip", .inputs_sha256 = job.inputs_sha256()});
+  writer.texts("/job/text", std::vector<std::string>{job.job.text}, {"1", "job file, verbatim"});
+  writer.attribute("/job", "name", job.experiment.name);
+  writer.attribute("/job", "study", job.experiment.study);
+  writer.attribute("/job", "seed", job.experiment.seed);
+  writer.attribute("/job", "runs", std::int64_t{0});
+  writer.attribute("/job", "sha256", job.job.sha256);
+  writer.attribute("/servo", "verdict", word(report.verdict));
+  writer.attribute("/servo", "headline", headline(report));
+  writer.texts("/servo/json", std::vector<std::string>{servo_json(report)}, {"1", "the whole diagnosis, JSON"});
+  if (!report.replay.recordings.empty()) write_replay(writer, report.replay);
+  finish_result(writer, request.output, request.threads, beginning);
+}
+
+}  // namespace torquescope
