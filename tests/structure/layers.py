@@ -11,9 +11,10 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"((?:engine|kernels)/[^"]+)"', re.MULTI
 
 
 def read_layers(text):
-    """layers.txt -> {layer: set of layers it may use}; "all of the above" means what it says."""
+    """layers.txt -> {layer: set of layers it may use}; "all of the above" means what it says. A line that begins with
+    a blank goes on with the one before."""
     allowed = {}
-    for line in text.splitlines():
+    for line in re.sub(r"\n[ \t]+", " ", text).splitlines():
         if not line.strip():
             continue
         name, _, uses = line.partition(":")
