@@ -155,6 +155,8 @@ void RolloutModel::add_loop_parameters(JointScales const& scales) {
     made.is_given = true;
     made.scale = std::max(std::abs(made.start), natural_size(facts.measure, scales));
     if (facts.measure == LoopMeasure::speed) made.scale = std::min(made.scale, scales.peak_speed);
+    // friction that falls over more than all speeds of the joint is told from none that does not
+    if (key == LoopKey::stribeck_speed) made.upper = scales.peak_speed;
     parameters_.push_back(std::move(made));
   }
 }

@@ -5,7 +5,8 @@ import dataclasses
 
 # names of the program -> laws of the plant, where they differ
 ALIASES = {"load_dependent_friction": "load_friction", "torque_lag_s": "torque_lag", "actuator_lag": "torque_lag",
-           "command_delay_s": "command_delay", "stribeck_friction": "stribeck"}
+           "command_delay_s": "command_delay", "stribeck_friction": "stribeck",
+           "load_square_friction": "load_square", "load_stribeck_friction": "load_stribeck"}
 
 
 def kept_names(document):

@@ -14,7 +14,8 @@ DriveLaw const& dead_band_law() {
       .keys = {LoopKey::dead_band},
       .adds = false,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        return {{std::max(of.encoder_step, 0.1 * of.error)}, {std::max(2.0 * of.encoder_step, 0.3 * of.error)}};
+        double const step = std::max(of.encoder_step, 5e-3 * of.error);
+        return {{4.0 * step}, {12.0 * step}, {36.0 * step}};
       },
   };
   return law;

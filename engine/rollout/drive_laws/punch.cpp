@@ -12,7 +12,7 @@ DriveLaw const& punch_law() {
       .keys = {LoopKey::punch},
       .adds = false,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        return {{0.05 * of.command}, {0.2 * of.command}};
+        return {{0.03 * of.command}, {0.1 * of.command}, {0.3 * of.command}};
       },
   };
   return law;
