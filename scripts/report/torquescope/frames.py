@@ -23,7 +23,7 @@ def frame(result, table):
     makers = {"parameters": _parameters_of_diagnosis, "effects": _effects, "candidates": _candidates, "map": _map} \
         if result.diagnosis else {"parameters": _parameters_of_run, "estimators": _estimators}
     if not result.diagnosis and not result.estimators:
-        makers = {}
+        makers = {"parameters": _parameters_of_servo, "recordings": _recordings_of_servo} if result.servo() else {}
     if table not in makers:
         raise UsageError(f"error: this result has no table {table!r}\n  it has: {', '.join(makers) or 'none'}")
     rows, index = makers[table](result)
@@ -47,6 +47,33 @@ def _parameters_of_run(result):
     return rows, "parameter"
 
 
+def _before_after(name, one, sides):
+    """A row of a table; sides: [(label, {name: Parameter})]."""
+    row = {"parameter": name, "unit": one.unit}
+    for label, known in sides:
+        found = known.get(name)
+        row[label] = found.value if found else np.nan
+        row[f"{label}_low"] = found.lower if found else np.nan
+        row[f"{label}_high"] = found.upper if found else np.nan
+    return row
+
+
+def _parameters_of_servo(result):
+    servo = result.servo()
+    sides = (("before", servo.parameters_before), ("after", servo.parameters))
+    rows = [_before_after(name, one, sides) for name, one in {**servo.parameters_before, **servo.parameters}.items()]
+    return rows, "parameter"
+
+
+def _recordings_of_servo(result):
+    """With the quantities of the manifest; errors in `unit`."""
+    servo = result.servo()
+    rows = [{"recording": one.name, "role": one.role, **one.quantities, "samples": one.samples, "unit": servo.unit,
+             "before": one.before, "after": one.after, "relerr_before": one.relerr_before,
+             "relerr_after": one.relerr_after, "horizon_s": one.horizon_s} for one in servo.recordings]
+    return rows, "recording"
+
+
 def _estimators(result):
     rows = []
     for name, one in result.estimators.items():
@@ -61,13 +88,8 @@ def _parameters_of_diagnosis(result):
     rows = []
     for joint in result.joints:
         for name, one in {**joint.baseline, **joint.augmented}.items():
-            row = {"joint": joint.joint, "parameter": name, "unit": one.unit}
-            for label, known in (("before", joint.baseline), ("after", joint.augmented)):
-                found = known.get(name)
-                row[label] = found.value if found else np.nan
-                row[f"{label}_low"] = found.lower if found else np.nan
-                row[f"{label}_high"] = found.upper if found else np.nan
-            rows.append(row)
+            sides = (("before", joint.baseline), ("after", joint.augmented))
+            rows.append({"joint": joint.joint, **_before_after(name, one, sides)})
     return rows, ["joint", "parameter"]
 
 

@@ -13,6 +13,7 @@ from .errors import UsageError
 from .reader import read_result, summary
 from .reader.diagnosis_records import Diagnosis, Joint, NamedEffect, Parameter
 from .reader.read_replay import Replay
+from .reader.read_servo import Servo
 
 if TYPE_CHECKING:
     import pandas
@@ -29,11 +30,12 @@ class Result(read_result.Result):
     Of an identification estimators {name: group}; verdict is None
     Of both              parameters {name: Parameter}, job, model, train, validate, provenance: the groups of the file
     Of a replay, alone or beside them    replay() (reader/read_replay.py)
+    Of a set of recordings of servos     servo() (reader/read_servo.py); verdict, reason, parameters are its own
     """
 
     def __init__(self, path: str | os.PathLike[str], is_ours: bool = False):
         super().__init__(path, is_ours)
-        self._found = None
+        self._found = self._servo = None
 
     @property
     def diagnosis(self) -> Diagnosis | None:
@@ -44,11 +46,15 @@ class Result(read_result.Result):
 
     @property
     def verdict(self) -> str | None:
-        return self.diagnosis.verdict if self.diagnosis else None
+        found = self.diagnosis or self.servo()
+        return found.verdict if found else None
 
     @property
     def reason(self) -> str:
-        return self.diagnosis.reason if self.diagnosis else ""
+        if self.diagnosis:
+            return self.diagnosis.reason
+        servo = self.servo()
+        return servo.headline if servo else ""
 
     @property
     def joints(self) -> list[Joint]:
@@ -64,6 +70,8 @@ class Result(read_result.Result):
     def parameters(self) -> dict[str, Parameter]:
         """{name: Parameter} of the fitted model: with the effects of a diagnosis, of the first estimator of a run. Of
         several joints the names begin with joint_N."""
+        if servo := self.servo():
+            return servo.parameters
         if not self.diagnosis:
             return _of_estimator(self, next(iter(self.estimators.values()))) if self.estimators else {}
         found = {}
@@ -77,6 +85,13 @@ class Result(read_result.Result):
         file holds none."""
         return super().replay()
 
+    def servo(self) -> Servo | None:
+        """What was found in a set of recordings of servos: the records of reader/read_servo.py; None where the file
+        holds none."""
+        if self._servo is None:
+            self._servo = super().servo()
+        return self._servo
+
     @property
     def plot(self) -> Plots:
         """plot.map(), plot.trace(), plot.names(), plot("convergence"): matplotlib figures. Needs matplotlib."""
@@ -84,7 +99,8 @@ class Result(read_result.Result):
         return Plots(self)
 
     def to_frame(self, table: str = "parameters") -> pandas.DataFrame:
-        """A pandas DataFrame: "parameters"; of a diagnosis "effects", "candidates", "map"; of a run "estimators"."""
+        """A pandas DataFrame: "parameters"; of a diagnosis "effects", "candidates", "map"; of a run "estimators"; of a
+        set of recordings of servos "recordings"."""
         return frames.frame(self, table)
 
     def to_xarray(self, part: str = "train", joint: int | None = None) -> xarray.Dataset:
@@ -118,6 +134,8 @@ class Result(read_result.Result):
     def __repr__(self):
         if self.diagnosis:
             return f"<Result {self.job.name!r}: {self.verdict}: {self.reason}>"
+        if servo := self.servo():
+            return f"<Result {self.job.name!r}: {servo.headline}>"
         if not self.estimators:
             return f"<Result {self.job.name!r}: replay of {_recordings(self)}>"
         names = ", ".join(self.estimators)

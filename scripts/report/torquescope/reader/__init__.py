@@ -3,5 +3,7 @@
 from ..errors import ResultError
 from .read_replay import Replay, ReplayChannel, ReplayRecording
 from .read_result import Group, Result, summary
+from .read_servo import KeptLaw, Servo, ServoRecording
 
-__all__ = ["Group", "Replay", "ReplayChannel", "ReplayRecording", "Result", "ResultError", "summary"]
+__all__ = ["Group", "KeptLaw", "Replay", "ReplayChannel", "ReplayRecording", "Result", "ResultError", "Servo",
+           "ServoRecording", "summary"]

@@ -14,6 +14,7 @@
     result.diagnosis.joints[0].effects[0].name         'stribeck': what `torquescope diagnose` found,
                                                        diagnosis_records.py
     result.replay().recordings[0].torque.measured      recordings beside their simulation, read_replay.py
+    result.servo().kept[0].title                       what was found in many recordings of servos, read_servo.py
 
 On the command line, `read_result.py R.h5` prints a summary; with --verify it first reads all of the file and compares
 its digest.
@@ -34,6 +35,7 @@ from .file_seal import check_seal
 from .first_look import WHAT_H5PY_RAISES, look_first
 from .read_diagnosis import read_diagnosis
 from .read_replay import read_replay, replay_table
+from .read_servo import read_servo
 
 NEWEST_FORMAT = 3
 
@@ -160,7 +162,8 @@ class Result(Group):
 
     `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the
     records of diagnosis_records.py. Whatever else the file has is there under its own name:
-    `result.data.regressor_health`; but /replay is `replay()`. Use it in a `with` block, or close() it.
+    `result.data.regressor_health`; but /replay is `replay()`, and /servo `servo()`. Use it in a `with` block, or close()
+    it.
     """
 
     def __init__(self, name, is_ours=False):
@@ -221,6 +224,11 @@ class Result(Group):
         """Every recording beside its simulation, as the records of read_replay.py; None when the file holds none. Read
         anew each time."""
         return read_replay(Group(self._file["replay"])) if "replay" in self._file else None
+
+    def servo(self):
+        """What was found in a set of recordings of servos, as the records of read_servo.py; None when the file holds
+        none. Read anew each time."""
+        return read_servo(Group(self._file["servo"])) if "servo" in self._file else None
 
     def verify(self):
         """Read everything; ResultError unless the content is what its sha256 says."""
@@ -292,6 +300,25 @@ def _diagnosis_summary(diagnosis):
         yield from _table(rows)
 
 
+def _servo_summary(servo):
+    """The headline, errors, and the parameters before and after."""
+    yield servo.headline
+    rows = [["mean absolute error of the position", "recordings", "unit", "before", "after"]]
+    for name, error in (("train", servo.train), ("unseen", servo.validate)):
+        if error.recordings:
+            rows.append([name, str(error.recordings), servo.unit, _number(error.before), _number(error.after)])
+    if len(rows) > 1:
+        yield ""
+        yield from _table(rows)
+    rows = [["parameter", "unit", "before", "after"]]
+    for name, one in {**servo.parameters_before, **servo.parameters}.items():
+        sides = (servo.parameters_before, servo.parameters)
+        rows.append([name, one.unit, *(_number(side[name].value if name in side else None) for side in sides)])
+    if len(rows) > 1:
+        yield ""
+        yield from _table(rows)
+
+
 def summary(result):
     """The summary as lines of text."""
     job = result.job
@@ -303,6 +330,9 @@ def summary(result):
     yield ""
     if result.diagnosis is not None:
         yield from _diagnosis_summary(result.diagnosis)
+        yield ""
+    if (servo := result.servo()) is not None:
+        yield from _servo_summary(servo)
         yield ""
     if (replay := result.replay()) is not None and replay.recordings:
         yield from _table(replay_table(replay, _number))
