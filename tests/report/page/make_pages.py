@@ -11,5 +11,5 @@ folder = Path(sys.argv[1])
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 kinds = support.KINDS + support.ARMS + support.DIAGNOSES + support.BOARDS + support.COMPARED
-for kind in kinds + support.REPLAYS + support.BESIDE + support.ROLLED:
+for kind in kinds + support.REPLAYS + support.BESIDE + support.ROLLED + support.SERVOS:
     shutil.copy(support.page(kind), folder)

@@ -25,6 +25,7 @@ import make_arm_result  # noqa: E402
 import make_board  # noqa: E402
 import make_replay  # noqa: E402
 import make_result  # noqa: E402
+import make_servo  # noqa: E402
 import vary_diagnosis  # noqa: E402
 
 FOLDER = Path(tempfile.mkdtemp(prefix="torquescope_page_"))
@@ -51,6 +52,7 @@ VARIED = every_time(vary_diagnosis.KINDS, "minute") if EXAMPLE_WRITER else ()
 DIAGNOSES = VERDICTS + VARIED
 REPLAYS = every_time(make_replay.ALONE, "replayed", "replayed_once")  # of `torquescope replay`
 ROLLED = every_time(make_replay.ROLLED, "rolled", "rolled_several")  # of estimators that fit simulations
+SERVOS = every_time(make_servo.KINDS, "servo", "servo_none")  # of `torquescope diagnose` of many recordings
 BESIDE = tuple(kind for kind, of in make_replay.BESIDE.items() if of in (*KINDS, *DIAGNOSES))  # beside other results
 COMPARED = ("compared",) if EXAMPLE_WRITER else ()  # results side by side
 needs_diagnoses = unittest.skipUnless(
@@ -61,7 +63,7 @@ needs_diagnoses = unittest.skipUnless(
 @lru_cache(maxsize=None)
 def result(kind):
     """Path of the file of this kind: made by make_result.py, make_arm_result.py, write_example_diagnosis.cpp,
-    vary_diagnosis.py, make_replay.py or make_board.py."""
+    vary_diagnosis.py, make_replay.py, make_servo.py or make_board.py."""
     path = FOLDER / f"{kind}.{'json' if kind in make_board.KINDS else 'h5'}"
     if kind in VERDICTS:
         subprocess.run([EXAMPLE_WRITER, path, kind], check=True, capture_output=True)
@@ -81,6 +83,8 @@ def result(kind):
             change(file)
     elif kind in make_replay.ALONE:
         make_replay.alone(path, make_replay.ALONE[kind])
+    elif kind in make_servo.KINDS:
+        make_servo.KINDS[kind](path)
     elif kind in make_board.KINDS:
         make_board.write(kind, path)
     elif kind in ARMS:

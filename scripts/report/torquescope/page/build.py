@@ -13,8 +13,9 @@ from pathlib import Path
 import jinja2
 
 from ..errors import ResultError
-from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, traces, words
-from . import what_now, words_of_arm, words_of_diagnosis, words_of_replay, words_of_rollouts
+from . import diagnosed, quantities, readings, style, svg, tables, tables_of_arm, tables_of_diagnosis, tables_of_servo
+from . import traces, what_now, words, words_of_arm, words_of_diagnosis, words_of_replay, words_of_rollouts
+from . import words_of_servo
 from .figures import all_cases
 from .study import Study
 
@@ -28,8 +29,9 @@ SCRIPTS = ("drawing.js", "samples.js", "trace.js", "zoom.js", "chart.js", "chart
 def page(study):
     """The text of the page."""
     kind = _of_diagnosis if study.diagnosis else _of_arm if study.arm else _of_study
-    body = (_of_replay if study.is_replay_alone else kind)(study)
-    if study.replay:
+    kind = _of_servo if study.servo else _of_replay if study.is_replay_alone else kind
+    body = kind(study)
+    if study.replay and not study.servo:  # a servo's pictures stand in its own order
         body["parts"] = ["replay.html", *body["parts"]]
     return render(
         all_cases(study),
@@ -96,6 +98,12 @@ def _of_study(study):
 def _of_replay(study):
     return {"parts": ["came_from.html"], "verdict": words_of_replay.verdict(study),
             "head": words_of_replay.head(study), "numbers": words_of_replay.big_numbers(study), "verdict_json": ""}
+
+
+def _of_servo(study):
+    return {"parts": ["servo.html", "came_from.html"], "verdict": words_of_servo.verdict(study),
+            "head": words_of_servo.head(study), "numbers": words_of_servo.big_numbers(study), "say": words_of_servo,
+            "lists": tables_of_servo, "verdict_json": ""}
 
 
 def _of_arm(study):

@@ -40,7 +40,8 @@ class Side:
             self.finished = finished[:10] or "–"
             self.diagnosis = result.diagnosis
             if not self.diagnosis and not result.estimators:
-                raise ResultError(f"{path} has no estimates to compare: it is a replay alone")
+                what = "a set of recordings of servos" if result.servo() else "a replay alone"
+                raise ResultError(f"{path} has no estimates to compare: it is {what}")
             self.is_arm = "arm" in result
             estimator = None if self.diagnosis else _reference(result)
             self.parameters = _of_joints(self.diagnosis.joints) if self.diagnosis else _of_estimator(result, estimator)

@@ -102,7 +102,7 @@ class Estimator(View):
 
 class Study:
     """One result file, by its path or opened already. Estimators in the order of the job; none in the file of a
-    diagnosis or of a replay alone."""
+    diagnosis, of a replay alone or of a set of recordings of servos."""
 
     def __init__(self, source):
         self._result = source if isinstance(source, Result) else Result(source)
@@ -114,16 +114,19 @@ class Study:
         self.diagnosis = self._result.diagnosis  # diagnosis_records.py; None for an identification
         replay = self._result.replay()  # read_replay.py; None where there is nothing to show
         self.replay = replay if replay and any(one.channels for one in replay.recordings) else None
+        self.servo = self._result.servo()  # read_servo.py; None of other kinds
         self.train = Recording(self._result.train) if self._result.train is not None else None
         self.validate = Recording(self._result.validate) if self._result.validate is not None else None
         is_arm = "arm" in self._result
         self.is_replay_alone = bool(self.replay) and not self._result.estimators and not self.diagnosis
-        if not self.is_replay_alone:
+        self.is_replay_alone = self.is_replay_alone and not self.servo
+        has_rows = not self.is_replay_alone and not self.servo
+        if has_rows:
             if self.train is None:
                 raise ResultError(f"{self.path} has nothing to draw: neither rows of a fit nor a replay")
             if not self.train.has("joint_1" if is_arm else "torque"):
                 raise ResultError(f"{self.path} keeps no samples to draw: its job says [output] samples = false")
-        self.arm = Arm(self._result) if is_arm and not self.is_replay_alone else None
+        self.arm = Arm(self._result) if is_arm and has_rows else None
         self.health = View(self._result.data.get("regressor_health")) if "data" in self._result else View(None)
         self.estimators = [Estimator(name, group) for name, group in self._result.estimators.items()]
         for estimator, look in zip(self.estimators, style.estimator_looks([e.kind for e in self.estimators])):

@@ -239,13 +239,15 @@ def head(study):
 
 def head_of_recordings(study, kind):
     """The one line at the top: job, kind of joint, lengths and rate of the recordings, date."""
-    parts = [study.job.name, kind,
-             f"train {q.seconds(study.train.duration_s)}" + (f", unseen {q.seconds(study.validate.duration_s)}"
+    return [study.job.name, kind,
+            f"train {q.seconds(study.train.duration_s)}" + (f", unseen {q.seconds(study.validate.duration_s)}"
                                                              if study.validate is not None else "")
-             + f", {q.tick(study.train.kept_rate_hz)} Hz"]
-    if study.provenance.finished:
-        parts.append(_date(study.provenance.finished))
-    return parts
+            + f", {q.tick(study.train.kept_rate_hz)} Hz", *date_of(study)]
+
+
+def date_of(study):
+    """[when it was made]; [] where nobody knows."""
+    return [_date(study.provenance.finished)] if study.provenance.finished else []
 
 
 def _date(text):

@@ -313,7 +313,8 @@ def _servo_summary(servo):
     rows = [["parameter", "unit", "before", "after"]]
     for name, one in {**servo.parameters_before, **servo.parameters}.items():
         sides = (servo.parameters_before, servo.parameters)
-        rows.append([name, one.unit, *(_number(side[name].value if name in side else None) for side in sides)])
+        values = (side[name].value if name in side else None for side in sides)
+        rows.append([name, one.unit, *map(_number, values)])
     if len(rows) > 1:
         yield ""
         yield from _table(rows)

@@ -48,7 +48,7 @@ def all_cases(study):
     """{name: Case} of everything this result can show, in page order."""
     if study.arm:
         return _cases(REPLAY_MODULES + (DIAGNOSIS_MODULES if study.diagnosis else ARM_MODULES), study)
-    if study.is_replay_alone:
+    if study.is_replay_alone or study.servo:
         return _cases(REPLAY_MODULES, study)
     own = (STUDY_MODULES if study.estimators else ()) + (DIAGNOSIS_MODULES if study.diagnosis else ())
     return _cases(REPLAY_MODULES + own + RECORDING_MODULES, study)

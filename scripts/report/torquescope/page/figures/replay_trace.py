@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import quantities as q, style, traces, words_of_replay
+from .. import quantities as q, style, traces, words_of_replay, words_of_servo
 from ..words_of_replay import YOURS
 from . import Case
 
@@ -64,25 +64,34 @@ def finer(unit, limit):
 
 
 def cases(study):
-    """Unseen recordings first; of each one figure with position and effort, and one of the velocity."""
+    """Unseen recordings first; of each one figure with position and effort, and one of the velocity. Of a set of
+    recordings of servos, which are many, the first alone."""
     found = {}
-    for name, one in words_of_replay.named_recordings(study.replay) if study.replay else ():
+    for name, one, caption in _captioned(study) if study.replay else ():
         together = [key for key in ("position", "torque") if key in one.channels]
         for figure, keys in ((name, together or ["velocity"]), (f"{name}_velocity", ["velocity"] if together else [])):
             channels = [_channel(study, one, key) for key in keys if key in one.channels]
-            if channels and len(one.time) > 1:
-                found[figure] = _case(study.replay, one, channels, is_first=figure == name)
+            if channels and len(one.time) > 1 and (figure == name or not study.servo):
+                sentence = caption if figure == name else "Of the same simulation."
+                found[figure] = _case(study.replay, one, channels, sentence)
     return found
 
 
-def _case(replay, one, channels, is_first):
+def _captioned(study):
+    """[(name of its figure, recording, what is said of it)]"""
+    if study.servo:
+        return words_of_servo.captioned(study)
+    return [(name, one, words_of_replay.caption(study.replay, one))
+            for name, one in words_of_replay.named_recordings(study.replay)]
+
+
+def _case(replay, one, channels, sentence):
     window, said = opened(one, channels)
     guide, guided_by = judged(channels)
     series = {}
     for channel in channels:
         series[channel.part] = channel.measured
         series.update({f"d{channel.part}{at}": sim[3] for at, sim in enumerate(channel.sims)})
-    sentence = words_of_replay.caption(replay, one) if is_first else "Of the same simulation."
     sentence += said
     outside = sum(channel.outside for channel in channels)
     if outside:
