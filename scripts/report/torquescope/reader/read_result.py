@@ -162,8 +162,8 @@ class Result(Group):
 
     `estimators` is a dict in the order of the job; empty for a diagnosis, which is at `diagnosis` (else None) as the
     records of diagnosis_records.py. Whatever else the file has is there under its own name:
-    `result.data.regressor_health`; but /replay is `replay()`, and /servo `servo()`. Use it in a `with` block, or close()
-    it.
+    `result.data.regressor_health`; but /replay is `replay()` and /servo is `servo()`. Use it in a `with` block, or
+    close() it.
     """
 
     def __init__(self, name, is_ours=False):
