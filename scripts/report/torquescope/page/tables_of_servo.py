@@ -112,7 +112,8 @@ def recordings(study):
         shares = [one.relerr_before, one.relerr_after] if say.has_after(servo) else [one.relerr_before]
         rows.append([one.name, "unseen" if one.is_unseen else "training",
                      *(say.quantity_text(one, key) for key in known), q.whole(one.samples),
-                     say.before_after(servo, one), " → ".join(q.percent(value) if math.isfinite(value) else "diverged" for value in shares)])
+                     say.before_after(servo, one),
+                     " → ".join(q.percent(value) if math.isfinite(value) else "diverged" for value in shares)])
     return {"head": head, "rows": rows}
 
 

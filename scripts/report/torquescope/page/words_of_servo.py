@@ -49,8 +49,8 @@ def _evidence(servo):
         return ""
     unit, times = finer(servo)
     left, apart = (q.number(times * value, 2) for value in (servo.left_rms, servo.replicates_rms))
-    return (f"In training {left} {unit} rms of the position are left; simulations that begin elsewhere within an encoder "
-            f"step differ by {apart} {unit}.")
+    return (f"In training {left} {unit} rms of the position are left; simulations that begin elsewhere within an "
+            f"encoder step differ by {apart} {unit}.")
 
 
 def head(study):
