@@ -113,6 +113,11 @@ ServoJob read_servo_job(Job job) {
   return made;
 }
 
+std::string unit_of_command(ServoJob const& job) {
+  if (job.command == DriveCommand::current) return "A";
+  return job.command == DriveCommand::voltage ? "V" : "rad";
+}
+
 std::vector<std::string> warnings_of(ServoJob const& job) {
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < job.entries.size(); ++k)

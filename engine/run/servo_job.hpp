@@ -40,6 +40,7 @@ struct ServoJob {
 };
 
 ServoJob read_servo_job(Job job);
+std::string unit_of_command(ServoJob const& job);  // "V", "A", "rad"
 // one line each
 std::vector<std::string> warnings_of(ServoJob const& job);
 

@@ -11,11 +11,6 @@
 namespace torquescope {
 namespace {
 
-std::string command_unit(ServoJob const& job) {
-  if (job.command == DriveCommand::current) return "A";
-  return job.command == DriveCommand::voltage ? "V" : "rad";
-}
-
 Replay replay_of(ServoJob const& job, ServoQuestion const& question, ServoDecision const& decision) {
   Replay replay;
   bool const has_names = !decision.facts.kept.empty();
@@ -140,20 +135,6 @@ ServoTable without_each(std::string const& quantity, ServoJob const& job, ServoQ
   return table;
 }
 
-std::vector<ServoNote> notes_of(ServoJob const& job, ServoDecision const& decision) {
-  std::vector<ServoNote> notes;
-  if (job.training.size() < 2) notes.push_back(ServoNote::few_recordings);
-  if (!decision.fixes_scale) notes.push_back(ServoNote::no_scale);
-  if (decision.fixes_scale && !decision.recorded.has_several_loads) notes.push_back(ServoNote::one_load);
-  if (job.validation.empty()) notes.push_back(ServoNote::no_validation);
-  if (!job.known.command_gain) notes.push_back(ServoNote::no_gain);
-  bool const switches = std::any_of(job.training.begin(), job.training.end(), [](RolloutTrack const& track) {
-    return track.enabled.size() > 0 && track.enabled.minCoeff() == 0.0;
-  });
-  if (!switches && job.command == DriveCommand::voltage) notes.push_back(ServoNote::always_on);
-  return notes;
-}
-
 void refuse_unknown_quantities(ServoRequest const& request, std::vector<SetEntry> const& entries) {
   auto const told = told_apart_by(entries);
   for (auto const& name : request.leave_out)
@@ -183,9 +164,9 @@ ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, Pro
   try {
     ServoReport report;
     report.name = job.experiment.name;
-    report.command_unit = command_unit(job);
+    report.command_unit = unit_of_command(job);
     report.decision = decide_servo(question);
-    report.notes = notes_of(job, report.decision);
+    report.notes = notes_of(job);
     report.entries = job.entries;
     if (report.decision.facts.reason == LoopReason::diverges) return report;
     report.fit = servo_fit(question, report.decision);

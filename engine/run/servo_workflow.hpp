@@ -4,14 +4,17 @@
 // Errors     those of the job and its files; 75 when it is stopped; 73 where another result stands
 // Threads    spreads fits over request.threads; call it from one thread
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/run/progress_update.hpp"
+#include "engine/run/provenance_writer.hpp"
 #include "engine/run/servo_job.hpp"
 #include "engine/run/servo_report.hpp"
+#include "engine/run/workflows.hpp"
 
 namespace torquescope {
 
@@ -24,8 +27,13 @@ struct ServoRequest {
 
 ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, ProgressSink const& progress);
 
-// a result with /job, /servo and /replay (store/RESULT_FORMAT.md)
-void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request);
+// what a set of recordings is, and what it cannot tell
+std::vector<CheckLine> check_servo(ServoJob const& job);
+std::vector<ServoNote> notes_of(ServoJob const& job);
+
+// a result with /job, /servo and /replay (store/RESULT_FORMAT.md); printed: the verdict and the rest, for `show`
+void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request,
+                      std::array<std::string, 2> const& printed, Beginning const& beginning);
 std::string servo_json(ServoReport const& report);
 
 }  // namespace torquescope

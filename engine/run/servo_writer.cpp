@@ -21,9 +21,9 @@ void refuse_other_result(std::filesystem::path const& output) {
 
 }  // namespace
 
-void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request) {
+void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request,
+                      std::array<std::string, 2> const& printed, Beginning const& beginning) {
   refuse_other_result(request.output);
-  Beginning const beginning;
   ResultWriter writer(request.output, {.gzip = job.output.compression == "gzip", .inputs_sha256 = job.inputs_sha256()});
   writer.texts("/job/text", std::vector<std::string>{job.job.text}, {"1", "job file, verbatim"});
   writer.attribute("/job", "name", job.experiment.name);
@@ -34,6 +34,7 @@ void write_servo_file(ServoJob const& job, ServoReport const& report, ServoReque
   writer.attribute("/servo", "verdict", word(report.verdict));
   writer.attribute("/servo", "headline", headline(report));
   writer.texts("/servo/json", std::vector<std::string>{servo_json(report)}, {"1", "the whole diagnosis, JSON"});
+  writer.texts("/servo/printed", printed, {"1", "the verdict and the tables, as printed"});
   if (!report.replay.recordings.empty()) write_replay(writer, report.replay);
   finish_result(writer, request.output, request.threads, beginning);
 }

@@ -10,6 +10,7 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/terminal/plain_text.hpp"
+#include "engine/run/servo_workflow.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
@@ -53,24 +54,37 @@ std::string check_text(std::vector<CheckLine> const& lines, Ink const& ink) {
   return text + fmt::format("{} fault{} of the recording: `run` refuses it\n", faults, faults == 1 ? "" : "s");
 }
 
-std::string check_json(Experiment const& experiment, std::string const& job, std::vector<CheckLine> const& lines) {
+std::string check_json(std::string const& name, std::string const& job, std::vector<CheckLine> const& lines) {
   Json list = Json::array();
   for (auto const& line : lines)
     list.push_back({{"level", level_word(line)}, {"topic", line.topic}, {"text", line.text}});
   Json const document = {{"schema", 1},
                          {"file", job},
-                         {"job", experiment.name()},
+                         {"job", name},
                          {"warnings", std::count_if(lines.begin(), lines.end(), warns)},
                          {"faults", std::count_if(lines.begin(), lines.end(), is_fault)},
                          {"lines", list}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+struct CheckedJob {
+  std::string name;
+  std::vector<CheckLine> lines;
+};
+
+CheckedJob checked(std::string const& file, Session const& session) {
+  if (Job job = read_job(file); has_recording_set(job)) {
+    ServoJob const servo = read_servo_job(std::move(job));
+    return {servo.experiment.name, check_servo(servo)};
+  }
+  Experiment const experiment = load_with_bar(session, file, Experiment::Purpose::check);
+  return {experiment.name(), experiment.check(choose_threads(0).count)};
+}
+
 ExitCode check_job(std::string const& job, Session const& session) {
-  Experiment const experiment = load_with_bar(session, job, Experiment::Purpose::check);
-  auto const lines = experiment.check(choose_threads(0).count);
+  auto const [name, lines] = checked(job, session);
   session.result(check_text(lines, session.result_ink()));
-  session.document(check_json(experiment, job, lines));
+  session.document(check_json(name, job, lines));
   return std::any_of(lines.begin(), lines.end(), is_fault) ? ExitCode::bad_data : ExitCode::ok;
 }
 

@@ -136,6 +136,7 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
     SessionProgress const bar(session, "read");
     return read_servo_job(std::move(job));
   }();
+  Beginning const beginning;
   ServoRequest request;
   request.threads = choose_threads(arguments.threads);
   request.output = !arguments.out.empty()      ? std::filesystem::path(arguments.out)
@@ -163,9 +164,10 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
   print_stages(session, phases.finish());
   session.note("\n");
   session.verdict(servo_verdict_text(report, session.result_ink()));
-  session.result(servo_text(report, arguments.all, session.result_ink()));
+  session.result(servo_text(report, arguments.all));
   session.document(servo_json(report));
-  write_servo_file(servo, report, request);
+  Ink const plain;
+  write_servo_file(servo, report, request, {servo_verdict_text(report, plain), servo_text(report, true)}, beginning);
   note_whereabouts(session, "wrote", request.output, session.options().json);
   return arguments.exit_code ? code_of(report.verdict) : ExitCode::ok;
 }

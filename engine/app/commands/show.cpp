@@ -16,6 +16,7 @@
 #include "engine/base/confined.hpp"
 #include "engine/base/packed_bytes.hpp"
 #include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/servo_reader.hpp"
 
 namespace torquescope {
 
@@ -61,8 +62,20 @@ ExitCode show_verification(ShowArguments const& arguments, Session const& sessio
   return ExitCode::ok;
 }
 
+// the text that the diagnosis printed, and its document
+ExitCode show_servo(ShowArguments const& arguments, Session const& session) {
+  look_at_result(arguments.file, [](ResultReader const& there) { read_servo(there); });
+  KeptServo const kept = read_servo(ResultReader(arguments.file));
+  session.verdict(kept.verdict_text);
+  session.result(kept.text);
+  session.document(kept.json);
+  return arguments.exit_code ? code_of(kept.verdict) : ExitCode::ok;
+}
+
 ExitCode show_result(ShowArguments const& arguments, Session const& session) {
   if (arguments.verify) return show_verification(arguments, session);
+  look_at_result(arguments.file, [](ResultReader const& there) { has_servo(there); });
+  if (has_servo(ResultReader(arguments.file))) return show_servo(arguments, session);
   ResultSummary const summary = read_summary(arguments.file);
   Ink const& ink = session.result_ink();
   if (summary.has_diagnosis) {

@@ -89,7 +89,7 @@ std::string servo_verdict_text(ServoReport const& report, Ink const& ink) {
   return text + "\n";
 }
 
-std::string servo_text(ServoReport const& report, bool all, Ink const&) {
+std::string servo_text(ServoReport const& report, bool all) {
   std::string text = "\n" + names_text(report);
   for (auto const& table : report.left_out) text += "\n" + left_out_text(table);
   for (auto const& table : report.tables) text += "\n" + table_text(table);

@@ -11,6 +11,6 @@
 namespace torquescope {
 
 std::string servo_verdict_text(ServoReport const& report, Ink const& ink);  // a line and the errors
-std::string servo_text(ServoReport const& report, bool all, Ink const& ink);
+std::string servo_text(ServoReport const& report, bool all);
 
 }  // namespace torquescope
