@@ -71,10 +71,9 @@ std::vector<LoopPoint> starts_of(LoopQuestion const& question, Regressor const& 
   return starts;
 }
 
-LoopQuestion asked_of(ServoQuestion const& question, ServoStart const& start, LoopSetting const& loop,
+LoopQuestion asked_of(ServoQuestion const& question, Eigen::VectorXd const& terms, LoopSetting const& loop,
                       JointScales const& scales) {
-  LoopQuestion asked{question.regressor, start.terms,         scales,        loop,
-                     question.training,  question.validation, {true, false}, {},
+  LoopQuestion asked{question.regressor, terms, scales, loop, question.training, question.validation, {true, false}, {},
                      question.most_laws};
   asked.numbers = question.numbers;
   asked.seed = question.seed;
@@ -90,15 +89,23 @@ RolloutModel ServoDecision::model(ServoQuestion const& question, LoopFit const& 
   return {question.regressor, fit.point.terms, scales, fit.point.effects, fit.point.loop};
 }
 
-ServoDecision decide_servo(ServoQuestion const& question) {
+ServoBase servo_base(ServoQuestion const& question) {
   ServoStart const start = servo_start(question.regressor, question.loop, question.training);
-  LoopSetting const loop = loop_of(question, start);
+  ServoBase base{start.terms, loop_of(question, start), {}, {}, start.fixes_scale};
+  base.recorded = drive_scales(question.training, numbers_of(base.loop.form, base.loop.values));
+  base.scales = scales_of(start, base.recorded, question.training);
+  return base;
+}
+
+ServoDecision decide_servo(ServoQuestion const& question) {
+  ServoBase const base = servo_base(question);
   ServoDecision decision;
-  decision.fixes_scale = start.fixes_scale;
-  decision.recorded = drive_scales(question.training, numbers_of(loop.form, loop.values));
-  decision.scales = scales_of(start, decision.recorded, question.training);
-  LoopQuestion asked = asked_of(question, start, loop, decision.scales);
-  asked.moves = drive_moves(loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear});
+  decision.fixes_scale = base.fixes_scale;
+  decision.recorded = base.recorded;
+  decision.scales = base.scales;
+  LoopQuestion asked = asked_of(question, base.terms, base.loop, decision.scales);
+  asked.moves =
+      drive_moves(base.loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear});
   LoopClimb climb = climb_ladder(asked, starts_of(asked, question.regressor));
   decision.facts = std::move(climb.facts);
   decision.base = std::move(climb.base);
@@ -120,7 +127,7 @@ std::vector<LoopNumber> numbers_of_fit(ServoQuestion const& question, ServoDecis
 
 LoopFit refitted(ServoQuestion const& question, ServoDecision const& decision, LoopFit const& structure) {
   ServoStart const start = servo_start(question.regressor, question.loop, question.training);
-  LoopQuestion const asked = asked_of(question, start, structure.point.loop, decision.scales);
+  LoopQuestion const asked = asked_of(question, start.terms, structure.point.loop, decision.scales);
   return fitted(asked, structure.point, LoopSearch::to_its_end, question.threads);
 }
 

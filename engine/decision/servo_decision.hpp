@@ -46,6 +46,16 @@ struct ServoDecision {
   RolloutModel model(ServoQuestion const& question, LoopFit const& fit) const;
 };
 
+// where every fit of these recordings begins
+struct ServoBase {
+  Eigen::VectorXd terms;
+  LoopSetting loop{};  // motor_gain and back_emf are free where they can be told and the job does not give them
+  JointScales scales{};
+  DriveScales recorded{};
+  bool fixes_scale = false;
+};
+ServoBase servo_base(ServoQuestion const& question);
+
 ServoDecision decide_servo(ServoQuestion const& question);
 // parameters of one of its fits, with their intervals
 std::vector<LoopNumber> numbers_of_fit(ServoQuestion const& question, ServoDecision const& decision,

@@ -105,7 +105,12 @@ HWY_INLINE V pass_on(LaneLoops const& loops, TickInputs const& in, std::size_t r
     store(hn::Add(acting, hn::Mul(lagging, load(loops.lag_end, lane))), loop.lagged, lane);
     acting = hn::Add(acting, hn::Mul(lagging, load(loops.lag_mean, lane)));
   }
-  return hn::Mul(acting, load(loops.motor_gain, lane));
+  acting = hn::Mul(acting, load(loops.motor_gain, lane));
+  if (in.enabled == nullptr) return acting;
+  // whatever is on its way: a motor whose drive is off gives nothing
+  V const is_on = hn::Set(d, in.enabled[row]);
+  if (loops.has_lag) store(hn::Mul(load(loop.lagged, lane), is_on), loop.lagged, lane);
+  return hn::Mul(acting, is_on);
 }
 
 // what the motor gives on average until the next tick

@@ -23,6 +23,7 @@
 #include "engine/run/rollout_parts.hpp"
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
+#include "engine/run/servo_rollouts.hpp"
 #include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/start_point.hpp"
@@ -59,10 +60,12 @@ void check_name(Job const& job, std::string const& name, std::vector<Problem>& p
                                   "a path belongs into --out, or [output] file"));
 }
 
-void check_sources(Job const& job, RecordingOptions const& recording, std::vector<Problem>& problems) {
+void check_sources(Job const& job, RecordingOptions const& recording, Experiment::Purpose purpose,
+                   std::vector<Problem>& problems) {
   bool const reads = !recording.train.empty();
   bool const simulates = job.find("simulate") != nullptr;
   if (Section const* set = job.find("recordings")) {
+    if (purpose == Experiment::Purpose::identify || purpose == Experiment::Purpose::replay) return;
     problems.push_back(problem_at(*set, "", "this command works on recording.train, and the job has [[recordings]]",
                                   "write [recording] with train = [\"FILE.csv\"] in place of [[recordings]]"));
     return;
@@ -145,6 +148,15 @@ void use_files(Experiment::Parts& parts, RecordingOptions const& options, Record
   bring_to_rate(unseen, rate_hz);
   grade_standstill(parts.train.recordings, Grade::fault);
   if (!unseen.empty()) parts.validate = DataSet{std::move(unseen), {}, {}, false};
+}
+
+// servos: least squares see what the joint itself took, simulations what is known of each recording
+ServoJob use_recording_set(Experiment::Parts& parts) {
+  ServoJob servo = read_servo_job(parts.job);
+  ServoSources sources = servo_sources(servo);
+  parts.train.recordings = std::move(sources.train);
+  if (!sources.validate.empty()) parts.validate = DataSet{std::move(sources.validate), {}, {}, false};
+  return servo;
 }
 
 void forget_channels(Recording& recording) {
@@ -331,7 +343,7 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
   auto const recording = read_options<RecordingOptions>(job, problems);
   auto const model = read_options<ModelOptions>(job, problems);
   bool const is_arm = !model.robot.empty();
-  check_sources(job, recording, problems);
+  check_sources(job, recording, purpose, problems);
   check_work(job, purpose, problems);
   parts->diagnose = read_options<DiagnoseOptions>(job, problems);
   parts->estimators = plan_estimators(job.all("estimator"), problems);
@@ -379,19 +391,24 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
   } else if (is_arm) {
     use_arm_files(*parts, recording, payloads, tables);
   } else {
+    std::optional<ServoJob> servo;
     if (simulates)
       use_simulation(*parts, plan, channels);
+    else if (has_recording_set(job))
+      servo = use_recording_set(*parts);
     else
       use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
     std::vector<Recording> train, validate;
-    if (parts->rollout) {
+    if (parts->rollout && !servo) {
       train = parts->train.recordings;
       if (parts->validate) validate = parts->validate->recordings;
     }
     prepare(parts->train, *parts, channels);
     if (parts->validate) prepare(*parts->validate, *parts, channels);
-    if (parts->rollout)
+    if (parts->rollout && servo)
+      add_servo(*parts->rollout, *parts->regressor, *servo, parts->train.regression);
+    else if (parts->rollout)
       add_recordings(*parts->rollout, *parts->regressor, std::move(train), std::move(validate), parts->train.regression,
                      parts->filter, section_or_empty(job, "filter"));
   }

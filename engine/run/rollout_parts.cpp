@@ -11,6 +11,7 @@
 #include "engine/rollout/effect_starts.hpp"
 #include "engine/rollout/loop_gains.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/servo_job.hpp"
 #include "engine/simulate/controller_fit.hpp"
 
 namespace torquescope {
@@ -115,29 +116,6 @@ void say_how_loops_answer(RolloutParts& rollout, LoopSetting const& setting) {
                                                  setting.speed_samples, setting.speed_samples == 1 ? "" : "s");
 }
 
-// mean square of what the start leaves of each channel; of the channel itself where the start runs away
-ChannelNumbers variance_at_start(RolloutParts const& rollout) {
-  RolloutTask task{rollout.train.tracks, {}, channels_of(rollout.plan.loop)};
-  for (auto const& track : task.tracks)
-    task.structures.push_back(rollout.model->structure_for(rollout.model->start(), track.tick_s()));
-  std::vector<RolloutTrial> const trial{rollout.model->trial(rollout.model->start())};
-  ChannelNumbers const sums = sums_of_squares(task, trial, 1).front();
-  ChannelNumbers variance{};
-  for (std::size_t channel = 0; channel < n_channels; ++channel) {
-    double n = 0.0, energy = 0.0;
-    for (std::size_t t = 0; t < task.tracks.size(); ++t) {
-      auto const& track = task.tracks[t];
-      if (!task.count(t, channel)) continue;
-      n += static_cast<double>(track.samples());
-      Eigen::VectorXd const& signal = channel == 0 ? track.position : track.torque;
-      energy += (signal.array() - signal.mean()).square().sum();
-    }
-    double const left = std::isfinite(sums[channel]) && sums[channel] > 0.0 ? sums[channel] : energy;
-    variance[channel] = n > 0.0 ? left / n : 0.0;
-  }
-  return variance;
-}
-
 }  // namespace
 
 std::string word(LoopOrigin origin) {
@@ -158,8 +136,13 @@ std::string word(LoopOrigin origin) {
 
 RolloutPlan plan_rollouts(Job const& job, Regressor const& regressor, std::vector<Problem>& problems) {
   RolloutPlan plan;
-  plan.loop = read_options<LoopOptions>(job, problems);
-  check_loop(plan.loop, section_or_empty(job, "loop"), problems);
+  plan.is_servo = has_recording_set(job);
+  if (plan.is_servo) {
+    plan.loop = searched_servo_loop(servo_loop(job, problems));
+  } else {
+    plan.loop = read_options<LoopOptions>(job, problems);
+    check_loop(plan.loop, section_or_empty(job, "loop"), problems);
+  }
   for (Section const* section : job.all("model.effects")) read_effect(*section, regressor, plan, problems);
   auto const names = regressor.names();
   if (Section const* given = job.find("model.given"))
@@ -265,6 +248,28 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
   say_how_loops_answer(rollout, setting);
   rollout.model.emplace(regressor, start, scales_with(start), effects, setting);
   rollout.variance = variance_at_start(rollout);
+}
+
+ChannelNumbers variance_at_start(RolloutParts const& rollout) {
+  RolloutTask task{rollout.train.tracks, {}, channels_of(rollout.plan.loop)};
+  for (auto const& track : task.tracks)
+    task.structures.push_back(rollout.model->structure_for(rollout.model->start(), track.tick_s()));
+  std::vector<RolloutTrial> const trial{rollout.model->trial(rollout.model->start())};
+  ChannelNumbers const sums = sums_of_squares(task, trial, 1).front();
+  ChannelNumbers variance{};
+  for (std::size_t channel = 0; channel < n_channels; ++channel) {
+    double n = 0.0, energy = 0.0;
+    for (std::size_t t = 0; t < task.tracks.size(); ++t) {
+      auto const& track = task.tracks[t];
+      if (!task.count(t, channel)) continue;
+      n += static_cast<double>(track.samples());
+      Eigen::VectorXd const& signal = channel == 0 ? track.position : track.torque;
+      energy += (signal.array() - signal.mean()).square().sum();
+    }
+    double const left = std::isfinite(sums[channel]) && sums[channel] > 0.0 ? sums[channel] : energy;
+    variance[channel] = n > 0.0 ? left / n : 0.0;
+  }
+  return variance;
 }
 
 Bounds rollout_box(RolloutModel const& model) {

@@ -24,6 +24,8 @@
 
 namespace torquescope {
 
+struct ServoJob;
+
 // where a track's loop comes from
 enum class LoopOrigin { given, fitted, identified, approximated, none };
 std::string word(LoopOrigin origin);
@@ -41,6 +43,7 @@ struct RolloutPlan {
   LoopOptions loop{};
   std::vector<ModelEffect> effects{};
   std::map<std::string, double> given{};  // of [model.given]
+  bool is_servo = false;                  // of [[recordings]]: what is known of each comes with its data
 };
 
 RolloutPlan plan_rollouts(Job const& job, Regressor const& regressor, std::vector<Problem>& problems);
@@ -62,9 +65,15 @@ void add_recordings(RolloutParts& rollout, Regressor const& regressor, std::vect
                     std::vector<Recording> validate, RegressionData const& rows, FilterOptions const& filter,
                     Section const& filter_section);
 
+// the same of servos: their tracks know their loads, and their start is theirs (decision/servo_start.hpp)
+void add_servo(RolloutParts& rollout, Regressor const& regressor, ServoJob const& servo, RegressionData const& rows);
+
 // tracks of other recordings with the same loop
 RolloutData rollout_data(std::vector<Recording> recordings, LoopOptions const& loop, FilterOptions const& filter,
                          Section const& filter_section);
+
+// mean square of what the start leaves of each channel; of the channel itself where the start runs away
+ChannelNumbers variance_at_start(RolloutParts const& rollout);
 
 // of a population method: plausible sizes round the start
 Bounds rollout_box(RolloutModel const& model);

@@ -10,7 +10,6 @@
 #include "engine/data/recording_reader.hpp"
 #include "engine/effects/model_options.hpp"
 #include "engine/health/finding_text.hpp"
-#include "engine/rollout/loop_options.hpp"
 #include "engine/run/job_sections.hpp"
 
 namespace torquescope {
@@ -71,6 +70,25 @@ ServoQuestion ServoJob::question(int threads) const {
   return question;
 }
 
+LoopOptions servo_loop(Job const& job, std::vector<Problem>& problems) {
+  auto loop = read_options<LoopOptions>(job, problems);
+  Section const section = section_or_empty(job, "loop");
+  check_drive(loop, section, known_keys(job), problems);
+  check_loop(loop, section, problems);
+  loop.channels = {"position"};
+  return loop;
+}
+
+LoopOptions searched_servo_loop(LoopOptions loop) {
+  auto const add = [&](char const* key, double given) {
+    bool const is_listed = std::find(loop.fit.begin(), loop.fit.end(), key) != loop.fit.end();
+    if (!is_listed && std::isnan(given)) loop.fit.emplace_back(key);
+  };
+  add("motor_gain", loop.motor_gain);
+  if (loop.drive == "voltage") add("back_emf", loop.back_emf);
+  return loop;
+}
+
 ServoJob read_servo_job(Job job) {
   ServoJob made;
   std::vector<Problem> problems;
@@ -80,11 +98,8 @@ ServoJob read_servo_job(Job job) {
   made.output = read_options<OutputOptions>(job, problems);
   made.diagnose = read_options<DiagnoseOptions>(job, problems);
   auto const recording = read_options<RecordingOptions>(job, problems);
-  auto loop = read_options<LoopOptions>(job, problems);
-  Section const section = section_or_empty(job, "loop");
-  check_loop(loop, section, problems);
   made.known = known_keys(job);
-  check_drive(loop, section, made.known, problems);
+  LoopOptions loop = servo_loop(job, problems);
   if (!recording.columns.contains("reference"))
     problems.push_back(problem_at(section_or_empty(job, "recording"), "columns",
                                   "a set of recordings is simulated from its commands, and none is named",

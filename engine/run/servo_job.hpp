@@ -13,6 +13,7 @@
 #include "engine/decision/servo_decision.hpp"
 #include "engine/job/job.hpp"
 #include "engine/job/job_options.hpp"
+#include "engine/rollout/loop_options.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/recording_set.hpp"
 
@@ -40,6 +41,11 @@ struct ServoJob {
 };
 
 ServoJob read_servo_job(Job job);
+
+// [loop] of a job with [[recordings]], as its drive has it: P on the position, ticks left open
+LoopOptions servo_loop(Job const& job, std::vector<Problem>& problems);
+// the same for a fit without a choice of laws: motor_gain and back_emf are searched beside loop.fit
+LoopOptions searched_servo_loop(LoopOptions loop);
 std::string unit_of_command(ServoJob const& job);  // "V", "A", "rad"
 // one line each
 std::vector<std::string> warnings_of(ServoJob const& job);

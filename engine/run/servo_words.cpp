@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cctype>
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
@@ -56,8 +57,10 @@ std::string name_of_number(LoopNumber const& number) {
 namespace {
 
 std::string named(KeptMove const& move) {
-  std::string const title =
+  std::string title =
       move.subject.is_of_command() ? drive_law_of(move.subject.key).title : move.subject.effect->title();
+  // within a sentence; Stribeck was a man
+  if (!title.starts_with("Stribeck")) title.front() = static_cast<char>(std::tolower(title.front()));
   if (move.numbers.empty()) return title;
   LoopNumber const& number = move.numbers.front();
   std::string const unit = number.unit == "1" ? "" : " " + number.unit;
