@@ -1,5 +1,5 @@
 #pragma once
-// Reads what a diagnosis of many recordings left in a result: its verdict, its words as they were printed, its document.
+// Reads what a diagnosis of many recordings left in a result: its verdict, its words as printed, its document.
 //
 // Errors     those of ResultReader; 65 where the verdict is no word of ours
 
