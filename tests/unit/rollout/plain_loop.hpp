@@ -176,10 +176,11 @@ class PlainLoop {
   void move(int tick) {
     int const sample = tick / in_.ticks_per_sample;
     double const h = tick_s_ / steps_, outside = channel(in_.outside, sample, 0.0);
-    double const brake = channel(in_.enabled, sample, 1.0) * c_.back_emf;
+    double const on = channel(in_.enabled, sample, 1.0), brake = on * c_.back_emf;
     for (int step = 0; step < steps_; ++step) {
       double const time_s = (tick + (step + 0.5) / steps_) * tick_s_;
-      double acts = sent_at(time_s);
+      double acts = on * sent_at(time_s);
+      lagged_ *= on;  // a motor that is off gives nothing, whatever was on its way
       if (c_.torque_lag_s > 0.0) {
         double const left = std::exp(-h / c_.torque_lag_s), before = lagged_;
         lagged_ = acts + (lagged_ - acts) * left;
