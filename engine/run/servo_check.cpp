@@ -74,18 +74,41 @@ std::string known_text(ServoJob const& job) {
 
 }  // namespace
 
-std::vector<ServoNote> notes_of(ServoJob const& job) {
-  std::vector<ServoNote> notes;
+namespace {
+
+// the recorded command over the known one, by least squares where the drive is on and not at its limit; NaN: not known
+double command_ratio(ServoJob const& job) {
+  if (!job.has_torque || !job.known.command_gain) return std::numeric_limits<double>::quiet_NaN();
+  double products = 0.0, squares = 0.0;
+  for (auto const& track : job.training)
+    for (Eigen::Index k = 0; k < track.position.size(); ++k) {
+      double const command = track.known.command_gain * (track.reference[k] - track.position[k]);
+      bool const is_off = track.enabled.size() > 0 && track.enabled[k] == 0.0;
+      if (is_off || std::abs(command) >= track.known.command_limit) continue;
+      products += track.torque[k] * command;
+      squares += command * command;
+    }
+  return products / squares;
+}
+
+}  // namespace
+
+std::vector<ServoRemark> notes_of(ServoJob const& job) {
+  std::vector<ServoRemark> notes;
   DriveScales const scales = drive_scales(job.training, numbers_of(job.loop.form, job.loop.values));
-  if (job.training.size() < 2) notes.push_back(ServoNote::few_recordings);
-  if (!scales.has_load) notes.push_back(ServoNote::no_scale);
-  if (scales.has_load && !scales.has_several_loads) notes.push_back(ServoNote::one_load);
-  if (job.validation.empty()) notes.push_back(ServoNote::no_validation);
-  if (!job.known.command_gain) notes.push_back(ServoNote::no_gain);
+  if (job.training.size() < 2) notes.push_back({ServoNote::few_recordings});
+  if (!scales.has_load) notes.push_back({ServoNote::no_scale});
+  if (scales.has_load && !scales.has_several_loads) notes.push_back({ServoNote::one_load});
+  if (job.validation.empty()) notes.push_back({ServoNote::no_validation});
+  if (!job.known.command_gain) notes.push_back({ServoNote::no_gain});
   bool const switches = std::any_of(job.training.begin(), job.training.end(), [](RolloutTrack const& track) {
     return track.enabled.size() > 0 && track.enabled.minCoeff() == 0.0;
   });
-  if (!switches && job.command == DriveCommand::voltage) notes.push_back(ServoNote::always_on);
+  if (!switches && job.command == DriveCommand::voltage) notes.push_back({ServoNote::always_on});
+  // a tenth: what supplies sag by
+  constexpr double tenth = 0.1;
+  if (double const ratio = command_ratio(job); std::abs(ratio - 1.0) > tenth)
+    notes.push_back({ServoNote::other_gain, ratio});
   return notes;
 }
 
@@ -100,7 +123,9 @@ std::vector<CheckLine> check_servo(ServoJob const& job) {
                                1.0 / job.training.front().tick_s())});
   lines.push_back({Level::ok, "quantities", quantities_text(job.entries)});
   lines.push_back({Level::ok, "known", known_text(job)});
-  for (ServoNote const note : notes_of(job)) lines.push_back({Level::note, "recordings", sentence_of(note)});
+  for (auto const& remark : notes_of(job))
+    lines.push_back(
+        {remark.note == ServoNote::other_gain ? Level::warn : Level::note, "recordings", sentence_of(remark)});
   for (auto const& warning : warnings_of(job)) lines.push_back({Level::warn, "recording", warning});
   return lines;
 }

@@ -89,7 +89,7 @@ std::string servo_json(ServoReport const& report) {
   for (auto const& table : report.left_out) left_out.push_back(table_json(table, true));
   for (std::size_t k = 0; k < report.replay.recordings.size(); ++k)
     recordings.push_back(recording_json(report.entries[k], report.replay.recordings[k], report.replay));
-  for (ServoNote const note : report.notes) notes.push_back({{"note", word(note)}, {"text", sentence_of(note)}});
+  for (auto const& remark : report.notes) notes.push_back({{"note", word(remark.note)}, {"text", sentence_of(remark)}});
   Json const document = {
       {"schema", 1},
       {"kind", "servo"},

@@ -38,6 +38,12 @@ enum class ServoNote {
   no_gain,         // the command is the error itself
   always_on,       // viscous friction and back-EMF are one number
   few_recordings,  // one recording alone
+  other_gain,      // the recorded command is another multiple of the error; number: of the known one
+};
+
+struct ServoRemark {
+  ServoNote note{};
+  double number = 0.0;
 };
 
 struct ServoReport {
@@ -50,7 +56,7 @@ struct ServoReport {
   ServoError train{}, validate{};
   std::vector<ServoTable> tables{};
   std::vector<ServoTable> left_out{};  // train: fitted without these recordings; `train` of a row are those left out
-  std::vector<ServoNote> notes{};
+  std::vector<ServoRemark> notes{};
   std::vector<SetEntry> entries{};  // of each recording of the replay
   Replay replay{};
 };

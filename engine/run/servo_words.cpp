@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cctype>
 #include <cmath>
 
 #include "engine/base/quantity_text.hpp"
@@ -23,14 +22,16 @@ std::string word(ServoNote note) {
       return "no_gain";
     case ServoNote::always_on:
       return "always_on";
+    case ServoNote::other_gain:
+      return "other_gain";
     case ServoNote::few_recordings:
       break;
   }
   return "few_recordings";
 }
 
-std::string sentence_of(ServoNote note) {
-  switch (note) {
+std::string sentence_of(ServoRemark const& remark) {
+  switch (remark.note) {
     case ServoNote::one_load:
       return "All recordings have one load: friction that grows with the load shows over the angle alone, if at all. "
              "Record the same motions with another mass.";
@@ -44,6 +45,11 @@ std::string sentence_of(ServoNote note) {
              "known.";
     case ServoNote::always_on:
       return "The drive is never off: viscous friction and back-EMF are one number, and only their sum is told.";
+    case ServoNote::other_gain:
+      return fmt::format(
+          "The recorded command (columns.torque) is {:.3g} times what [known] command_gain makes of the error: one of "
+          "the two is in another unit, or the gain is not what the drive has.",
+          remark.number);
     case ServoNote::few_recordings:
       break;
   }

@@ -9,8 +9,8 @@
 
 namespace torquescope {
 
-std::string word(ServoNote note);         // "one_load"
-std::string sentence_of(ServoNote note);  // for people
+std::string word(ServoNote note);                    // "one_load"
+std::string sentence_of(ServoRemark const& remark);  // for people
 // "partly explained: speed limit of the command, 4.91 rad/s; ..."
 std::string headline(ServoReport const& report);
 // "0.0117", "rad/s" of "loop_goal_speed_limit": without the prefix of the section

@@ -29,7 +29,7 @@ ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, Pro
 
 // what a set of recordings is, and what it cannot tell
 std::vector<CheckLine> check_servo(ServoJob const& job);
-std::vector<ServoNote> notes_of(ServoJob const& job);
+std::vector<ServoRemark> notes_of(ServoJob const& job);
 
 // a result with /job, /servo and /replay (store/RESULT_FORMAT.md); printed: the verdict and the rest, for `show`
 void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request,

@@ -97,7 +97,7 @@ std::string servo_text(ServoReport const& report, bool all) {
   if (!report.left_out.empty())
     text += "  left out: the laws are those chosen on all, their numbers are fitted without these recordings\n";
   if (all) text += "\n" + recordings_text(report);
-  for (ServoNote const note : report.notes) text += "\n  " + sentence_of(note) + "\n";
+  for (auto const& remark : report.notes) text += "\n  " + sentence_of(remark) + "\n";
   return text;
 }
 
