@@ -28,7 +28,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from measure import print_table  # noqa: E402
 
 ERRORS = ["who", "parameters", "fits", "CPU s", "train, mrad", "unseen, mrad", "end"]
-RATES = ["fits a second of one thread", "numpy, in the search", f"numpy, {cma_search.CROWD} at once", "our lanes", "ratio",
+RATES = ["fits/s, one thread", "numpy, in the search", f"numpy, {cma_search.CROWD} at once", "our lanes", "ratio",
          "rms in numpy, mrad", "rms in our lanes, mrad"]
 LANES = "bench/servo_rollouts/bench_servo_rollouts"
 

@@ -53,10 +53,14 @@ Case read_case(std::istream& in) {
     std::string name;
     double value = 0.0;
     in >> name >> value;
-    if (name == "inertia") made.trial.joint.inertia = value;
-    else if (name == "viscous") made.trial.joint.viscous = value;
-    else if (name == "coulomb") made.trial.forward = value;
-    else if (auto const key = loop_key_of(name)) values[*key] = value;
+    if (name == "inertia")
+      made.trial.joint.inertia = value;
+    else if (name == "viscous")
+      made.trial.joint.viscous = value;
+    else if (name == "coulomb")
+      made.trial.forward = value;
+    else if (auto const key = loop_key_of(name))
+      values[*key] = value;
     else {
       std::fprintf(stderr, "%s: no number is named %s\n", made.name.c_str(), name.c_str());
       std::exit(64);
@@ -105,9 +109,12 @@ int main(int count, char** words) {
   std::vector<RolloutTrack> tracks;
   std::vector<Case> cases;
   for (std::string what; in >> what;) {
-    if (what == "track") tracks.push_back(read_track(in));
-    else if (what == "case") cases.push_back(read_case(in));
-    else return 65;
+    if (what == "track")
+      tracks.push_back(read_track(in));
+    else if (what == "case")
+      cases.push_back(read_case(in));
+    else
+      return 65;
   }
   for (auto const& one : cases) measure(one, tracks, std::atof(words[2]));
   return 0;

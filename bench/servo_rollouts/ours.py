@@ -78,7 +78,8 @@ def words_of(record, step_s):
     sample_s = float(np.median(np.diff(record.time_s)))
     ticks = max(1, round(sample_s / step_s))
     even = np.arange(record.time_s[0], record.time_s[-1], ticks * step_s)
-    row = np.searchsorted(record.time_s, even + 0.5 * step_s, side="right") - 1
+    between = 0.5 * (record.time_s[1:] + record.time_s[:-1])
+    row = np.searchsorted(between, even, side="right")  # the nearest
     moment, inertia = 9.80665 * record.mass_kg * record.length_m, record.mass_kg * record.length_m ** 2
     yield f"track {len(even)} {1 / (ticks * step_s):.17g} {ticks} {moment:.17g} {inertia:.17g}"
     yield f"{0.165 * record.kp * record.supply_v:.17g} {0.97 * record.supply_v:.17g}"
