@@ -1,12 +1,12 @@
 """Records of a servo: the published friction models M1 to M6 in numpy, fitted by CMA-ES, beside our program.
 
-    python3 bench/servo_rollouts/compare.py BUILD RECORDS [--models M1 M4 M6] [--seconds 200] [--members 32]
+    python3 bench/servo_rollouts/compare.py BUILD RECORDS [--models M1 M4 M6] [--seconds 150] [--members 32]
                                             [--step-ms 1] [--seed 1]
 
 BUILD: a build folder with bin/torquescope, or that program; RECORDS: a folder (servo_records.py). Everybody gets the
 same records and one thread. A fit: all training records simulated once for one set of parameters. Seconds are CPU
-seconds: of a search, without reading, until it ends or has used --seconds; ours are those of the whole process. Errors
-are mean absolute ones of the position over all samples. CMA-ES is the package `cma` of PyPI.
+seconds: of a search (cma_search.py), without reading, until it ends or has used --seconds; ours are those of the whole
+process. Errors are mean absolute ones of the position over all samples. CMA-ES is the package `cma` of PyPI.
 """
 import argparse
 import os
@@ -17,6 +17,10 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"  # before numpy is imported
+try:
+    import numpy  # noqa: F401
+except ImportError as absent_numpy:
+    sys.exit(f"left out: {absent_numpy}; python3-numpy of the system or of PyPI has it")
 import cma_search  # noqa: E402
 import friction_models  # noqa: E402
 import ours  # noqa: E402
@@ -45,7 +49,7 @@ def searched(wanted, training, unseen):
     """A finished search of each model, with its errors."""
     found = []
     for model in wanted.models:
-        search = cma_search.search(model, training, wanted.seconds, wanted.members, wanted.seed)
+        search = cma_search.search(model, training, wanted.seconds, wanted.members, wanted.seed, found)
         search.train, search.rms = (value[0] for value in servo_simulation.errors(model, search.unit[None], training))
         search.crowd_rate = cma_search.crowd_rate(search, training)
         search.unseen = servo_simulation.errors(model, search.unit[None], unseen)[0][0] if unseen else None
@@ -57,7 +61,7 @@ def searched(wanted, training, unseen):
 
 def error_rows(searches, diagnosed, seconds):
     rows = [[f"{search.model}, numpy and CMA-ES", len(search.unit), search.fits, f"{search.seconds:.0f}",
-             mrad(search.train), mrad(search.unseen), search.end] for search in searches]
+             mrad(search.train), mrad(search.unseen), "; ".join(search.ends)] for search in searches]
     if diagnosed:
         laws = ", ".join(one["name"] for one in diagnosed["kept"]) or "no law"
         for who, key, when, cpu_s, end in (("torquescope, the job's model", "parameters_before", "before", "", ""),
@@ -86,7 +90,7 @@ def main():
     parser.add_argument("build", type=lambda name: pathlib.Path(name).resolve())
     parser.add_argument("records", type=pathlib.Path)
     parser.add_argument("--models", nargs="+", choices=friction_models.MODELS, default=["M1", "M4", "M6"])
-    parser.add_argument("--seconds", type=float, default=200.0, help="CPU seconds of each search, at most")
+    parser.add_argument("--seconds", type=float, default=150.0, help="CPU seconds of each search, at most")
     parser.add_argument("--members", type=int, default=32)
     parser.add_argument("--step-ms", type=float, default=1.0, help="of the simulation in numpy, and of our lanes")
     parser.add_argument("--seed", type=int, default=1)

@@ -26,6 +26,14 @@ MODELS = {
     "M6": MOTOR | STRIBECK | TWO_LOADS | SQUARES,
 }
 
+CONTAINED = {"M2": ["M1"], "M3": ["M1"], "M4": ["M1", "M2", "M3"], "M5": ["M1", "M2", "M3", "M4"],
+             "M6": ["M1", "M2", "M3", "M4", "M5"]}
+
+
+def contains(model, smaller):
+    """Whether parameters of this model make it the smaller one."""
+    return smaller in CONTAINED.get(model, [])
+
 
 def parameters(model, unit):
     """Columns of parameters, (members, 1) each, from points of the unit cube."""
