@@ -67,10 +67,10 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
 }
 
 std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
-                                  std::vector<DriveLawKind> const& kinds) {
+                                  std::vector<DriveLawKind> const& kinds, bool fits_weight) {
   std::vector<LoopMove> moves;
   if (loop.form == LoopForm::identified || loop.form == LoopForm::none) return moves;
-  DriveScales const scales = drive_scales(training, numbers_of(loop.form, loop.values));
+  DriveScales const scales = drive_scales(training, numbers_of(loop.form, loop.values), fits_weight);
   for (DriveLaw const* law : drive_laws()) {
     LoopKey const own = law->keys.front();
     bool const is_free = std::find(loop.free.begin(), loop.free.end(), own) != loop.free.end();

@@ -23,6 +23,6 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
 
 // laws of the drive and the gear whose own number the loop has neither given nor free; none of an identified law
 std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
-                                  std::vector<DriveLawKind> const& kinds);
+                                  std::vector<DriveLawKind> const& kinds, bool fits_weight = false);
 
 }  // namespace torquescope

@@ -32,6 +32,11 @@ JointScales scales_of(ServoStart const& start, DriveScales const& recorded, std:
   return scales;
 }
 
+bool fits_weight(Regressor const& regressor) {
+  auto const& terms = regressor.terms();
+  return std::any_of(terms.begin(), terms.end(), [](auto* one) { return one->name() == "gravity"; });
+}
+
 void free_key(LoopSetting& loop, LoopKey key, double value) {
   if (std::find(loop.free.begin(), loop.free.end(), key) != loop.free.end()) return;
   if (loop.values[key] != facts_of(key).none) return;  // the job gives it
@@ -105,7 +110,8 @@ ServoDecision decide_servo(ServoQuestion const& question) {
   decision.scales = base.scales;
   LoopQuestion asked = asked_of(question, base.terms, base.loop, decision.scales);
   asked.moves =
-      drive_moves(base.loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear});
+      drive_moves(base.loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear},
+                  fits_weight(question.regressor));
   LoopClimb climb = climb_ladder(asked, starts_of(asked, question.regressor));
   decision.facts = std::move(climb.facts);
   decision.base = std::move(climb.base);

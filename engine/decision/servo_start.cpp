@@ -43,7 +43,9 @@ double sign_of(double speed) { return speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0
 }  // namespace
 
 ServoStart servo_start(Regressor const& regressor, LoopSetting const& loop, std::vector<RolloutTrack> const& tracks) {
-  constexpr Index n_known = 5;  // gain, inertia, damping, dry friction, offset
+  constexpr Index n_known = 7;  // gain, inertia, damping, dry friction, offset, and weight by sine and cosine
+  auto const& terms = regressor.terms();
+  bool const has_weight = std::any_of(terms.begin(), terms.end(), [](auto* one) { return one->name() == "gravity"; });
   LoopNumbers const numbers = numbers_of(loop.form, loop.values);
   ServoStart start;
   start.terms = Eigen::VectorXd::Zero(static_cast<Index>(regressor.size()));
@@ -56,12 +58,19 @@ ServoStart servo_start(Regressor const& regressor, LoopSetting const& loop, std:
   }
   auto const n = static_cast<Index>(rows.size());
   Index const first = start.fixes_scale ? 0 : 1;
-  Eigen::MatrixXd columns(n, n_known - first);
+  Index const last = has_weight ? n_known : n_known - 2;
+  Eigen::MatrixXd columns(n, last - first);
   Eigen::VectorXd wanted(n);
   for (Index k = 0; k < n; ++k) {
     Row const& row = rows[static_cast<std::size_t>(k)];
-    double const all[n_known] = {row.command, -row.acceleration, -row.speed, -sign_of(row.speed), -1.0};
-    for (Index i = first; i < n_known; ++i) columns(k, i - first) = all[i];
+    double const all[n_known] = {row.command,
+                                 -row.acceleration,
+                                 -row.speed,
+                                 -sign_of(row.speed),
+                                 -1.0,
+                                 -std::sin(row.position),
+                                 -std::cos(row.position)};
+    for (Index i = first; i < last; ++i) columns(k, i - first) = all[i];
     wanted[k] = start.fixes_scale ? row.known : -row.command;
   }
   if (n < 2 * n_known) return start;
@@ -81,6 +90,7 @@ ServoStart servo_start(Regressor const& regressor, LoopSetting const& loop, std:
     if (name == "viscous") start.terms[at] = 0.5 * start.damping;
     if (name == "coulomb") start.terms[at] = friction;
     if (name == "offset") start.terms[at] = fit[4 - first];
+    if (name == "gravity") start.terms.segment(at, 2) = fit.segment(5 - first, 2);
     at += static_cast<Index>(term->n_linear());
   }
   return start;

@@ -41,6 +41,7 @@ struct DriveLaw {
 std::span<DriveLaw const* const> drive_laws();
 DriveLaw const& drive_law_of(LoopKey first);
 
-DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers const& loop);
+// fits_weight: the model has a weight of its own, which loads the gear as a known one does
+DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers const& loop, bool fits_weight = false);
 
 }  // namespace torquescope

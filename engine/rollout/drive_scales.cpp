@@ -36,7 +36,7 @@ bool differ(double least, double most) { return most > 0.0 && most - least > 0.1
 
 }  // namespace
 
-DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers const& loop) {
+DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers const& loop, bool fits_weight) {
   constexpr double nearly_all = 0.98;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   DriveScales scales;
@@ -72,7 +72,7 @@ DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers co
     scales.command = std::sqrt(commands / samples);
     scales.torque = std::sqrt(torques / samples);
   }
-  scales.has_load = most_load > 0.0;
+  scales.has_load = most_load > 0.0 || fits_weight;
   scales.has_several_loads = differ(least_load, most_load);
   scales.has_arm = arm > 0.0 && scales.has_several_loads;
   scales.has_temperatures = hottest - coldest > 1.0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/base/error.hpp"
@@ -135,6 +136,28 @@ ServoTable without_each(std::string const& quantity, ServoJob const& job, ServoQ
   return table;
 }
 
+// of the command, not of a torque; and where no load is known, everything is in units of the command
+void tell_unit(LoopNumber& number, std::string const& command, bool fixes_scale) {
+  std::map<std::string, std::string> const of_command{{"kg m2", " s2/rad"}, {"N m s/rad", " s/rad"}, {"N m", ""}};
+  if (number.name == "loop_torque_limit" || number.name == "loop_punch") {
+    number.unit = command;
+  } else if (number.name == "loop_motor_gain") {
+    number.unit = fixes_scale ? "N m/" + command : "1";
+  } else if (number.name == "loop_load_square_friction" && !fixes_scale) {
+    number.unit = "1/" + command;
+  } else if (auto const torque = of_command.find(number.unit); torque != of_command.end() && !fixes_scale) {
+    number.unit = command + torque->second;
+  }
+}
+
+void tell_units(ServoReport& report) {
+  bool const fixes_scale = report.decision.fixes_scale;
+  for (auto* numbers : {&report.base_numbers, &report.decision.facts.numbers})
+    for (auto& number : *numbers) tell_unit(number, report.command_unit, fixes_scale);
+  for (auto& move : report.decision.facts.kept)
+    for (auto& number : move.numbers) tell_unit(number, report.command_unit, fixes_scale);
+}
+
 void refuse_unknown_quantities(ServoRequest const& request, std::vector<SetEntry> const& entries) {
   auto const told = told_apart_by(entries);
   for (auto const& name : request.leave_out)
@@ -172,6 +195,7 @@ ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, Pro
     report.fit = servo_fit(question, report.decision);
     report.verdict = servo_verdict(report.decision.facts, report.fit);
     report.base_numbers = numbers_of_fit(question, report.decision, report.decision.base);
+    tell_units(report);
     report.replay = replay_of(job, question, report.decision);
     for (std::size_t k = 0; k < job.entries.size(); ++k)
       add(job.entries[k].is_validation ? report.validate : report.train, report.replay, k);
