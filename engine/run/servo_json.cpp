@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -81,6 +82,21 @@ Json recording_json(SetEntry const& entry, RecordingReplay const& replay, Replay
 
 }  // namespace
 
+namespace {
+
+// numbers of the drive and the gear that the job gives: known, and not fitted
+Json given_json(LoopSetting const& loop) {
+  Json given = Json::object();
+  for (std::size_t k = 0; k < loop_keys; ++k) {
+    auto const key = static_cast<LoopKey>(k);
+    bool const is_free = std::find(loop.free.begin(), loop.free.end(), key) != loop.free.end();
+    if (!is_free && loop.values[key] != facts_of(key).none) given[facts_of(key).name] = json_number(loop.values[key]);
+  }
+  return given;
+}
+
+}  // namespace
+
 std::string servo_json(ServoReport const& report) {
   Json kept = Json::array(), tables = Json::array(), left_out = Json::array(), recordings = Json::array();
   Json notes = Json::array();
@@ -103,6 +119,7 @@ std::string servo_json(ServoReport const& report) {
       {"kept", std::move(kept)},
       {"parameters", numbers_json(report.decision.facts.numbers)},
       {"parameters_before", numbers_json(report.base_numbers)},
+      {"given", given_json(report.decision.final.point.loop)},
       {"notes", std::move(notes)},
       {"tables", std::move(tables)},
       {"left_out", std::move(left_out)},

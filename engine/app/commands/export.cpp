@@ -15,6 +15,8 @@
 #include "engine/run/arm_export.hpp"
 #include "engine/run/diagnosis_reader.hpp"
 #include "engine/run/model_code.hpp"
+#include "engine/run/servo_code.hpp"
+#include "engine/run/servo_reader.hpp"
 
 namespace torquescope {
 
@@ -84,6 +86,26 @@ ExitCode export_models(ExportArguments const& arguments, Diagnosis const& diagno
   return ExitCode::ok;
 }
 
+struct ServoFormat {
+  std::string name;
+  std::string (*write)(std::string const& document);
+};
+
+ExitCode export_servo(ExportArguments const& arguments, Session const& session) {
+  static std::vector<ServoFormat> const formats{{"c", servo_c}, {"toml", servo_toml}};
+  check_formats(arguments, formats, "a diagnosis of a set of recordings",
+                "its model is written by --c and --toml; torquescope show R.h5 --json - has its numbers");
+  look_at_result(arguments.file, [](ResultReader const& there) { read_servo(there); });
+  std::string const document = read_servo(ResultReader(arguments.file)).json;
+  for (auto const& format : formats) {
+    auto const out = arguments.out.find(format.name);
+    if (out == arguments.out.end()) continue;
+    write_text(out->second, format.write(document), session);
+    if (out->second != "-") session.note(session.topic_line("wrote", out->second));
+  }
+  return ExitCode::ok;
+}
+
 ExitCode export_result(ExportArguments const& arguments, Session const& session) {
   validate(!arguments.out.empty(), [] {
     return Problem{.code = ExitCode::usage,
@@ -92,6 +114,8 @@ ExitCode export_result(ExportArguments const& arguments, Session const& session)
                        "torquescope export arm.h5 --urdf arm.urdf; --toml, --json and --mjcf likewise. Of a "
                        "diagnosis: --c model.c; --json and --mjcf likewise"};
   });
+  look_at_result(arguments.file, [](ResultReader const& there) { has_servo(there); });
+  if (has_servo(ResultReader(arguments.file))) return export_servo(arguments, session);
   auto const summary = read_summary(arguments.file);
   if (summary.has_diagnosis) {
     look_at_result(summary.file, [](ResultReader const& there) { read_diagnosis(there); });
@@ -132,7 +156,8 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope export arm.h5 --urdf arm.urdf\n"
       "  torquescope export arm.h5 --json - --estimator wls\n"
-      "  torquescope export diagnosis.h5 --c model.c\n");
+      "  torquescope export diagnosis.h5 --c model.c\n"
+      "  torquescope export servos.h5 --c servo.c --toml servo.toml\n");
   command
       ->add_option("R.h5", arguments->file,
                    "result file of torquescope run of an arm, or of torquescope diagnose, HDF5")
