@@ -43,7 +43,8 @@ ServoFit servo_fit(ServoQuestion const& question, ServoDecision const& decision)
       compared += static_cast<double>(rows.rows());
     }
   }
-  return {samples > 0.0 ? std::sqrt(left / samples) : 0.0, compared > 0.0 ? std::sqrt(apart / compared) : 0.0};
+  return {samples > 0.0 ? std::sqrt(left / samples) : 0.0, compared > 0.0 ? std::sqrt(apart / compared) : 0.0,
+          decision.recorded.encoder_step};
 }
 
 }  // namespace torquescope

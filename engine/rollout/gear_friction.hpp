@@ -1,9 +1,10 @@
 #pragma once
 // Dry friction of a gear beside the joint's own: what grows with the load on its teeth, and what falls with speed.
 //
-// Equation   F = load l + load_square l^2 + (stribeck + load_stribeck l) b(dq),  l = |motor + weight| / 2,
+// Equation   F = load l + load_square l^2 + (stribeck + load_stribeck l) b(dq),
+//              l = |motor_share motor + (1 - motor_share) weight|,
 //              b(v) = (1 + (v / stribeck_speed)^2 / 16)^-16, which is exp(-(v / stribeck_speed)^2) within 0.03
-// Load       motor: the torque of the motor; weight: the torque that would hold the joint. At rest both are the load
+// Load       motor: the torque of the motor; weight: the torque that would hold the joint. Held at rest both are equal
 // Held       from tick to tick; it adds to the level at which dry friction holds or slides
 // Units      SI: load 1, load_square 1/(N m), stribeck N m, load_stribeck 1, stribeck_speed rad/s
 // Threads    plain record
@@ -15,6 +16,7 @@ namespace torquescope {
 struct GearFriction {
   double load = 0.0, load_square = 0.0;
   double stribeck = 0.0, load_stribeck = 0.0, stribeck_speed = 0.1;
+  double motor_share = 0.5;
 
   bool is_none() const { return load == 0.0 && load_square == 0.0 && stribeck == 0.0 && load_stribeck == 0.0; }
 };

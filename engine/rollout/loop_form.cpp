@@ -47,6 +47,7 @@ constexpr std::array<LoopKeyFacts, loop_keys> facts{{
     {LoopKey::load_stribeck_friction, "load_stribeck_friction", "1", "1", number, 0.0, 0.0, 1.0},
     {LoopKey::arm_mass, "arm_mass", "kg", "kg", mass, 0.0, 0.0, largest},
     {LoopKey::motor_gain_per_kelvin, "motor_gain_per_kelvin", "1/K", "1/K", number, 0.0, -0.05, 0.05},
+    {LoopKey::load_motor_share, "load_motor_share", "1", "1", number, 0.5, -1.0, 2.0},
 }};
 
 }  // namespace
@@ -138,8 +139,8 @@ LoopNumbers numbers_of(LoopForm form, LoopValues const& values) {
 
 GearFriction gear_of(LoopValues const& values) {
   using enum LoopKey;
-  return {values[load_friction], values[load_square_friction], values[stribeck_friction],
-          values[load_stribeck_friction], values[stribeck_speed]};
+  return {values[load_friction],          values[load_square_friction], values[stribeck_friction],
+          values[load_stribeck_friction], values[stribeck_speed],       values[load_motor_share]};
 }
 
 }  // namespace torquescope

@@ -49,9 +49,10 @@ enum class LoopKey {
   stribeck_speed,
   load_stribeck_friction,
   arm_mass,
-  motor_gain_per_kelvin
+  motor_gain_per_kelvin,
+  load_motor_share
 };
-inline constexpr std::size_t loop_keys = 26;
+inline constexpr std::size_t loop_keys = 27;
 
 // what a number is measured in: its natural size follows from those of the joint
 enum class LoopMeasure { number, time, torque, torque_per_speed, speed, acceleration, position, mass, per_torque };

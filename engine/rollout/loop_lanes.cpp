@@ -74,7 +74,8 @@ HWY_INLINE V read_by_steps(LaneLoops const& loops, V q, std::size_t lane) {
 // gear_friction.hpp; motor, weight: torques
 HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, std::size_t lane) {
   V const one = hn::Set(d, 1.0);
-  V const load_torque = hn::Mul(hn::Set(d, 0.5), hn::Abs(hn::Add(motor, weight)));
+  V const share = load(gears.motor_share, lane);
+  V const load_torque = hn::Abs(hn::Add(weight, hn::Mul(share, hn::Sub(motor, weight))));
   V const turn = hn::Mul(dq, load(gears.per_speed, lane));
   V const width = hn::Add(one, hn::Mul(hn::Mul(turn, turn), hn::Set(d, 1.0 / 16.0)));
   V const square = hn::Mul(width, width), fourth = hn::Mul(square, square), eighth = hn::Mul(fourth, fourth);
@@ -350,6 +351,7 @@ void LaneGears::set(std::size_t lane, GearFriction const& gear) {
   stribeck[lane] = gear.stribeck;
   load_stribeck[lane] = gear.load_stribeck;
   per_speed[lane] = 1.0 / gear.stribeck_speed;
+  motor_share[lane] = gear.motor_share;
   any = any || !gear.is_none();
 }
 

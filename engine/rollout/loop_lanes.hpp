@@ -92,7 +92,7 @@ struct TickOutputs {
 // gear_friction.hpp, one a lane
 struct LaneGears {
   using Lanes = double[twin_lanes];
-  alignas(64) Lanes load{}, load_square{}, stribeck{}, load_stribeck{}, per_speed{};
+  alignas(64) Lanes load{}, load_square{}, stribeck{}, load_stribeck{}, per_speed{}, motor_share{};
   bool any = false;
 
   void set(std::size_t lane, GearFriction const& gear);

@@ -37,7 +37,8 @@ constexpr std::array<Member, loop_keys> members{&LoopOptions::kp,
                                                 &LoopOptions::stribeck_speed,
                                                 &LoopOptions::load_stribeck_friction,
                                                 &LoopOptions::arm_mass,
-                                                &LoopOptions::motor_gain_per_kelvin};
+                                                &LoopOptions::motor_gain_per_kelvin,
+                                                &LoopOptions::load_motor_share};
 
 double given(LoopOptions const& options, LoopKey key) { return options.*members[static_cast<std::size_t>(key)]; }
 
@@ -108,7 +109,9 @@ OptionTable<LoopOptions> const& LoopOptions::table() {
        {"load_stribeck_friction", &Options::load_stribeck_friction, "1", 0.0, 1.0, "the same per torque on the gear"},
        {"arm_mass", &Options::arm_mass, "kg", 0.0, 1e6, "of a bar of known.arm_length that carries the load"},
        {"motor_gain_per_kelvin", &Options::motor_gain_per_kelvin, "1/K", -1.0, 1.0,
-        "of motor_gain, from 25 deg C on, over known.temperature"}});
+        "of motor_gain, from 25 deg C on, over known.temperature"},
+       {"load_motor_share", &Options::load_motor_share, "1", -1.0, 2.0,
+        "share of the motor's torque in what loads the gear, the rest is the weight's; 0.5"}});
   return table;
 }
 

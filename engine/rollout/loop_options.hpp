@@ -36,7 +36,7 @@ struct LoopOptions {
   double motor_gain = not_given, dead_band = not_given, punch = not_given;
   double load_friction = not_given, load_square_friction = not_given, stribeck_friction = not_given,
          stribeck_speed = not_given, load_stribeck_friction = not_given;
-  double arm_mass = not_given, motor_gain_per_kelvin = not_given;
+  double arm_mass = not_given, motor_gain_per_kelvin = not_given, load_motor_share = not_given;
 
   static OptionTable<LoopOptions> const& table();
 };

@@ -82,6 +82,7 @@ static const double dead_band = {dead_band:.17g}, punch = {punch:.17g}, torque_l
 static const double load_friction = {load_friction:.17g}, load_square_friction = {load_square_friction:.17g};
 static const double stribeck_friction = {stribeck_friction:.17g}, load_stribeck_friction = {load_stribeck_friction:.17g};
 static const double stribeck_speed = {stribeck_speed:.17g}, arm_mass = {arm_mass:.17g};
+static const double load_motor_share = {load_motor_share:.17g};
 )";
 
 constexpr char const* step_in_c = R"(
@@ -126,7 +127,7 @@ void servo_step(servo_state *s, servo_known const *k, double goal, double read, 
   double motor = motor_gain * command - (is_on ? back_emf * s->dq : 0.0);
   double arm = arm_mass * k->arm_length, mass = inertia + k->inertia + arm * k->arm_length / 3.0;
   double weight = (k->gravity_moment + 0.5 * 9.80665 * arm) * sin(s->q);
-  double load = 0.5 * fabs(motor + weight), turn = s->dq / stribeck_speed, bell = pow(1.0 + turn * turn / 16.0, -16.0);
+  double load = fabs(weight + load_motor_share * (motor - weight)), turn = s->dq / stribeck_speed, bell = pow(1.0 + turn * turn / 16.0, -16.0);
   double dry = coulomb + (load_friction + load_square_friction * load) * load +
                (stribeck_friction + load_stribeck_friction * load) * bell;
   double net = motor - weight - offset - viscous * s->dq, speed = s->dq + net / mass * dt, drop = dry / mass * dt;
@@ -157,7 +158,8 @@ std::string servo_c(std::string const& document) {
       fmt::arg("load_square_friction", model["load_square_friction"]),
       fmt::arg("stribeck_friction", model["stribeck_friction"]),
       fmt::arg("load_stribeck_friction", model["load_stribeck_friction"]),
-      fmt::arg("stribeck_speed", model["stribeck_speed"]), fmt::arg("arm_mass", model["arm_mass"]));
+      fmt::arg("stribeck_speed", model["stribeck_speed"]), fmt::arg("arm_mass", model["arm_mass"]),
+      fmt::arg("load_motor_share", model["load_motor_share"]));
   return text + step_in_c;
 }
 

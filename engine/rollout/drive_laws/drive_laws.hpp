@@ -20,5 +20,6 @@ DriveLaw const& load_square_friction_law();
 DriveLaw const& stribeck_friction_law();
 DriveLaw const& load_stribeck_friction_law();
 DriveLaw const& arm_mass_law();
+DriveLaw const& load_motor_share_law();
 
 }  // namespace torquescope

@@ -6,7 +6,7 @@ DriveLaw const& load_friction_law() {
   static DriveLaw const law{
       .name = "load_friction",
       .title = "Load-dependent friction",
-      .equation = "F = load_friction |motor + weight| / 2",
+      .equation = "F = load_friction load, load = |motor + weight| / 2",
       .confused = "coulomb friction, where all recordings have one load",
       .kind = DriveLawKind::gear,
       .keys = {LoopKey::load_friction},

@@ -6,7 +6,7 @@ DriveLaw const& load_square_friction_law() {
   static DriveLaw const law{
       .name = "load_square_friction",
       .title = "Friction by the square of the load",
-      .equation = "F = load_square_friction (|motor + weight| / 2)^2",
+      .equation = "F = load_square_friction load^2",
       .confused = "load_friction, where loads differ by less than twice",
       .kind = DriveLawKind::gear,
       .keys = {LoopKey::load_square_friction},

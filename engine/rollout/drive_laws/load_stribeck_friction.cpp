@@ -6,7 +6,7 @@ DriveLaw const& load_stribeck_friction_law() {
   static DriveLaw const law{
       .name = "load_stribeck_friction",
       .title = "Stribeck friction that grows with the load",
-      .equation = "F = load_stribeck_friction b(dq / stribeck_speed) |motor + weight| / 2",
+      .equation = "F = load_stribeck_friction b(dq / stribeck_speed) load",
       .confused = "stribeck_friction, where all recordings have one load",
       .kind = DriveLawKind::gear,
       .keys = {LoopKey::load_stribeck_friction, LoopKey::stribeck_speed},
