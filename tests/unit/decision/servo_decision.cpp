@@ -122,8 +122,8 @@ TEST(ServoDecision, FindsADelayOfTheCommandAndFrictionOfTheLoad) {
   EXPECT_EQ(servo_verdict(decision.facts, servo_fit(asked.question(), decision)), Verdict::named);
 }
 
-// The square of the load stands in for the load until that is there as well; a model of three laws then is the best, and
-// one of them has become useless. What goes may cost less than least_fall of what the best leaves unseen, all together
+// The square of the load stands in for the load until that is there as well; a model of three laws then is the best,
+// and one of them has become useless. All that goes may cost less than least_fall of what the best leaves unseen
 TEST(ServoDecision, DropsALawThatAnotherMadeUseless) {
   LoopFacts const& facts = decided_with_both().facts;
   std::size_t most = 0;

@@ -3,8 +3,8 @@
 // against. No code of the engine.
 //
 // Tick       the drive reads the position, answers, and its command is held until the next answer
-// Motion     `finer` steps a tick, implicit in the damping, the weight in the middle of the step; dry friction is a set:
-//            a step whose velocity meets zero ends there, at rest, and friction is asked anew
+// Motion     `finer` steps a tick, implicit in the damping, the weight in the middle of the step; dry friction is a
+//            set: a step whose velocity meets zero ends there, at rest, and friction is asked anew
 // Friction   coulomb + (load + load_square l) l + (stribeck + load_stribeck l) (1 + (v / stribeck_speed)^2 / 16)^-16,
 //            l = |motor + weight| / 2; as it was at the tick, or at every step of its own
 // Units      SI; the command in V

@@ -15,10 +15,9 @@ using namespace torquescope::test;
 
 namespace servo_lanes_test {
 
-// A tick h of a millisecond is a step of second order: it leaves h^2 / 6 of what the acceleration changes by in a second
-// (some thousand rad/s3 of these servos), 1e-4 rad/s at most, which a loop forgets within tens of milliseconds and a
-// drive that is off within a quarter of a second: some 1e-5 rad. What is late by a tick is off by h times three rad/s,
-// fifty times as much
+// A tick h of a millisecond is a step of second order: it leaves h^2 / 6 of what the acceleration changes by, of a
+// hundred rad/s2 2e-5 rad, which a loop forgets and a joint whose drive is off does not. Steps of h / 20 leave
+// a four hundredth. What is late by a tick is off by h times three rad/s, fifty times as much
 constexpr double near = 6e-5, velocity_for_position = 200.0;  // 1/s
 constexpr double moves = 1e-3;                                // rad, that a law must do to be tested by this
 constexpr int samples = 300, ticks_per_sample = 10;
@@ -154,8 +153,8 @@ TEST(ServoLanes, CarryWhatATrackKnows) {
   EXPECT_EQ(rolled_beside(track, trial).torque.col(1).cwiseAbs().maxCoeff(), 11.0);
 }
 
-// friction of the gear is held from tick to tick: of first order, so that half a tick leaves half of the difference from
-// a gear that rubs as it moves. The drive answers every two milliseconds in all of them
+// friction of the gear is held from tick to tick: of first order, so that half a tick leaves half of the difference
+// from a gear that rubs as it moves. The drive answers every two milliseconds in all of them
 TEST(ServoLanes, ComeToAGearThatRubsWithoutTicks) {
   PlainServo servo = loaded();
   servo.load = 0.2;
