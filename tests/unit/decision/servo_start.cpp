@@ -32,8 +32,12 @@ LoopSetting loop() {
   return made;
 }
 
+struct Weight {
+  double by_sine = 0.0, by_cosine = 0.0;  // N m, of the joint's own
+};
+
 // in closed form: the motion is given, the goal is where the command that it takes comes from
-RolloutTrack track(double mass, double command_gain, double pace) {
+RolloutTrack track(double mass, double command_gain, double pace, Weight const& own = {}) {
   constexpr Eigen::Index samples = 600;
   constexpr double length = 0.15, turn = 2.0 * std::numbers::pi;
   RolloutTrack made;
@@ -49,7 +53,7 @@ RolloutTrack track(double mass, double command_gain, double pace) {
     double const dq = 0.7 * slow * std::cos(slow * t) + 0.25 * fast * std::cos(fast * t + 0.6);
     double const ddq = -0.7 * slow * slow * std::sin(slow * t) - 0.25 * fast * fast * std::sin(fast * t + 0.6);
     double const torque = (inertia + made.known.inertia) * ddq + damping * dq + std::copysign(friction, dq) + offset +
-                          made.known.gravity_moment * std::sin(q);
+                          (made.known.gravity_moment + own.by_sine) * std::sin(q) + own.by_cosine * std::cos(q);
     made.position[k] = q;
     made.reference[k] = q + torque / gain / (kp * command_gain);
   }
@@ -99,17 +103,30 @@ TEST(ServoStart, TakesTheCommandAsItsLimitLeavesIt) {
 }
 
 TEST(ServoStart, WithoutAKnownLoadIsInUnitsOfTheCommand) {
-  auto tracks = records();
-  std::vector<RolloutTrack> unknown{tracks[0], track(0.0, 40.0, 0.9)};
-  unknown.erase(unknown.begin());
-  unknown[0].known = {};
-  unknown[0].known.command_gain = 40.0;
-  ServoStart const start = servo_start(terms(), loop(), unknown);
+  ServoStart const start = servo_start(terms(), loop(), {track(0.0, 40.0, 0.9)});
   EXPECT_FALSE(start.fixes_scale);
   EXPECT_EQ(start.motor_gain, 1.0);
   EXPECT_NEAR(start.damping, damping / gain, of_derivatives * damping / gain);
   EXPECT_NEAR(start.terms[0], inertia / gain, of_derivatives * inertia / gain);
   EXPECT_NEAR(start.terms[2], friction / gain, of_friction * friction / gain);
+}
+
+// beside known loads, or where none is known: then in units of the command
+TEST(ServoStart, FindsAWeightThatTheModelHas) {
+  Regressor const with_weight{{"inertia", "viscous", "coulomb", "gravity"}, JointKind::revolute};
+  Weight const own{0.4, -0.15};
+  std::vector<RolloutTrack> tracks{track(0.5, 20.0, 1.0, own), track(1.0, 60.0, 0.8, own), track(0.0, 40.0, 1.1, own)};
+  ServoStart const start = servo_start(with_weight, loop(), tracks);
+  ASSERT_EQ(start.terms.size(), 5);
+  // beside an offset, which a motion about one place hardly tells from the cosine of a weight
+  EXPECT_NEAR(start.motor_gain, gain, of_the_rest * gain);
+  EXPECT_NEAR(start.terms[0], inertia, of_derivatives * (inertia + 0.0225));
+  EXPECT_NEAR(start.terms[3], own.by_sine, 0.05 * own.by_sine);
+  EXPECT_NEAR(start.terms[4], own.by_cosine, 0.05 * own.by_sine);
+  ServoStart const unknown = servo_start(with_weight, loop(), {track(0.0, 40.0, 1.0, own), track(0.0, 20.0, 0.7, own)});
+  EXPECT_FALSE(unknown.fixes_scale);
+  EXPECT_NEAR(unknown.terms[3], own.by_sine / gain, 0.05 * own.by_sine / gain);
+  EXPECT_NEAR(unknown.terms[4], own.by_cosine / gain, 0.05 * own.by_sine / gain);
 }
 
 // a load whose inertia alone is known fixes it as well

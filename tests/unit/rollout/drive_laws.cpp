@@ -131,6 +131,10 @@ TEST(DriveLaws, StayOutWhereRecordingsSayNothingOfThem) {
   for (LoopKey const key : {LoopKey::load_friction, LoopKey::load_square_friction, LoopKey::load_stribeck_friction})
     EXPECT_TRUE(drive_law_of(key).starts(none).empty());
   EXPECT_FALSE(drive_law_of(LoopKey::stribeck_friction).starts(none).empty());
+  // a weight that the model fits loads the gear as a known one does
+  DriveScales const fitted = drive_scales(tracks, proportional(), true);
+  EXPECT_FALSE(drive_law_of(LoopKey::load_friction).starts(fitted).empty());
+  EXPECT_TRUE(drive_law_of(LoopKey::arm_mass).starts(fitted).empty());
 }
 
 // sizes by hand: a sine of one radian at one hertz, whose command is clipped at the lower of two limits
