@@ -1,7 +1,7 @@
-"""diagnose of many recordings of a servo, end to end: the laws that were put into jobs/servo_records come out with their
-numbers, from any number of threads; what cannot be diagnosed is refused in one line.
+"""diagnose of many recordings of a servo, end to end: the laws that were put into jobs/servo_records come out with
+their numbers, from any number of threads; what cannot be diagnosed is refused in one line.
 
-Six of the 24 recordings (a minute's motion is what a law needs, not what a test needs); `Shipped` takes jobs/ as it is.
+Six of the 24 recordings are enough for that; `Shipped` takes jobs/servo_loads.toml as it is.
 
 Use: TORQUESCOPE=build/dev/bin/torquescope /usr/bin/python3 tests/jobs/servo_cli.py
 """
@@ -35,9 +35,9 @@ FEW = r"m0\.5_l150_kp32_(steps|two_sines)"  # for what does not depend on what i
 
 def truth_of_readme():
     text = (JOBS / "servo_records" / "README.md").read_text(encoding="utf-8")
-    numbers = {key: float(re.search(words, text).group(1)) for key, words in (
-        ("command_delay", r"command delay \| ([\d.]+) ms"), ("goal_speed_limit", r"speed limit of the goal \| ([\d.]+)"),
-        ("load_friction", r"friction of the load \| ([\d.]+)"))}
+    rows = {"command_delay": r"command delay \| ([\d.]+) ms", "goal_speed_limit": r"speed limit of the goal \| ([\d.]+)",
+            "load_friction": r"friction of the load \| ([\d.]+)"}
+    numbers = {name: float(re.search(row, text).group(1)) for name, row in rows.items()}
     return numbers | {"command_delay": 1e-3 * numbers["command_delay"]}
 
 
@@ -130,6 +130,7 @@ class Found(Sets):
         done = self.diagnose(job, "--out", "other.h5")
         self.assertEqual(done.code, 73, done.err)
         self.assertIn("other.h5 is no earlier diagnosis of a set of recordings", done.said)
+        self.assertNotIn("simulations", done.err, "refused before minutes are spent")
         self.assertEqual((self.folder / "other.h5").read_bytes(), before)
         for _ in range(2):
             self.assertEqual(self.diagnose(job, "--out", "own.h5").code, 0)
