@@ -35,7 +35,8 @@ FEW = r"m0\.5_l150_kp32_(steps|two_sines)"  # for what does not depend on what i
 
 def truth_of_readme():
     text = (JOBS / "servo_records" / "README.md").read_text(encoding="utf-8")
-    rows = {"command_delay": r"command delay \| ([\d.]+) ms", "goal_speed_limit": r"speed limit of the goal \| ([\d.]+)",
+    rows = {"command_delay": r"command delay \| ([\d.]+) ms",
+            "goal_speed_limit": r"speed limit of the goal \| ([\d.]+)",
             "load_friction": r"friction of the load \| ([\d.]+)"}
     numbers = {name: float(re.search(row, text).group(1)) for name, row in rows.items()}
     return numbers | {"command_delay": 1e-3 * numbers["command_delay"]}
