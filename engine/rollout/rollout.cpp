@@ -115,7 +115,7 @@ TickSteps tick_steps(double tick_s, std::size_t steps) {
   return {step_s, steps, std::clamp<std::size_t>(static_cast<std::size_t>(longest_held_s / step_s), 1, steps)};
 }
 
-// one segment, tick by tick: effects, an identified law, an encoder
+// one segment, tick by tick: effects, an identified law
 class SlowSegment {
  public:
   SlowSegment(RolloutTrack const& track, TrackSegment const& segment, Lanes const& lanes)

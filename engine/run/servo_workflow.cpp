@@ -173,6 +173,7 @@ void refuse_unknown_quantities(ServoRequest const& request, std::vector<SetEntry
 
 ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, ProgressSink const& progress) {
   refuse_unknown_quantities(request, job.entries);
+  refuse_other_result(request.output);
   Stoppable const stoppable(request.stop_requested);
   ServoQuestion question = job.question(request.threads.count);
   question.progress = [&](char const* stage, std::size_t done, std::size_t total) {

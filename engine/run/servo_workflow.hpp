@@ -31,6 +31,8 @@ ServoReport diagnose_servo(ServoJob const& job, ServoRequest const& request, Pro
 std::vector<CheckLine> check_servo(ServoJob const& job);
 std::vector<ServoRemark> notes_of(ServoJob const& job);
 
+// Error 73 where something else stands than an earlier diagnosis of a set: before it is simulated, and as it is written
+void refuse_other_result(std::filesystem::path const& output);
 // a result with /job, /servo and /replay (store/RESULT_FORMAT.md); printed: the verdict and the rest, for `show`
 void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request,
                       std::array<std::string, 2> const& printed, Beginning const& beginning);

@@ -6,7 +6,6 @@
 #include "engine/store/result_reader.hpp"
 
 namespace torquescope {
-namespace {
 
 void refuse_other_result(std::filesystem::path const& output) {
   std::error_code ignored;
@@ -18,8 +17,6 @@ void refuse_other_result(std::filesystem::path const& output) {
     return problem;
   });
 }
-
-}  // namespace
 
 void write_servo_file(ServoJob const& job, ServoReport const& report, ServoRequest const& request,
                       std::array<std::string, 2> const& printed, Beginning const& beginning) {

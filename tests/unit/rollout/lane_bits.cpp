@@ -7,7 +7,7 @@
 
 #include "engine/rollout/rollout_residuals.hpp"
 #include "kernels/dispatch.hpp"
-#include "unit/rollout/loops.hpp"
+#include "unit/rollout/servos.hpp"
 
 using namespace torquescope;
 using namespace torquescope::test;
@@ -53,11 +53,33 @@ std::vector<RolloutTrial> trials() {
   made.push_back(trial_of(light, pd));
   made.back().position_step = 1e-3;
   made.back().velocity_step = -0.1;
+  std::vector<PlainServo> servos(9);
+  servos[0].load = 0.2;
+  servos[1].load_square = 0.1;
+  servos[2].stribeck = 0.15;
+  servos[3].load_stribeck = 0.2;
+  servos[4].dead_band = 0.02;
+  servos[5].punch = 1.0;
+  servos[6].encoder_step = 1.5e-3;
+  servos[7].command_delay_s = 0.0233;
+  servos[8].limit = 5.0;
+  servos[8].load = servos[8].stribeck = 0.1;
+  for (auto const& servo : servos) made.push_back(trial_of(servo));
+  made.back().arm_mass = 0.1;
+  made.back().motor_gain_per_kelvin = -0.004;
+  made.back().encoder_step = 2e-3;
+  made.back().encoder_phase = 5e-4;
   return made;
 }
 
-TEST(LaneBits, DoNotDependOnTheNeighbours) {
-  RolloutTrack const track = track_of(inputs(), {0.01, 0.2, 0.3});
+// what a track knows stands beside every trial
+RolloutTrack known_track() {
+  RolloutTrack track = track_of(inputs(), {0.01, 0.2, 0.3});
+  track.known = {0.7, 0.01, 0.9, 6.0, 0.15, 40.0};
+  return track;
+}
+
+void expect_no_neighbours(RolloutTrack const& track) {
   auto const all = trials();
   RolloutStructure const structure = structure_of(PlainController{});
   // sixteen at a time, at places of their own
@@ -73,6 +95,27 @@ TEST(LaneBits, DoNotDependOnTheNeighbours) {
       EXPECT_TRUE(same_bits(beside.velocity.col(lane), alone.velocity)) << which;
       EXPECT_TRUE(same_bits(beside.torque.col(lane), alone.torque)) << which;
     }
+  }
+}
+
+TEST(LaneBits, DoNotDependOnTheNeighbours) {
+  expect_no_neighbours(track_of(inputs(), {0.01, 0.2, 0.3}));
+  expect_no_neighbours(known_track());
+}
+
+// tick by tick as well, where a wave of no size is asked
+TEST(LaneBits, DoNotDependOnTheNeighboursTickByTick) {
+  RolloutTrack const track = known_track();
+  RolloutStructure structure = structure_of({});
+  structure.effects = {find_effect("cogging")};
+  auto all = trials();
+  all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(twin_lanes));
+  for (auto& trial : all) trial.effects = {{0.0, 0.0, 7.0}};
+  Rolled const beside = rolled(track, structure, all);
+  for (std::size_t i = 0; i < twin_lanes; ++i) {
+    Rolled const alone = rolled(track, structure, {all[i]});
+    EXPECT_TRUE(same_bits(beside.position.col(static_cast<Eigen::Index>(i)), alone.position)) << i;
+    EXPECT_TRUE(same_bits(beside.torque.col(static_cast<Eigen::Index>(i)), alone.torque)) << i;
   }
 }
 
@@ -92,22 +135,25 @@ TEST(LaneBits, OfLostAndImpossibleNeighboursTouchNobody) {
 }
 
 TEST(LaneBits, AreTheSameOnEveryInstructionSet) {
-  RolloutTrack const track = track_of(inputs(), {0.01, 0.2, 0.3});
-  auto all = trials();
-  all.resize(twin_lanes, all[0]);
-  Rolled const best = rolled(track, structure_of({}), all);
-  for (auto const name : kernels::supported_instruction_sets()) {
-    ASSERT_TRUE(kernels::force_instruction_set(name));
-    Rolled const forced = rolled(track, structure_of({}), all);
-    EXPECT_TRUE(same_bits(best.position, forced.position)) << name;
-    EXPECT_TRUE(same_bits(best.velocity, forced.velocity)) << name;
-    EXPECT_TRUE(same_bits(best.torque, forced.torque)) << name;
+  RolloutTrack const track = known_track();
+  auto const all = trials();
+  auto const lanes = static_cast<std::ptrdiff_t>(twin_lanes);
+  // controllers of joints, and servos
+  for (auto const& some : {std::vector(all.begin(), all.begin() + lanes), std::vector(all.end() - lanes, all.end())}) {
+    Rolled const best = rolled(track, structure_of({}), some);
+    for (auto const name : kernels::supported_instruction_sets()) {
+      ASSERT_TRUE(kernels::force_instruction_set(name));
+      Rolled const forced = rolled(track, structure_of({}), some);
+      EXPECT_TRUE(same_bits(best.position, forced.position)) << name;
+      EXPECT_TRUE(same_bits(best.velocity, forced.velocity)) << name;
+      EXPECT_TRUE(same_bits(best.torque, forced.torque)) << name;
+    }
+    kernels::release_instruction_set();
   }
-  kernels::release_instruction_set();
 }
 
 TEST(LaneBits, OfSumsAndResidualsAreTheSameOnAnyNumberOfThreads) {
-  std::vector<RolloutTrack> const tracks{track_of(inputs(), {0.01, 0.2, 0.3}), track_of(inputs(), {})};
+  std::vector<RolloutTrack> const tracks{known_track(), track_of(inputs(), {})};
   RolloutTask const task{tracks, {2, structure_of({})}};
   auto const all = trials();
   std::vector<std::vector<RolloutTrial>> const per_track{all, all};

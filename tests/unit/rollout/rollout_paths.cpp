@@ -51,10 +51,10 @@ PlainController controller() {
 
 double largest(Eigen::MatrixXd const& a, Eigen::MatrixXd const& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
-// the weight by its series (1e-11 of it), the encoder's half step times the loop's damping a sample
+// the weight by its series (1e-11 of it), an encoder's half step times the loop's damping a sample
 constexpr double same = 1e-8;
 
-TEST(RolloutPaths, OfAnEncoderTooFineToSeeAreTheFastOne) {
+TEST(RolloutPaths, OfAnEncoderTooFineToSeeAreThoseWithoutOne) {
   for (int const ticks : {1, 3}) {
     PlainInputs in = inputs();
     in.ticks_per_sample = ticks;
@@ -80,10 +80,12 @@ TEST(RolloutPaths, CarryTheSineOfAWeightOn) {
     cascade.feed_speed = 1.0;
     PlainStart const moving{0.0, turn * rate_hz, 0.0};
     RolloutTrial const fast = trial_of(heavy_and_dry(), cascade);
+    RolloutStructure by_ticks = structure_of({});
+    by_ticks.effects = {find_effect("cogging")};
     RolloutTrial slow = fast;
-    slow.encoder_step = 1e-12;
+    slow.effects = {{0.0, 0.0, 7.0}};
     RolloutTrack const track = track_of(in, moving);
-    Rolled const a = rolled(track, structure_of({}), {fast}), b = rolled(track, structure_of({}), {slow});
+    Rolled const a = rolled(track, structure_of({}), {fast}), b = rolled(track, by_ticks, {slow});
     // stiffness and inertia make less of it
     EXPECT_LT(largest(a.position, b.position), 0.2 * same) << turn;
     EXPECT_GT(a.position(samples - 1, 0), 0.9 * turn * samples);
