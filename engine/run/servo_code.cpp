@@ -74,15 +74,16 @@ typedef struct {{
   int tick;
 }} servo_state;
 
-static const double inertia = {inertia:.17g}, viscous = {viscous:.17g}, coulomb = {coulomb:.17g}, offset = {offset:.17g};
+static const double inertia = {inertia:.17g}, viscous = {viscous:.17g};
+static const double coulomb = {coulomb:.17g}, offset = {offset:.17g};
 static const double motor_gain = {motor_gain:.17g}, back_emf = {back_emf:.17g};
 static const double command_delay_s = {command_delay_s:.17g}, torque_lag_s = {torque_lag_s:.17g};
 static const double goal_speed_limit = {goal_speed_limit}, goal_acceleration_limit = {goal_acceleration_limit};
 static const double dead_band = {dead_band:.17g}, punch = {punch:.17g}, torque_limit = {torque_limit};
 static const double load_friction = {load_friction:.17g}, load_square_friction = {load_square_friction:.17g};
-static const double stribeck_friction = {stribeck_friction:.17g}, load_stribeck_friction = {load_stribeck_friction:.17g};
-static const double stribeck_speed = {stribeck_speed:.17g}, arm_mass = {arm_mass:.17g};
-static const double load_motor_share = {load_motor_share:.17g};
+static const double stribeck_friction = {stribeck_friction:.17g}, stribeck_speed = {stribeck_speed:.17g};
+static const double load_stribeck_friction = {load_stribeck_friction:.17g};
+static const double load_motor_share = {load_motor_share:.17g}, arm_mass = {arm_mass:.17g};
 )";
 
 constexpr char const* step_in_c = R"(
@@ -127,7 +128,8 @@ void servo_step(servo_state *s, servo_known const *k, double goal, double read, 
   double motor = motor_gain * command - (is_on ? back_emf * s->dq : 0.0);
   double arm = arm_mass * k->arm_length, mass = inertia + k->inertia + arm * k->arm_length / 3.0;
   double weight = (k->gravity_moment + 0.5 * 9.80665 * arm) * sin(s->q);
-  double load = fabs(weight + load_motor_share * (motor - weight)), turn = s->dq / stribeck_speed, bell = pow(1.0 + turn * turn / 16.0, -16.0);
+  double load = fabs(weight + load_motor_share * (motor - weight));
+  double turn = s->dq / stribeck_speed, bell = pow(1.0 + turn * turn / 16.0, -16.0);
   double dry = coulomb + (load_friction + load_square_friction * load) * load +
                (stribeck_friction + load_stribeck_friction * load) * bell;
   double net = motor - weight - offset - viscous * s->dq, speed = s->dq + net / mass * dt, drop = dry / mass * dt;
