@@ -3,7 +3,8 @@
 // servo. Adding one is a file in drive_laws/ and a line in drive_laws.cpp.
 //
 // Kinds      profile: between reference and controller; drive: between controller and motor; gear: friction and load
-// Starts     of its numbers, in the order of its keys; one that adds begins where it does nothing
+// Starts     of its numbers, in the order of its keys; one that adds begins where it does nothing. The others begin
+//            close to that as well: a model that has made up for a lag is no joint beside the whole of it
 // Threads    immutable objects, pure functions
 
 #include <span>

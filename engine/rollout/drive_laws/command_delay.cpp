@@ -12,7 +12,7 @@ DriveLaw const& command_delay_law() {
       .keys = {LoopKey::command_delay_s},
       .adds = false,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        return {{0.5 * of.sample_s}, {2.0 * of.sample_s}, {0.02}, {0.06}};
+        return {{0.1 * of.sample_s}, {0.5 * of.sample_s}, {2.0 * of.sample_s}, {0.02}, {0.06}};
       },
   };
   return law;

@@ -12,7 +12,7 @@ DriveLaw const& torque_lag_law() {
       .keys = {LoopKey::torque_lag_s},
       .adds = false,
       .starts = [](DriveScales const& of) -> std::vector<std::vector<double>> {
-        return {{0.5 * of.sample_s}, {2.0 * of.sample_s}};
+        return {{0.1 * of.sample_s}, {0.3 * of.sample_s}, {1.0 * of.sample_s}, {2.5 * of.sample_s}};
       },
   };
   return law;
