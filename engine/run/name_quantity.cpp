@@ -14,7 +14,7 @@ struct UsualMeaning {
 };
 
 std::vector<UsualMeaning> const& usual_meanings() {
-  constexpr double any = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::min();
+  constexpr double unlimited = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::min();
   static std::vector<std::string> const mass{"m", "M", "mass", "Mass", "load", "payload", ""},
       length{"l", "L", "len", "length", "Length", "arm", ""},
       supply{"v", "V", "vin", "Vin", "VIN", "u", "U", "supply", "voltage", ""},
@@ -25,20 +25,20 @@ std::vector<UsualMeaning> const& usual_meanings() {
     return prefixes;
   };
   static std::vector<UsualMeaning> const table{
-      {mass, {"kg", "Kg", "KG"}, "mass_kg", 0.0, any},
-      {mass, {"g"}, "mass_g", 0.0, any},
+      {mass, {"kg", "Kg", "KG"}, "mass_kg", 0.0, unlimited},
+      {mass, {"g"}, "mass_g", 0.0, unlimited},
       {{"m", "M", "mass", "Mass"}, {""}, "mass_kg", 0.0, 50.0},
-      {length, {"mm"}, "length_mm", tiny, any},
-      {length, {"cm"}, "length_cm", tiny, any},
-      {length, {"m"}, "length_m", tiny, any},
+      {length, {"mm"}, "length_mm", tiny, unlimited},
+      {length, {"cm"}, "length_cm", tiny, unlimited},
+      {length, {"m"}, "length_m", tiny, unlimited},
       {lettered(length), {""}, "length_m", tiny, 3.0},
-      {lettered(length), {""}, "length_mm", 20.0, any},
-      {{"kp", "Kp", "KP"}, {""}, "kp", 0.0, any},
-      {{"kd", "Kd", "KD"}, {""}, "kd", 0.0, any},
-      {{"ki", "Ki", "KI"}, {""}, "ki", 0.0, any},
+      {lettered(length), {""}, "length_mm", 20.0, unlimited},
+      {{"kp", "Kp", "KP"}, {""}, "kp", 0.0, unlimited},
+      {{"kd", "Kd", "KD"}, {""}, "kd", 0.0, unlimited},
+      {{"ki", "Ki", "KI"}, {""}, "ki", 0.0, unlimited},
       {supply, {"V", "v"}, "supply_v", 1.0, 1000.0},
       {lettered(supply), {""}, "supply_v", 3.0, 100.0},
-      {temperature, {"C", "c", "degC", "degc"}, "temperature_c", -273.15, any},
+      {temperature, {"C", "c", "degC", "degc"}, "temperature_c", -273.15, unlimited},
       {lettered(temperature), {""}, "temperature_c", -60.0, 200.0},
   };
   return table;

@@ -117,8 +117,8 @@ std::vector<double> switched() {
 
 TEST(ColumnGuess, ASwitchIsNoTorque) {
   for (char const* name : {"torque_enabled", "enabled", "drive_on", "motor_on", "TorqueEnable", "torque_enable"}) {
-    auto const guess = guess_columns(table_of({{"t_s", wave(1)}, {"goal_rad", wave(1)}, {"q_rad", wave(1)},
-                                               {name, switched()}}));
+    auto const guess =
+        guess_columns(table_of({{"t_s", wave(1)}, {"goal_rad", wave(1)}, {"q_rad", wave(1)}, {name, switched()}}));
     EXPECT_EQ(guess.enabled.column, name);
     EXPECT_EQ(guess.torque.column, "") << name;
     EXPECT_EQ(guess.reference.column, "goal_rad");
@@ -138,8 +138,8 @@ TEST(ColumnGuess, AConstantTorqueGivesWayToOneOfAnotherName) {
 }
 
 TEST(ColumnGuess, JointsWithoutTorqueHaveAReference) {
-  Columns const two{{"q1_rad", wave(1)}, {"q2_rad", wave(2)}, {"goal1_rad", wave(1)}, {"goal2_rad", wave(2)},
-                    {"enabled1", switched()}, {"enabled2", switched()}};
+  Columns const two{{"q1_rad", wave(1)},    {"q2_rad", wave(2)},      {"goal1_rad", wave(1)},
+                    {"goal2_rad", wave(2)}, {"enabled1", switched()}, {"enabled2", switched()}};
   auto const second = guess_columns(table_of(two), 2);
   EXPECT_EQ(second.joints, 2u);
   EXPECT_EQ(second.position.column, "q2_rad");
@@ -148,8 +148,8 @@ TEST(ColumnGuess, JointsWithoutTorqueHaveAReference) {
 }
 
 TEST(ColumnGuess, TakesNoTorqueWhereNoneIsWanted) {
-  auto const guess = guess_columns(table_of({{"q_rad", wave(1)}, {"goal_rad", wave(1)}, {"V_V", wave(1)}}), 0,
-                                   TorqueColumn::optional);
+  auto const guess =
+      guess_columns(table_of({{"q_rad", wave(1)}, {"goal_rad", wave(1)}, {"V_V", wave(1)}}), 0, TorqueColumn::optional);
   EXPECT_EQ(guess.torque.column, "");
   EXPECT_EQ(guess.reference.column, "goal_rad");
 }
