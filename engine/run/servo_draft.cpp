@@ -30,7 +30,7 @@ class ServoDrafter {
       if (other.refusal.empty())
         add_file(other);
       else
-        left_out_.push_back(fmt::format("{} is left out: {}", other.file.string(), other.refusal));
+        left_out_.push_back(fmt::format("{} is left out: {}", other.file.string(), why_not(other)));
     }
     set_ = draft_set(files_, job_file.parent_path());
   }
@@ -51,6 +51,15 @@ class ServoDrafter {
   void add_file(RecordingGuess const& guess) {
     auto path = path_from(job_file_, guess.file);
     if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(std::move(path));
+  }
+
+  // a table of the others may do better than their names
+  std::string why_not(RecordingGuess const& other) const {
+    bool const names_files = std::any_of(other.unusable.begin(), other.unusable.end(),
+                                         [](UnusableColumn const& column) { return column.name == "file"; });
+    if (!names_files) return other.refusal;
+    return fmt::format("it looks like a table of recordings; one [[recordings]] with manifest = {} in place of files",
+                       toml_text(path_from(job_file_, other.file)));
   }
 
   void warn(std::string text) { draft_.warnings.push_back(std::move(text)); }
@@ -82,7 +91,7 @@ class ServoDrafter {
       text_.section("[[recordings]]");
       text_.setting("files", toml_text(section.files),
                     fmt::format("{} {}{}", section.n_files, files_word(section.n_files),
-                                section.is_validation ? ": no fit sees them, they judge the result" : ""));
+                                section.is_validation ? ": unseen by any fit, to judge the result" : ""));
       if (section.is_validation) text_.setting("role", "\"validate\"");
       for (auto const& [name, value] : section.fixed) {
         double number = 0.0;
@@ -160,8 +169,25 @@ class ServoDrafter {
       text_.to_edit("inertia", toml_text(any_mass), "EDIT: kg, of the load; the rest is searched");
     }
     if (has("temperature_c")) text_.setting("temperature", "\"temperature_c\"", "deg C, of the drive");
+    write_gain();
+  }
+
+  bool differs(std::string const& quantity) const {
+    return has(quantity) && std::any_of(set_.values.begin(), set_.values.end(), [&](auto const& values) {
+             return values.at(quantity) != set_.values.front().at(quantity);
+           });
+  }
+
+  void write_gain() {
     text_.comment(
         "Without command_gain the drive answers its position error by an unknown gain, one for all recordings:");
+    if (differs("kp")) {
+      std::string const why = "kp differs between these recordings, and one gain would serve all of them";
+      text_.comment(fmt::format("EDIT: {}: write command_gain.", why));
+      warn(fmt::format("{}: write known.command_gain", why));
+    }
+    if (!has("kp") || !has("supply_v"))
+      text_.comment("kp and supply_v are quantities of the recordings: supply_v = 12 in [[recordings]].");
     text_.to_edit("command_gain", "\"0.165 * kp * supply_v\"", "EDIT: volts per rad of error");
     text_.to_edit("command_limit", "\"0.97 * supply_v\"", "EDIT: largest volts");
   }

@@ -104,17 +104,37 @@ class SetDrafter {
     return section && section->n_more == 0 ? section : std::nullopt;
   }
 
-  // one for each value; empty: not exact, or too many
-  std::vector<std::pair<std::string, DraftedSection>> sections_by(std::string const& quantity,
-                                                                  Files const& files) const {
+  // exactly these files: one section, else those of each value of one more quantity, as few as there can be;
+  // empty: not exact, or too many. `deeper`: quantities that may be tried besides
+  std::vector<DraftedSection> cover(Files const& files, Texts const& fixed, int deeper) const {
+    if (auto section = exact_section(files, fixed)) return {std::move(*section)};
+    std::vector<DraftedSection> best;
+    for (std::size_t k = 0; deeper > 0 && k < parts_.quantities.size(); ++k) {
+      auto const& quantity = parts_.quantities[k].name;
+      if (fixed.contains(quantity)) continue;
+      std::vector<DraftedSection> sections;
+      for (auto& [value, some] : sections_by(quantity, files, fixed, deeper - 1))
+        std::move(some.begin(), some.end(), std::back_inserter(sections));
+      if (!sections.empty() && (best.empty() || sections.size() < best.size())) best = std::move(sections);
+    }
+    return best;
+  }
+
+  // by value; empty: not exact, or too many
+  std::map<std::string, std::vector<DraftedSection>> sections_by(std::string const& quantity, Files const& files,
+                                                                 Texts const& fixed, int deeper) const {
     std::map<std::string, Files> by_value;
     for (auto const k : files) by_value[parts_.values[k].at(quantity)].push_back(k);
     if (by_value.size() > most_sections) return {};
-    std::vector<std::pair<std::string, DraftedSection>> sections;
+    std::map<std::string, std::vector<DraftedSection>> sections;
+    std::size_t count = 0;
     for (auto const& [value, some] : by_value) {
-      auto section = exact_section(some, {{quantity, value}});
-      if (!section) return {};
-      sections.emplace_back(value, std::move(*section));
+      Texts with = fixed;
+      with[quantity] = value;
+      auto its = cover(some, with, deeper);
+      count += its.size();
+      if (its.empty() || count > most_sections) return {};
+      sections[value] = std::move(its);
     }
     return sections;
   }
@@ -124,12 +144,8 @@ class SetDrafter {
   }
 
   std::vector<DraftedSection> sections_of(Files const& files) const {
-    if (auto section = exact_section(files, {})) return {*section};
-    for (auto const& quantity : parts_.quantities) {
-      std::vector<DraftedSection> sections;
-      for (auto& [value, section] : sections_by(quantity.name, files)) sections.push_back(std::move(section));
-      if (!sections.empty() && sections.size() < files.size()) return sections;
-    }
+    if (auto sections = cover(files, {}, 2); !sections.empty() && (sections.size() < files.size() || files.size() == 1))
+      return sections;
     if (files.size() <= most_sections) {
       std::vector<DraftedSection> sections;
       for (auto const k : files) sections.push_back(literal_section(k));
@@ -201,12 +217,13 @@ class SetDrafter {
     for (auto const& quantity : in_order_of_worth()) {
       std::string const value = value_to_judge(quantity, files);
       if (value.empty()) continue;
-      auto sections = sections_by(quantity.name, files);
-      if (sections.empty()) continue;
-      for (auto& [its, section] : sections) {
-        section.is_validation = its == value;
-        made_.sections.push_back(std::move(section));
-      }
+      auto by_value = sections_by(quantity.name, files, {}, 1);
+      if (by_value.empty()) continue;
+      for (auto& [its, sections] : by_value)
+        for (auto& section : sections) {
+          section.is_validation = its == value;
+          made_.sections.push_back(std::move(section));
+        }
       made_.judged_by = quantity.name;
       return true;
     }

@@ -65,6 +65,20 @@ TEST_F(SetDraftTest, AnInnerMassJudges) {
   EXPECT_EQ(made.sections[2].fixed.at("mass_kg"), "0.75");
 }
 
+TEST_F(SetDraftTest, AnInnerMassJudgesAmongFilesThatAreNotMeant) {
+  Names files, others;
+  for (char const* mass : {"0.5", "0.75", "1"})
+    for (char const* motion : {"steps", "two_sines", "drop"})
+      for (char const* kp : {"8", "32"}) {
+        bool const is_meant = std::string(motion) != "drop" && std::string(kp) == "8";
+        (is_meant ? files : others).push_back(std::string("m") + mass + "_kp" + kp + "_" + motion + ".csv");
+      }
+  auto const made = draft(files, others);
+  EXPECT_EQ(made.judged_by, "mass_kg");
+  EXPECT_THAT(patterns(made), ElementsAre("m0.5_kp8_steps.csv", "m0.5_kp8_two_sines.csv", "m1_kp8_steps.csv",
+                                          "m1_kp8_two_sines.csv", "!m0.75_kp8_steps.csv", "!m0.75_kp8_two_sines.csv"));
+}
+
 TEST_F(SetDraftTest, AMotionJudgesWhereNoNumberCan) {
   auto const made = draft({"m1_l200_a.csv", "m1_l200_b.csv", "m1_l200_c.csv", "m1_l200_d.csv", "m1_l200_e.csv"});
   EXPECT_EQ(made.judged_by, "motion");
