@@ -82,9 +82,11 @@ std::size_t begin_of_ending(std::string const& name) {
 }
 
 std::vector<NameField> fields_of_name(std::string const& name) {
-  static std::regex const date(
-      "(?:19|20)[0-9]{2}([-_.]?)(?:0[1-9]|1[0-2])\\1(?:0[1-9]|[12][0-9]|3[01])"
-      "(?:[T_ -]?(?:[01][0-9]|2[0-3])[-_.:h]?[0-5][0-9](?:[-_.:m]?[0-5][0-9])?)?(?![0-9])");
+  static std::string const time = "(?:[01][0-9]|2[0-3])[-_.:h]?[0-5][0-9](?:[-_.:m]?[0-5][0-9]s?)?",
+                           day = "(?:0[1-9]|1[0-2])\\1(?:0[1-9]|[12][0-9]|3[01])";
+  // a year of two digits where a time stands behind the day
+  static std::regex const date("(?:(?:19|20)[0-9]{2}([-_.]?)" + day + "(?:[T_ -]?" + time +
+                               ")?|[0-9]{2}-[0-9]{2}-[0-9]{2}[T_ -]" + time + ")(?![0-9])");
   std::vector<NameField> fields;
   std::string separator;
   auto from = name.begin();

@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "engine/run/file_pattern.hpp"
 #include "engine/run/known_product.hpp"
 #include "engine/run/name_fields.hpp"
+#include "engine/run/name_pattern.hpp"
 #include "engine/run/name_quantity.hpp"
 
 namespace torquescope {
@@ -56,6 +56,7 @@ class PartsBuilder {
     std::vector<std::size_t> ends;
     for (auto const& fields : names_) ends.push_back(fields.size());
     add_between(from, ends);
+    name_quantities();
     return fits_;
   }
 
@@ -120,16 +121,42 @@ class PartsBuilder {
     add_text(separators.front());
   }
 
-  void add_quantity(std::string name, bool is_number, bool is_a_guess, std::string const& written,
+  // `name`: "" where it gets one at the end
+  void add_quantity(std::string name, bool is_number, std::string const& written,
                     std::vector<std::string> const& values) {
-    while (!used_.insert(name).second) {
-      name = std::string(1, next_letter_++);
-      is_a_guess = true;
-      fits_ = fits_ && next_letter_ <= 'z';
+    bool const is_new = name.empty() || used_.insert(name).second;
+    std::string const id = std::to_string(made_.quantities.size());
+    made_.parts.push_back({{}, id, false});
+    made_.quantities.push_back({is_new ? name : "", written, is_number, !is_new || name.empty()});
+    for (std::size_t k = 0; k < values.size(); ++k) made_.values[k][id] = values[k];
+  }
+
+  // motion is the word with the most values, of two that have as many the last; letters in their order
+  void name_quantities() {
+    std::size_t most = 0, motion = made_.quantities.size();
+    for (std::size_t i = 0; i < made_.quantities.size(); ++i) {
+      std::set<std::string> values;
+      for (auto const& texts : made_.values) values.insert(texts.at(std::to_string(i)));
+      if (made_.quantities[i].is_number || values.size() < most) continue;
+      most = values.size();
+      motion = i;
     }
-    made_.parts.push_back({{}, name, false});
-    made_.quantities.push_back({name, written, is_number, is_a_guess});
-    for (std::size_t k = 0; k < values.size(); ++k) made_.values[k][name] = values[k];
+    char letter = 'a';
+    for (std::size_t i = 0; i < made_.quantities.size(); ++i) {
+      auto& quantity = made_.quantities[i];
+      quantity.is_a_guess = quantity.is_a_guess && i != motion;
+      if (i == motion) quantity.name = "motion";
+      if (quantity.is_a_guess) quantity.name = std::string(1, letter++);
+      fits_ = fits_ && letter <= 'z';
+    }
+    auto const name = [&](std::string const& id) { return made_.quantities[std::stoul(id)].name; };
+    for (auto& part : made_.parts)
+      if (!part.quantity.empty()) part.quantity = name(part.quantity);
+    for (auto& texts : made_.values) {
+      std::map<std::string, std::string> named;
+      for (auto const& [id, text] : texts) named[name(id)] = text;
+      texts = std::move(named);
+    }
   }
 
   // one field of each name
@@ -143,12 +170,12 @@ class PartsBuilder {
       std::string const name = quantity_of_number(first->prefix, first->unit, numbers_of(numbers));
       if (!differ && (name.empty() || n_known_ < 2)) return add_text(whole.front());
       add_text(first->prefix);
-      add_quantity(name.empty() ? "a" : name, true, name.empty(), first->text, numbers);
+      add_quantity(name, true, first->text, numbers);
       return add_text(first->unit);
     }
     if (!differ) return add_text(whole.front());
     if (are_dates(at)) return add_date(whole);
-    add_quantity("motion", false, false, first->text, whole);
+    add_quantity("", false, first->text, whole);
   }
 
   // any letters; as many as there are where the words beside it could be taken for a part of it
@@ -172,7 +199,7 @@ class PartsBuilder {
       fits_ = fits_ && !text.empty();
       values.push_back(std::move(text));
     }
-    add_quantity("motion", false, false, values.front(), values);
+    add_quantity("", false, values.front(), values);
   }
 
   bool is_like(Places const& at) const {
@@ -229,19 +256,9 @@ class PartsBuilder {
   bool bare_;
   NameParts made_{};
   std::set<std::string> used_{};
-  char next_letter_ = 'a';
   int n_known_ = 0;
   bool fits_ = true;
 };
-
-// "{motion}_{a}" of "two_sines_1" would take "sines_1" for the number
-bool gives_back(NameParts const& made, std::vector<std::string> const& names) {
-  std::string const pattern = pattern_of(made);
-  if (!fault_of_pattern(pattern).empty()) return false;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (match_name(pattern, names[k]) != made.values[k]) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -265,27 +282,6 @@ std::optional<NameParts> parts_of_names(std::vector<std::string> const& names) {
     if (!first) first = std::move(made);
   }
   return first;
-}
-
-std::string plain_pattern(std::string const& text) {
-  std::string pattern = text;
-  for (char& letter : pattern)
-    if (letter == '{' || letter == '}' || letter == '*' || letter == '?') letter = '?';
-  return pattern;
-}
-
-std::string pattern_of(NameParts const& parts, std::map<std::string, std::string> const& fixed) {
-  std::string pattern;
-  for (auto const& part : parts.parts) {
-    auto const value = fixed.find(part.quantity);
-    if (part.is_text)
-      pattern += plain_pattern(part.text);
-    else if (part.quantity.empty())
-      pattern += part.text;
-    else
-      pattern += value == fixed.end() ? "{" + part.quantity + "}" : plain_pattern(value->second);
-  }
-  return pattern;
 }
 
 }  // namespace torquescope

@@ -2,9 +2,9 @@
 // What the names of many recordings tell: of "m0.5_l150_kp8_steps.csv" and its like mass_kg, length_mm, kp and motion.
 //
 // Numbers    named by the letters before them or the unit behind (m, l, kp, v, T; kg, mm, V), else a, b, ...
-// Words      those that differ are `motion`, further ones a, b, ...; dates and times that differ are any letters: * or ?
+// Words      those that differ most are `motion`, others a, b, ...; dates and times that differ are any letters: * or ?
 // Constant   a number that is the same in all names is a quantity where two of them have a known name, else text
-// Threads    functions of their arguments
+// Threads    function of its argument
 
 #include <map>
 #include <optional>
@@ -34,9 +34,5 @@ struct NameParts {
 
 // names without folders; nothing where no pattern could say what they have in common
 std::optional<NameParts> parts_of_names(std::vector<std::string> const& names);
-
-// quantities that are `fixed` stand as their values; letters that mean something in a pattern become ?
-std::string pattern_of(NameParts const& parts, std::map<std::string, std::string> const& fixed = {});
-std::string plain_pattern(std::string const& text);
 
 }  // namespace torquescope

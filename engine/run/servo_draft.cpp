@@ -49,6 +49,11 @@ class ServoDrafter {
 
  private:
   void add_file(RecordingGuess const& guess) {
+    auto const file = std::filesystem::absolute(guess.file).lexically_normal();
+    if (folder_.empty()) folder_ = file.parent_path();
+    // up to the folder that has all of them
+    while (folder_.has_relative_path() && file.lexically_relative(folder_).string().starts_with(".."))
+      folder_ = folder_.parent_path();
     auto path = path_from(job_file_, guess.file);
     if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(std::move(path));
   }
@@ -75,8 +80,7 @@ class ServoDrafter {
                     "lacks.",
                     name, name));
     text_.section("[experiment]");
-    auto const folder = std::filesystem::absolute(first_.file).lexically_normal().parent_path();
-    text_.setting("name", toml_text(draft_name(files_.size() == 1 ? first_.file : folder)),
+    text_.setting("name", toml_text(draft_name(files_.size() == 1 ? first_.file : folder_)),
                   "of the result file as well");
     text_.setting("seed", "1", "of every random number");
   }
@@ -117,10 +121,10 @@ class ServoDrafter {
     }
     for (auto const& quantity : set_.quantities)
       if (quantity.is_a_guess) {
-        text_.comment(
-            fmt::format("EDIT: {0} is \"{1}\" of {2}: name it with its unit (mass_kg, kp), or write * in "
-                        "place of {{{0}}}.",
-                        quantity.name, quantity.written, std::filesystem::path(files_.front()).filename().string()));
+        text_.comment(fmt::format("EDIT: {0} is \"{1}\" of {2}: name it{3}, or write * in place of {{{0}}}.",
+                                  quantity.name, quantity.written,
+                                  std::filesystem::path(files_.front()).filename().string(),
+                                  quantity.is_number ? " with its unit (mass_kg, kp)" : ""));
       }
     bool const any_judges = std::any_of(set_.sections.begin(), set_.sections.end(),
                                         [](DraftedSection const& section) { return section.is_validation; });
@@ -222,6 +226,7 @@ class ServoDrafter {
 
   RecordingGuess const& first_;
   std::filesystem::path const& job_file_;
+  std::filesystem::path folder_{};
   std::vector<std::string> files_{}, left_out_{};
   SetDraft set_{};
   DraftText text_{};

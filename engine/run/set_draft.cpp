@@ -9,6 +9,8 @@
 #include "engine/data/delimited_text.hpp"
 #include "engine/run/file_pattern.hpp"
 #include "engine/run/known_product.hpp"
+#include "engine/run/name_fields.hpp"
+#include "engine/run/name_pattern.hpp"
 
 namespace torquescope {
 namespace {
@@ -22,10 +24,12 @@ using Texts = std::map<std::string, std::string>;
 std::string folder_of(std::string const& file) { return file.substr(0, file.rfind('/') + 1); }
 std::string name_of(std::string const& file) { return file.substr(file.rfind('/') + 1); }
 
-// "logs/test" of files that judge
+// "logs/unseen_load/": files that judge
 bool is_for_judging(std::string const& folder) {
-  static std::set<std::string> const names{"validate", "validation", "val", "test", "unseen", "holdout"};
-  return names.contains(lower_case(name_of(folder.substr(0, folder.size() - (folder.empty() ? 0 : 1)))));
+  static std::set<std::string> const words{"validate", "validation", "val", "test", "unseen", "holdout"};
+  if (folder.empty()) return false;
+  auto const fields = fields_of_name(lower_case(name_of(folder.substr(0, folder.size() - 1))));
+  return std::any_of(fields.begin(), fields.end(), [](NameField const& field) { return words.contains(field.text); });
 }
 
 class SetDrafter {

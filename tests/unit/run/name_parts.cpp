@@ -7,6 +7,7 @@
 
 #include "engine/run/file_pattern.hpp"
 #include "engine/run/name_fields.hpp"
+#include "engine/run/name_pattern.hpp"
 #include "engine/run/name_quantity.hpp"
 
 namespace torquescope {
@@ -67,7 +68,8 @@ TEST(NameParts, WhatNobodyKnowsIsALetter) {
 TEST(NameParts, WordsThatDifferAreTheMotionInAnyOrder) {
   EXPECT_EQ(pattern({"lift_and_drop_m1.csv", "steps_m1.csv"}), "{motion}_m1.csv");
   EXPECT_EQ(pattern({"up_and_down_kp8_test.csv", "lift_and_drop_kp9_test.csv"}), "{motion}_kp{kp}_test.csv");
-  EXPECT_EQ(pattern({"left_kp8_sine.csv", "right_kp8_step.csv"}), "{motion}_kp8_{a}.csv");
+  EXPECT_EQ(pattern({"left_kp8_sine.csv", "right_kp8_step.csv"}), "{a}_kp8_{motion}.csv");
+  EXPECT_EQ(pattern({"xl330_m1_sine.csv", "xl330_m2_step.csv", "sts3215_m1_drop.csv"}), "{a}_m{mass_kg}_{motion}.csv");
   EXPECT_EQ(pattern({"two_sines_1.csv", "steps_2.csv"}), "{motion}.csv") << "or the number would be sines_1";
 }
 
@@ -78,6 +80,8 @@ TEST(NameParts, DatesThatDifferAreAnyLetters) {
   EXPECT_EQ(pattern({"m1_2024-01-31_10-15-00_sine.csv", "m2_2024-01-31_11-15-00_two_steps.csv"}),
             "m{mass_kg}_" + day + "_" + time + "_{motion}.csv");
   EXPECT_EQ(pattern({"2024-01-31_m1.csv", "2024-01-31_m2.csv"}), "2024-01-31_m{mass_kg}.csv");
+  EXPECT_EQ(pattern({"kp1_sin_sin_26-01-15_10h28m10.csv", "kp2_drop_24-10-26_12h23m42.csv"}),
+            "kp{kp}_{motion}_" + two + "-" + two + "-" + two + "_" + two + "h" + two + "m" + two + ".csv");
   EXPECT_EQ(fields_of_name("m20240131").size(), 2u) << "a date, no mass";
   EXPECT_EQ(pattern({"m20245678.csv", "m20245679.csv"}), "m{a}.csv") << "no date";
 }

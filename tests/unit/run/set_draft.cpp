@@ -87,8 +87,8 @@ TEST_F(SetDraftTest, AMotionJudgesWhereNoNumberCan) {
 }
 
 TEST_F(SetDraftTest, AFolderForTestsJudges) {
-  auto const made = draft({"train/m1_kp8.csv", "train/m2_kp8.csv", "test/m3_kp8.csv", "test/m4_kp8.csv"});
-  EXPECT_THAT(patterns(made), ElementsAre("train/m{mass_kg}_kp{kp}.csv", "!test/m{mass_kg}_kp{kp}.csv"));
+  auto const made = draft({"train/m1_kp8.csv", "train/m2_kp8.csv", "unseen_load/m3_kp8.csv", "unseen_load/m4_kp8.csv"});
+  EXPECT_THAT(patterns(made), ElementsAre("train/m{mass_kg}_kp{kp}.csv", "!unseen_load/m{mass_kg}_kp{kp}.csv"));
 }
 
 TEST_F(SetDraftTest, FilesThatAreNotInTheListAreNotMatched) {
