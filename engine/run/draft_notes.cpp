@@ -2,11 +2,13 @@
 
 #include <cctype>
 
+#include "engine/run/name_fields.hpp"
+
 namespace torquescope {
 
 std::string draft_name(std::filesystem::path const& file) {
   std::string name = file.filename().string();
-  name = name.substr(0, name.find('.', 1));
+  name = name.substr(0, begin_of_ending(name));
   for (char& letter : name)
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
   return name.empty() ? "recording" : name;

@@ -84,7 +84,9 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope init monday.csv tuesday.csv > arm.toml\n"
       "  torquescope init arm.csv --joint 2 --out joint2.toml\n"
       "  torquescope init --servo train/*.csv --out servo.toml\n"
-      "Exit code 65 (the recording) or 78 (lines to edit): the job is written, and does not run yet.\n");
+      "\n"
+      "A job that does not run yet is written, and ends with exit code 65 (its\n"
+      "recording is refused) or 78 (its lines with EDIT have to be written).\n");
   command
       ->add_option(
           "REC.csv", arguments->recordings,

@@ -172,6 +172,7 @@ TEST_F(JobDraftTest, CommandAndPositionWithoutATorqueAreAServo) {
   EXPECT_THAT(made.warnings, Contains(HasSubstr("table.csv is left out: it looks like a table of recordings")));
   EXPECT_THAT(made.warnings, Contains(HasSubstr("kp differs between these recordings")));
   // names that tell no load: [known] has lines to edit, and the job runs without them
+  EXPECT_THAT(draft({files[1]}).text, HasSubstr("name = \"m1_l150_kp8_a\""));
   auto const plain = draft({folder_.write("x.csv", with_goal(folder_.path() / "servo.csv", true))});
   EXPECT_EQ(plain.code, ExitCode::ok);
   EXPECT_THAT(plain.text, AllOf(HasSubstr("\n# gravity_moment = "),
