@@ -81,12 +81,8 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       "init", "Drafts a job for your own recordings: guesses columns, units, filters; comments say how sure.");
   command->footer(
       "  torquescope init arm.csv > arm.toml\n"
-      "  torquescope init monday.csv tuesday.csv > arm.toml\n"
-      "  torquescope init arm.csv --joint 2 --out joint2.toml\n"
-      "  torquescope init --servo train/*.csv --out servo.toml\n"
-      "\n"
-      "A job that does not run yet is written, and ends with exit code 65 (its\n"
-      "recording is refused) or 78 (its lines with EDIT have to be written).\n");
+      "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
+      "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
       ->add_option(
           "REC.csv", arguments->recordings,
@@ -102,7 +98,10 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       ->add_flag("--servo", arguments->servo,
                  "a job of many recordings of a servo ([[recordings]]), even where a column may be a torque")
       ->group("recording");
-  command->add_option("-o,--out", arguments->out, "the job, a file that does not exist yet [standard output]")
+  command
+      ->add_option("-o,--out", arguments->out,
+                   "the job, a file that does not exist yet; one that does not run as it stands is written as well, "
+                   "with exit code 65 (its recording) or 78 (lines to edit) [standard output]")
       ->type_name("JOB.toml")
       ->group("results");
   add_quiet_option(*command, chosen);
