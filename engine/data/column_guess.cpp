@@ -35,6 +35,31 @@ ChannelGuess describe(RawTable const& table, LikelyColumn const& likely) {
   return guess;
 }
 
+// a column of 0 and 1 alone whose name says so: "torque_enabled", "drive_on", "MotorEnable"
+bool is_switch(RawTable const& table, std::string const& column) {
+  static std::vector<std::string> const words{"enable", "enabled", "on", "active"};
+  std::string const said = " " + parse_column_name(column).rest + " ";
+  auto const& values = values_of(table, column);
+  return std::any_of(words.begin(), words.end(),
+                     [&](auto const& word) { return said.find(" " + word + " ") != std::string::npos; }) &&
+         std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }) &&
+         std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v) || v == 0.0 || v == 1.0; });
+}
+
+std::vector<LikelyColumn> switches_of(RawTable const& table) {
+  std::vector<LikelyColumn> found;
+  for (auto const& column : table.names)
+    if (is_switch(table, column)) found.push_back({column, parse_column_name(column), {}});
+  return found;
+}
+
+// what may serve as the channel and is no switch
+std::vector<LikelyColumn> signals(RawTable const& table, std::string const& channel) {
+  auto likely = likely_columns(channel, table.names, table.units);
+  std::erase_if(likely, [&](LikelyColumn const& one) { return is_switch(table, one.column); });
+  return likely;
+}
+
 // of one joint; the best that changes, else the best
 ChannelGuess pick(RawTable const& table, std::vector<LikelyColumn> const& likely, Label const& label,
                   std::string const& joint) {
@@ -57,18 +82,17 @@ std::vector<std::string> labels_of(std::vector<LikelyColumn> const& likely, Labe
 
 }  // namespace
 
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint) {
-  auto const positions = likely_columns("position", table.names, table.units),
-             torques = likely_columns("torque", table.names, table.units),
-             references = likely_columns("reference", table.names, table.units),
-             velocities = likely_columns("velocity", table.names, table.units);
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn torque) {
+  auto const positions = signals(table, "position"), references = signals(table, "reference"),
+             velocities = signals(table, "velocity"), switches = switches_of(table),
+             torques = torque == TorqueColumn::required ? signals(table, "torque") : std::vector<LikelyColumn>{};
   Label const by_words = [](ColumnName const& name) { return name.rest + "#" + name.number; };
   Label const by_number = [](ColumnName const& name) { return name.number; };
   Label const all_one = [](ColumnName const&) { return std::string(); };
 
-  // labels with a position and a torque, in the order of the file
+  // labels with a position and a torque, or in a file without one a reference, in the order of the file
   auto const joints_by = [&](Label const& label) {
-    auto const have_torque = labels_of(torques, label);
+    auto const have_torque = labels_of(torques.empty() ? references : torques, label);
     std::vector<LikelyColumn> in_file_order = positions;
     std::stable_sort(in_file_order.begin(), in_file_order.end(), [&](auto const& a, auto const& b) {
       return std::find(table.names.begin(), table.names.end(), a.column) <
@@ -111,6 +135,13 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint) {
   // a name that says less, of a file with one joint: "goal" beside "motor position"
   if (guess.joints == 1 && guess.reference.column.empty()) guess.reference = pick(table, references, all_one, "");
   if (guess.joints == 1 && guess.velocity.column.empty()) guess.velocity = pick(table, velocities, all_one, "");
+  // a torque of 0 in every row beside a current of another name
+  if (auto const any = pick(table, torques, all_one, "");
+      guess.joints == 1 && guess.torque.is_constant && !any.is_constant)
+    guess.torque = any;
+  // "drive_on" says no joint's name; where joints have one each, the number tells them apart
+  guess.enabled = pick(table, switches, by_number, guess.position.name.number);
+  if (guess.enabled.column.empty() && switches.size() == 1) guess.enabled = pick(table, switches, all_one, "");
   return guess;
 }
 

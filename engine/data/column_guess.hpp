@@ -3,6 +3,8 @@
 //
 // Joints     columns belong together when their number and the words that say nothing are the same; where that leaves
 //            no joint with position and torque, the number alone; then all columns are one joint
+//            Without any torque: with position and reference
+// Switch     0 and 1 alone under a name that says enabled or on: never a torque
 // Order      joints as their position columns stand in the file; `joint` counts them from 1
 // Values     a column that never changes serves only where no other does; whole numbers without a unit are counts
 // Threads    free function
@@ -13,6 +15,7 @@
 
 #include "engine/data/column_suggestion.hpp"
 #include "engine/data/recording_reader.hpp"
+#include "engine/data/torque_column.hpp"
 
 namespace torquescope {
 
@@ -27,13 +30,14 @@ struct ChannelGuess {
 };
 
 struct ColumnGuess {
-  ChannelGuess position, torque, reference, velocity;
+  ChannelGuess position, torque, reference, velocity, enabled;
   std::size_t joint = 1, joints = 1;
   std::size_t moving_joints = 1;     // of them: over a twentieth of the largest range, and more
   std::size_t joint_that_moves = 1;  // `joint`, or where that hardly moves the one with the largest range
 };
 
 // joint: from 1; 0 for the first. One beyond the file's gives no position and no torque
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0);
+// torque: optional takes no column for it
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required);
 
 }  // namespace torquescope

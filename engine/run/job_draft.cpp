@@ -3,32 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/job/job.hpp"
+#include "engine/run/draft_notes.hpp"
 #include "engine/run/draft_text.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/gravity_evidence.hpp"
 #include "engine/run/recording_draft.hpp"
 #include "engine/run/recording_guess.hpp"
+#include "engine/run/servo_draft.hpp"
 #include "engine/run/workflows.hpp"
 
 namespace torquescope {
 
 namespace {
-
-// "Monday_3" of "logs/Monday 3.csv.gz"
-std::string name_of(std::filesystem::path const& file) {
-  std::string name = file.filename().string();
-  name = name.substr(0, name.find('.', 1));
-  for (char& letter : name)
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-') letter = '_';
-  return name.empty() ? "recording" : name;
-}
 
 class JobDrafter {
  public:
@@ -61,8 +53,12 @@ class JobDrafter {
                     "lacks.",
                     name, name));
     text_.section("[experiment]");
-    text_.setting("name", toml_text(name_of(train_.file)), "of the result file as well");
+    text_.setting("name", toml_text(draft_name(train_.file)), "of the result file as well");
     text_.setting("seed", "1", "of every random number");
+    if (reference_serves(train_.columns))
+      text_.comment(
+          "Many recordings of one servo under several loads and gains: torquescope init --servo FILES drafts "
+          "that kind of job.");
   }
 
   double seconds_of_shortest() const {
@@ -176,22 +172,19 @@ bool is_line_to_edit(CheckLine const& fault, JobDraft const& draft) {
 
 // what `torquescope check` will say of the draft, said now
 void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::path const& job_file) {
-  bool const said_already =
-      !train.stamps || train.columns.position.column.empty() || train.columns.torque.column.empty();
-  if (said_already) return;
-  if (!train.recording) {
-    draft.warnings.push_back(fmt::format("this job does not run yet: {}", train.refusal));
-    return;
-  }
+  if (!train.stamps || train.columns.position.column.empty() || train.columns.torque.column.empty())
+    return does_not_run(draft, ExitCode::bad_job, what_to_edit);
+  if (!train.recording) return does_not_run(draft, ExitCode::bad_data, train.refusal);
   try {
     auto const experiment = Experiment::load(parse_job(draft.text, job_file), Experiment::Purpose::check);
     for (auto const& line : experiment.check(1))
-      if (line.level == CheckLine::Level::fault && !is_line_to_edit(line, draft))
-        draft.warnings.push_back(fmt::format("{}: {}", line.topic, line.text));
+      if (line.level == CheckLine::Level::fault) {
+        bool const to_edit = is_line_to_edit(line, draft);
+        does_not_run(draft, to_edit ? ExitCode::bad_job : ExitCode::bad_data,
+                     to_edit ? what_to_edit : fmt::format("{}: {}", line.topic, line.text));
+      }
   } catch (Error const& refused) {
-    for (auto const& problem : refused.problems())
-      draft.warnings.push_back(fmt::format("this job does not run yet: {}{}", problem.what,
-                                           problem.help.empty() ? "" : "; " + problem.help));
+    does_not_run(draft, refused);
   }
 }
 
@@ -201,18 +194,38 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
   if (train.stamps) channels.push_back("time " + train.stamps->column);
   if (!columns.position.column.empty()) channels.push_back("position " + columns.position.column);
   if (!columns.torque.column.empty()) channels.push_back("torque " + columns.torque.column);
-  if (reference_serves(columns)) channels.push_back("reference " + columns.reference.column);
+  bool const servo = train.torque == TorqueColumn::optional;
+  if (servo ? reference_fits(columns) : reference_serves(columns))
+    channels.push_back("reference " + columns.reference.column);
+  if (!columns.enabled.column.empty() && (servo || !columns.enabled.is_constant))
+    channels.push_back("enabled " + columns.enabled.column);
   if (!channels.empty()) draft.guesses.push_back(fmt::format("{}", fmt::join(channels, ", ")));
   if (columns.joints > 1)
     draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another", columns.joint, columns.joints));
 }
 
+// a manifest may lie among them; `leading`: its index
+RecordingGuess first_with_a_position(std::vector<std::filesystem::path> const& recordings, std::size_t joint,
+                                     TorqueColumn torque, std::size_t& leading) {
+  RecordingGuess first = guess_recording(recordings.front(), joint, torque);
+  bool const is_refused = first.columns.joint > first.columns.joints;
+  if (!first.columns.position.column.empty() || is_refused) return first;
+  for (std::size_t k = 1; k < recordings.size(); ++k)
+    if (auto next = guess_recording(recordings[k], joint, torque); !next.columns.position.column.empty()) {
+      leading = k;
+      return next;
+    }
+  return first;
+}
+
 }  // namespace
 
 JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
-                   std::size_t joint) {
+                   std::size_t joint, DraftKind kind) {
   for (auto const& recording : recordings) refuse_no_recording(recording);
-  RecordingGuess const train = guess_recording(recordings.front(), joint);
+  auto const torque = kind == DraftKind::servo ? TorqueColumn::optional : TorqueColumn::required;
+  std::size_t leading = 0;
+  RecordingGuess train = first_with_a_position(recordings, joint, torque, leading);
   validate(train.columns.joint <= train.columns.joints, [&] {
     Problem problem;
     problem.code = ExitCode::usage;
@@ -221,11 +234,15 @@ JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::fi
     problem.help = "--joint counts from 1, in the order of the file's position columns";
     return problem;
   });
+  bool const servo = torque == TorqueColumn::optional || is_servo(train.columns);
+  // a torque that never changes may stand in the way of the servo's columns
+  if (servo) train = guess_recording(recordings[leading], joint, TorqueColumn::optional);
   std::vector<RecordingGuess> others;
-  for (std::size_t k = 1; k < recordings.size(); ++k) others.push_back(guess_like(recordings[k], train));
-  JobDraft draft = JobDrafter(train, others, job_file).draft();
+  for (std::size_t k = 0; k < recordings.size(); ++k)
+    if (k != leading) others.push_back(guess_like(recordings[k], train));
+  JobDraft draft = servo ? draft_servo_job(train, others, job_file) : JobDrafter(train, others, job_file).draft();
   list_guesses(draft, train);
-  check_draft(draft, train, job_file);
+  if (!servo) check_draft(draft, train, job_file);
   return draft;
 }
 

@@ -10,16 +10,25 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
+
 namespace torquescope {
 
 struct JobDraft {
   std::string text;
   std::vector<std::string> guesses{};   // one line each: columns, rate, filter
   std::vector<std::string> warnings{};  // what to edit, and what `torquescope check` would refuse
+  ExitCode code = ExitCode::ok;         // else why it does not run as it stands: 65 the recording, 78 lines to edit
 };
 
-// recordings: the first trains, the others validate. joint: from 1; 0 for the first of the file
+enum class DraftKind {
+  of_the_files,  // one joint with a torque, or many recordings of a servo without one
+  servo,         // the latter even where a column may be a torque
+};
+
+// recordings: of a joint the first with a position trains, the others validate. joint: from 1; 0 for the first of the
+// file
 JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
-                   std::size_t joint = 0);
+                   std::size_t joint = 0, DraftKind kind = DraftKind::of_the_files);
 
 }  // namespace torquescope

@@ -12,12 +12,6 @@ namespace torquescope {
 
 namespace {
 
-std::string path_from(std::filesystem::path const& job_file, std::filesystem::path const& recording) {
-  if (recording.is_absolute()) return recording.string();
-  auto const folder = std::filesystem::absolute(job_file).parent_path();
-  return std::filesystem::absolute(recording).lexically_normal().lexically_relative(folder.lexically_normal()).string();
-}
-
 std::string listed(std::vector<std::string> const& texts) { return fmt::format("{}", fmt::join(texts, ", ")); }
 
 // what a torque column is in when its unit tells no N m
@@ -52,6 +46,7 @@ class RecordingDraft {
   }
 
  private:
+  bool has_torque() const { return train_.torque == TorqueColumn::required; }
   char const* torque_unit() const { return prismatic_ ? "N" : "N m"; }
   char const* position_unit() const { return prismatic_ ? "m" : "rad"; }
 
@@ -59,11 +54,16 @@ class RecordingDraft {
 
   void write_options() {
     text_.section("[recording]");
+    if (!has_torque()) return write_units();
     text_.setting("train", toml_text(path_from(job_file_, train_.file)), "the parameters are fitted to it");
     write_validation();
+    write_units();
+    write_torque_unit();
+  }
+
+  void write_units() {
     write_rate();
     write_position_unit();
-    write_torque_unit();
   }
 
   void write_validation() {
@@ -170,9 +170,12 @@ class RecordingDraft {
     }
     if (train_.stamps) text_.setting("time", toml_text(train_.stamps->column), time_comment());
     write_channel("position", train_.columns.position, position_comment());
-    write_channel("torque", train_.columns.torque, torque_comment());
-    if (reference_serves(train_.columns))
-      write_channel("reference", train_.columns.reference, "guessed from the name: the commanded position");
+    if (has_torque()) write_channel("torque", train_.columns.torque, torque_comment());
+    if (!has_torque() || reference_serves(train_.columns))
+      write_channel("reference", reference_fits(train_.columns) ? train_.columns.reference : ChannelGuess{},
+                    "guessed from the name: the commanded position");
+    if (auto const& enabled = train_.columns.enabled; !enabled.column.empty() && !(has_torque() && enabled.is_constant))
+      text_.setting("enabled", toml_text(enabled.column), "0 and 1, and the name: whether the drive is on");
     if (auto const& velocity = train_.columns.velocity; !velocity.column.empty())
       text_.comment(
           fmt::format("\"{}\" is not used: the derivative of the position serves, and lags nothing", velocity.column));
@@ -224,7 +227,7 @@ class RecordingDraft {
       return;
     }
     text_.setting(channel, toml_text(guess.column), comment);
-    if (guess.is_constant) warn(fmt::format("{} \"{}\" never changes", channel, guess.column));
+    if (guess.is_constant && has_torque()) warn(fmt::format("{} \"{}\" never changes", channel, guess.column));
     if (!guess.others.empty()) text_.comment(fmt::format("{} could also be: {}", channel, listed(guess.others)));
   }
 
@@ -238,10 +241,22 @@ class RecordingDraft {
 
 }  // namespace
 
+std::string path_from(std::filesystem::path const& job_file, std::filesystem::path const& recording) {
+  if (recording.is_absolute()) return recording.string();
+  auto const folder = std::filesystem::absolute(job_file).parent_path();
+  return std::filesystem::absolute(recording).lexically_normal().lexically_relative(folder.lexically_normal()).string();
+}
+
 void draft_recording_sections(RecordingGuess const& train, std::vector<RecordingGuess> const& others,
                               std::filesystem::path const& job_file, DraftText& text,
                               std::vector<std::string>& warnings) {
   RecordingDraft(train, others, job_file, text, warnings).write();
+}
+
+void draft_shared_recording(RecordingGuess const& one, std::filesystem::path const& job_file, DraftText& text,
+                            std::vector<std::string>& warnings) {
+  std::vector<RecordingGuess> const none;
+  RecordingDraft(one, none, job_file, text, warnings).write();
 }
 
 }  // namespace torquescope

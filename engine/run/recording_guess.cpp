@@ -13,10 +13,11 @@ namespace {
 
 RecordingOptions options_of(RecordingGuess const& guess) {
   RecordingOptions options;
-  options.columns = {{"time", guess.stamps->column},
-                     {"position", guess.columns.position.column},
-                     {"torque", guess.columns.torque.column}};
-  if (reference_serves(guess.columns)) options.columns["reference"] = guess.columns.reference.column;
+  bool const has_torque = guess.torque == TorqueColumn::required;
+  options.columns = {{"time", guess.stamps->column}, {"position", guess.columns.position.column}};
+  if (has_torque) options.columns["torque"] = guess.columns.torque.column;
+  if (has_torque ? reference_serves(guess.columns) : reference_fits(guess.columns))
+    options.columns["reference"] = guess.columns.reference.column;
   options.time_per_unit = guess.stamps->per_unit;
   options.position_per_unit = guess.position_per_unit;
   options.torque_per_unit = {guess.torque_per_unit};
@@ -36,8 +37,10 @@ Section written(RecordingOptions const& options) {
 }
 
 void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
-  if (guess.columns.position.column.empty() || guess.columns.torque.column.empty()) {
-    guess.refusal = "no column is known to be the position, or the torque";
+  bool const needs_torque = guess.torque == TorqueColumn::required;
+  if (guess.columns.position.column.empty() || (needs_torque && guess.columns.torque.column.empty())) {
+    guess.refusal =
+        needs_torque ? "no column is known to be the position, or the torque" : "no column is known to be the position";
     return;
   }
   if (!guess.stamps) {
@@ -46,7 +49,7 @@ void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
   }
   auto const options = options_of(guess);
   try {
-    guess.recording = make_recording(table, options, written(options));
+    guess.recording = make_recording(table, options, written(options), OtherJoints::ignored, guess.torque);
     guess.jitter = guess.recording->rows.jitter;
   } catch (Error const& refused) {
     guess.refusal = refused.problems().front().what;
@@ -75,20 +78,28 @@ bool torque_unit_is_known(ChannelGuess const& torque) {
   return torque.role.quantity == WordKind::torque && !torque.counts;
 }
 
-bool reference_serves(ColumnGuess const& columns) {
+bool reference_fits(ColumnGuess const& columns) {
   auto const& reference = columns.reference;
-  if (reference.column.empty() || reference.is_constant) return false;
+  if (reference.column.empty()) return false;
   auto const& unit = reference.name.unit;
   auto const& position = columns.position.name.unit;
   return !unit || !position || (unit->quantity == position->quantity && unit->si == position->si);
 }
 
-RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint) {
+bool reference_serves(ColumnGuess const& columns) { return reference_fits(columns) && !columns.reference.is_constant; }
+
+bool is_servo(ColumnGuess const& columns) {
+  bool const has_torque = !columns.torque.column.empty() && !columns.torque.is_constant;
+  return !has_torque && !columns.position.column.empty() && reference_fits(columns);
+}
+
+RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint, TorqueColumn torque) {
   RecordingGuess guess;
   guess.file = file;
+  guess.torque = torque;
   RawTable const table = read_table(file, {"recording", {}, {}});
   guess.rows = table.columns.empty() ? 0 : table.columns.front().size();
-  guess.columns = guess_columns(table, joint);
+  guess.columns = guess_columns(table, joint, torque);
   guess.stamps = guess_stamps(table);
   guess.names = table.names;
   guess.unusable = table.unusable;
@@ -100,13 +111,15 @@ RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t jo
 RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first) {
   RecordingGuess guess;
   guess.file = file;
+  guess.torque = first.torque;
   RawTable const table = read_table(file, {"recording", {}, {}});
   guess.rows = table.columns.empty() ? 0 : table.columns.front().size();
   guess.columns = first.columns;
   guess.names = table.names;
   guess.unusable = table.unusable;
   take_units(guess);
-  for (auto const* channel : {&first.columns.position, &first.columns.torque})
+  bool const has_torque = first.torque == TorqueColumn::required;
+  for (auto const* channel : {&first.columns.position, has_torque ? &first.columns.torque : &first.columns.reference})
     if (std::find(table.names.begin(), table.names.end(), channel->column) == table.names.end())
       guess.refusal = "no column \"" + channel->column + "\"";
   if (!guess.refusal.empty()) return guess;

@@ -16,6 +16,7 @@ namespace torquescope {
 
 struct RecordingGuess {
   std::filesystem::path file;
+  TorqueColumn torque = TorqueColumn::required;
   std::size_t rows = 0;
   ColumnGuess columns{};
   std::optional<StampGuess> stamps{};
@@ -27,14 +28,18 @@ struct RecordingGuess {
   double jitter = 0.0;                                    // of the stamps
 };
 
-// joint: as guess_columns()
-RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint);
+// joint, torque: as guess_columns()
+RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint,
+                               TorqueColumn torque = TorqueColumn::required);
 // another recording with the columns of the first
 RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first);
 
 bool is_prismatic(ColumnGuess const& columns);
 bool torque_unit_is_known(ChannelGuess const& torque);
-// the reference counts when its unit is the position's
+// the reference counts when its unit is the position's; to `serve` it has to change
+bool reference_fits(ColumnGuess const& columns);
 bool reference_serves(ColumnGuess const& columns);
+// a position and its command, and no torque that changes
+bool is_servo(ColumnGuess const& columns);
 
 }  // namespace torquescope

@@ -109,10 +109,47 @@ class OwnRecording(EmptyFolder):
         self.assertIn("# torque_per_unit = <N m per A>", said.out)
         self.succeed("check", "job.toml")
 
+    def test_a_job_that_does_not_run_yet_is_written_and_ends_with_its_code(self):
+        self.write("odd.csv", "t_s,a,b\n" + "".join(f"{k},{k},{k}\n" for k in range(50)))
+        said = self.run_here("init", "odd.csv", "--out", "odd.toml")
+        self.assertEqual(said.code, 78)
+        self.assertIn("this job does not run yet", said.said)
+        self.assertIn("EDIT", self.read("odd.toml"))
+        self.good("counts.csv", "t_s,pos_cnt,tau_Nm")
+        said = self.run_here("init", "counts.csv", "--out", "counts.toml")
+        self.assertEqual(said.code, 78 if self.run_here("check", "counts.toml").code else 0, said.err)
+
     def test_a_file_that_cannot_be_read_keeps_its_own_error(self):
         self.assertEqual(self.run_here("init", "nothing.csv").code, 66)
         self.write("empty.csv", "")
         self.assertEqual(self.run_here("init", "empty.csv").code, 65)
+
+
+class RecordingsOfServos(EmptyFolder):
+    """jobs/servo_records by their names alone, as somebody else's would be."""
+
+    def setUp(self):
+        super().setUp()
+        self.records = os.path.join(self.folder, "records")
+        shutil.copytree(os.path.join(JOBS, "servo_records"), self.records,
+                        ignore=lambda folder, names: [name for name in names if not name.startswith("m")])
+        self.files = [f"records/{name}" for name in sorted(os.listdir(self.records)) if name.startswith("m")]
+
+    def test_the_draft_passes_check_and_is_diagnosed(self):
+        self.assertEqual(len(self.files), 25)  # and the manifest
+        said = self.draft(*self.files)
+        self.assertIn("manifest.csv is left out", said.said)
+        self.assertIn("enabled torque_enabled", said.said)
+        for line in ('files = "records/m0.5_l{length_mm}_kp{kp}_{motion}.csv"', "mass_kg = 0.75", 'role = "validate"',
+                     'gravity_moment = "9.80665 * mass_kg * 0.001 * length_mm"', 'drive = "position servo"'):
+            self.assertIn(line, said.out)
+        self.assertIn("16 to fit, 8 to judge", self.succeed("check", "job.toml").out)
+        self.write("job.toml", said.out.replace("[diagnose]", "[diagnose]\nmax_effects = 1"))
+        self.succeed("diagnose", "job.toml")
+
+    def test_a_part_of_the_files_is_taken_alone(self):
+        self.draft(*[name for name in self.files if "kp8_steps" in name or "kp8_two" in name])
+        self.assertIn("4 to fit, 2 to judge", self.succeed("check", "job.toml").out)
 
 
 class WrongKindOfFile(EmptyFolder):

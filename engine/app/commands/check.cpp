@@ -10,6 +10,7 @@
 #include "engine/app/commands/command.hpp"
 #include "engine/app/commands/notes.hpp"
 #include "engine/app/terminal/plain_text.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/servo_workflow.hpp"
 #include "engine/run/workflows.hpp"
 
@@ -73,7 +74,7 @@ struct CheckedJob {
 };
 
 CheckedJob checked(std::string const& file, Session const& session) {
-  if (Job job = read_job(file); has_recording_set(job)) {
+  if (Job job = read_job_file(file); has_recording_set(job)) {
     ServoJob const servo = read_servo_job(std::move(job));
     return {servo.experiment.name, check_servo(servo)};
   }

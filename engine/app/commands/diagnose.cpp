@@ -28,6 +28,7 @@
 #include "engine/run/diagnosis_estimate.hpp"
 #include "engine/run/diagnosis_json.hpp"
 #include "engine/run/diagnosis_reader.hpp"
+#include "engine/run/foreign_file.hpp"
 #include "engine/run/servo_workflow.hpp"
 
 namespace torquescope {
@@ -174,7 +175,7 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
 
 ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session, DiagnoseWork const& diagnose_work) {
   keep_heap();
-  if (Job job = read_job(arguments.job); has_recording_set(job))
+  if (Job job = read_job_file(arguments.job); has_recording_set(job))
     return diagnose_recordings(std::move(job), arguments, session);
   validate(arguments.leave_out.empty(), [] {
     Problem problem{ExitCode::usage, "--leave-out is about the recordings of [[recordings]], and the job has none"};

@@ -23,6 +23,7 @@ struct InitArguments {
   std::vector<std::string> recordings{};
   std::string out{};
   int joint = 0;
+  bool servo = false;
 };
 
 // only ever a new file: a job may hold a day's work
@@ -59,7 +60,8 @@ std::string file_behind_stdout() {
 ExitCode init_job(InitArguments const& arguments, Session const& session) {
   std::string const job = arguments.out.empty() ? file_behind_stdout() : arguments.out;
   JobDraft const draft = draft_job({arguments.recordings.begin(), arguments.recordings.end()}, job,
-                                   static_cast<std::size_t>(arguments.joint));
+                                   static_cast<std::size_t>(arguments.joint),
+                                   arguments.servo ? DraftKind::servo : DraftKind::of_the_files);
   if (arguments.out.empty())
     session.verdict(draft.text);
   else
@@ -68,7 +70,7 @@ ExitCode init_job(InitArguments const& arguments, Session const& session) {
   for (auto const& warning : draft.warnings) session.note(session.topic_line("warning", warning));
   if (!arguments.out.empty()) session.note(session.topic_line("wrote", arguments.out));
   session.note(session.topic_line("next", fmt::format("torquescope check {0}, torquescope diagnose {0}", job)));
-  return ExitCode::ok;
+  return draft.code;
 }
 
 }  // namespace
@@ -79,18 +81,27 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       "init", "Drafts a job for your own recordings: guesses columns, units, filters; comments say how sure.");
   command->footer(
       "  torquescope init arm.csv > arm.toml\n"
-      "  torquescope init monday.csv tuesday.csv > arm.toml\n"
-      "  torquescope init arm.csv --joint 2 --out joint2.toml\n");
+      "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
+      "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
-      ->add_option("REC.csv", arguments->recordings,
-                   "recordings, CSV, HDF5 or MATLAB; the first trains the model, the others validate it")
+      ->add_option(
+          "REC.csv", arguments->recordings,
+          "recordings, CSV, HDF5 or MATLAB; the first trains the model, the others validate it. Of a servo with a "
+          "commanded position and no torque: as many as there are")
       ->required()
       ->type_name("FILE");
   command->add_option("--joint", arguments->joint, "of a file with several joints, counted from 1 [1]")
       ->check(CLI::Range(1, 1000).description(""))  // which would stand behind N
       ->type_name("N")
       ->group("recording");
-  command->add_option("-o,--out", arguments->out, "the job, a file that does not exist yet [standard output]")
+  command
+      ->add_flag("--servo", arguments->servo,
+                 "a job of many recordings of a servo ([[recordings]]), even where a column may be a torque")
+      ->group("recording");
+  command
+      ->add_option("-o,--out", arguments->out,
+                   "the job, a file that does not exist yet; one that does not run as it stands is written as well, "
+                   "with exit code 65 (its recording) or 78 (lines to edit) [standard output]")
       ->type_name("JOB.toml")
       ->group("results");
   add_quiet_option(*command, chosen);

@@ -43,7 +43,9 @@ class Recording:
         _engine = compiled()
         text, guesses, warnings = _engine.draft_job(os.fspath(path), joint)
         drafted = _toml(text)["recording"]
-        columns = {**drafted.pop("columns", {}), **options.pop("columns", {})}
+        guessed = drafted.pop("columns", {})
+        guessed.pop("enabled", None)  # of rollouts: no signal of this class
+        columns = {**guessed, **options.pop("columns", {})}
         missing = [channel for channel in ("position", "torque") if channel not in columns]
         if missing:
             raise DataError(f"error: no {' and no '.join(missing)} was found in {path}\n"

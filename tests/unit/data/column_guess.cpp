@@ -109,5 +109,50 @@ TEST(ColumnGuess, AColumnThatNeverChangesServesLast) {
   EXPECT_EQ(guess.torque.others, std::vector<std::string>{"tau_Nm"});
 }
 
+std::vector<double> switched() {
+  std::vector<double> values(200, 1.0);
+  std::fill(values.begin() + 150, values.end(), 0.0);
+  return values;
+}
+
+TEST(ColumnGuess, ASwitchIsNoTorque) {
+  for (char const* name : {"torque_enabled", "enabled", "drive_on", "motor_on", "TorqueEnable", "torque_enable"}) {
+    auto const guess =
+        guess_columns(table_of({{"t_s", wave(1)}, {"goal_rad", wave(1)}, {"q_rad", wave(1)}, {name, switched()}}));
+    EXPECT_EQ(guess.enabled.column, name);
+    EXPECT_EQ(guess.torque.column, "") << name;
+    EXPECT_EQ(guess.reference.column, "goal_rad");
+  }
+  auto const beside = guess_columns(table_of({{"q_rad", wave(1)}, {"torque_enabled", switched()}, {"tau", wave(1)}}));
+  EXPECT_EQ(beside.torque.column, "tau");
+  EXPECT_EQ(beside.enabled.column, "torque_enabled");
+  // other numbers, or a name that says nothing of the kind
+  EXPECT_EQ(guess_columns(table_of({{"q_rad", wave(1)}, {"torque_enabled", wave(1)}})).enabled.column, "");
+  EXPECT_EQ(guess_columns(table_of({{"q_rad", wave(1)}, {"torque", switched()}})).torque.column, "torque");
+}
+
+TEST(ColumnGuess, AConstantTorqueGivesWayToOneOfAnotherName) {
+  auto const guess = guess_columns(
+      table_of({{"q_rad", wave(1)}, {"tau_Nm", std::vector<double>(200, 0.0)}, {"motor_current_A", wave(1)}}));
+  EXPECT_EQ(guess.torque.column, "motor_current_A");
+}
+
+TEST(ColumnGuess, JointsWithoutTorqueHaveAReference) {
+  Columns const two{{"q1_rad", wave(1)},    {"q2_rad", wave(2)},      {"goal1_rad", wave(1)},
+                    {"goal2_rad", wave(2)}, {"enabled1", switched()}, {"enabled2", switched()}};
+  auto const second = guess_columns(table_of(two), 2);
+  EXPECT_EQ(second.joints, 2u);
+  EXPECT_EQ(second.position.column, "q2_rad");
+  EXPECT_EQ(second.reference.column, "goal2_rad");
+  EXPECT_EQ(second.enabled.column, "enabled2");
+}
+
+TEST(ColumnGuess, TakesNoTorqueWhereNoneIsWanted) {
+  auto const guess =
+      guess_columns(table_of({{"q_rad", wave(1)}, {"goal_rad", wave(1)}, {"V_V", wave(1)}}), 0, TorqueColumn::optional);
+  EXPECT_EQ(guess.torque.column, "");
+  EXPECT_EQ(guess.reference.column, "goal_rad");
+}
+
 }  // namespace column_guess_test
 }  // namespace torquescope

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
+#include <fstream>
 
 #include "engine/base/error.hpp"
 #include "engine/job/job.hpp"
@@ -37,6 +40,18 @@ class JobDraftTest : public ::testing::Test {
       text += fmt::format("{:.9g},{:.9g},{:.7g}\n", t / time_unit, q / position_unit, tau);
     }
     return folder_.write(name, text);
+  }
+
+  // the file with a commanded position, a little before the measured one; a switch in place of its third column
+  static std::string with_goal(std::filesystem::path const& file, bool is_switch = false) {
+    std::ifstream rows(file);
+    std::string line, text;
+    for (int k = 0; std::getline(rows, line); ++k) {
+      double const t = (k + 19) / 250.0, goal = 0.8 * std::sin(M_PI * t) + 0.3 * std::sin(2.6 * M_PI * t + 0.4);
+      if (is_switch && k > 0) line = line.substr(0, line.rfind(',')) + ",1";
+      text += k == 0 ? line + ",goal_rad\n" : fmt::format("{},{:.6g}\n", line, goal);
+    }
+    return text;
   }
 
   JobDraft draft(std::vector<std::filesystem::path> const& files, std::size_t joint = 0) {
@@ -113,6 +128,55 @@ TEST_F(JobDraftTest, RefusesAJointThatIsNotThere) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_THAT(error.problems().front().what, HasSubstr("has 1 joint, no joint 2"));
   }
+}
+
+TEST_F(JobDraftTest, WhatDoesNotRunYetHasACode) {
+  EXPECT_EQ(draft({write("arm.csv", "t_s,q_rad,tau_Nm")}).code, ExitCode::ok);
+  EXPECT_EQ(draft({write("drive.csv", "t_s,q_rad,i_A")}).code, ExitCode::ok) << "it runs, in N m per A";
+  auto const unknown = draft({write("odd.csv", "t_s,a,b")});
+  EXPECT_EQ(unknown.code, ExitCode::bad_job);
+  EXPECT_THAT(unknown.warnings, Contains(HasSubstr("this job does not run yet: write what stands behind EDIT")));
+  auto const still = draft({folder_.write("still.csv", "t_s,q_rad,tau_Nm\n0,1,1\n1,1,2\n2,1,3\n3,1,1\n")});
+  EXPECT_EQ(still.code, ExitCode::bad_data);
+  EXPECT_THAT(still.warnings, Contains(HasSubstr("this job does not run yet: ")));
+}
+
+TEST_F(JobDraftTest, ATorqueBesideAReferenceIsAJointAndAServoWhereOneSaysSo) {
+  auto const file = write("servo.csv", "t_s,q_rad,V_V");
+  EXPECT_THAT(draft({file}).text, Not(HasSubstr("init --servo")));
+  auto const both = folder_.write("both.csv", with_goal(folder_.path() / "servo.csv"));
+  auto const joint = draft({both});
+  EXPECT_THAT(joint.text, AllOf(HasSubstr("torque = \"V_V\""), HasSubstr("init --servo FILES")));
+  auto const servo = draft_job({both}, folder_ / "job.toml", 0, DraftKind::servo);
+  EXPECT_THAT(servo.text,
+              AllOf(HasSubstr("[[recordings]]"), Not(HasSubstr("V_V")), HasSubstr("reference = \"goal_rad\"")));
+  EXPECT_EQ(servo.code, ExitCode::ok) << fmt::format("{}", fmt::join(servo.warnings, "\n"));
+  // without a command there is nothing to simulate
+  auto const no_command = draft_job({file}, folder_ / "job.toml", 0, DraftKind::servo);
+  EXPECT_EQ(no_command.code, ExitCode::bad_job);
+  EXPECT_THAT(no_command.text, HasSubstr("# reference = \"<column>\""));
+}
+
+TEST_F(JobDraftTest, CommandAndPositionWithoutATorqueAreAServo) {
+  write("servo.csv", "t_s,q_rad,torque_enabled", 1, 1, 0);
+  std::vector<std::filesystem::path> files{folder_.write("table.csv", "file,mass_kg\nm1_l150_kp8_a.csv,1\n")};
+  for (char const* name : {"m1_l150_kp8_a.csv", "m2_l150_kp8_a.csv", "m2_l150_kp32_a.csv"})
+    files.push_back(folder_.write(name, with_goal(folder_.path() / "servo.csv", true)));
+  auto const made = draft(files);
+  EXPECT_EQ(made.code, ExitCode::ok) << fmt::format("{}", fmt::join(made.warnings, "\n"));
+  EXPECT_THAT(
+      made.text,
+      AllOf(HasSubstr("m{mass_kg}_l{length_mm}_kp{kp}_a.csv"), HasSubstr("enabled = \"torque_enabled\""),
+            HasSubstr("gravity_moment = \"9.80665 * mass_kg * 0.001 * length_mm\""), HasSubstr("\n# command_gain = "),
+            HasSubstr("drive = \"position servo\""), HasSubstr("[diagnose]"), HasSubstr("No recording judges")));
+  EXPECT_THAT(made.warnings, Contains(HasSubstr("table.csv is left out: it looks like a table of recordings")));
+  EXPECT_THAT(made.warnings, Contains(HasSubstr("kp differs between these recordings")));
+  // names that tell no load: [known] has lines to edit, and the job runs without them
+  EXPECT_THAT(draft({files[1]}).text, HasSubstr("name = \"m1_l150_kp8_a\""));
+  auto const plain = draft({folder_.write("x.csv", with_goal(folder_.path() / "servo.csv", true))});
+  EXPECT_EQ(plain.code, ExitCode::ok);
+  EXPECT_THAT(plain.text, AllOf(HasSubstr("\n# gravity_moment = "),
+                                HasSubstr("files = " + toml_text((folder_.path() / "x.csv").string()))));
 }
 
 TEST_F(JobDraftTest, PathsAreRelativeToTheJob) {
