@@ -248,7 +248,6 @@ void add_diagnose(CLI::App& app, ChosenCommand& chosen, DiagnoseWork diagnose_wo
       "Finds the physics that a job's model lacks: where, which, how sure, and what it buys on unseen data.");
   command->footer(
       "  torquescope diagnose jobs/lab_joint_3.toml\n"
-      "  torquescope diagnose lab.toml --quiet --json - | jq .joints[0].effects\n"
       "  torquescope diagnose jobs/servo_loads.toml --leave-out mass_kg\n"
       "  for i in 0 1; do torquescope diagnose lab.toml --shard $i/2 & done; wait\n");
   command->add_option("JOB.toml", arguments->job, "job file, TOML (torquescope describe diagnose)")->required();

@@ -155,7 +155,6 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
       app.add_subcommand("export", "Writes the arm of a result as a robot file, the models of a diagnosis as C.");
   command->footer(
       "  torquescope export arm.h5 --urdf arm.urdf\n"
-      "  torquescope export arm.h5 --json - --estimator wls\n"
       "  torquescope export diagnosis.h5 --c model.c\n"
       "  torquescope export servos.h5 --c servo.c --toml servo.toml\n");
   command
