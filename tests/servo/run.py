@@ -60,6 +60,11 @@ def with_settings(job, settings):
     return "\n".join(kept + settings) + "\n"
 
 
+def moved_mrad(folder):
+    """By how much each law of a set moves its servo."""
+    return {law["name"]: law["effect_mrad"] for law in json.loads((folder / "truth.json").read_text())["laws"]}
+
+
 def diagnose(asked, number):
     """-> (truth, document or None, seconds)"""
     case = asked.out / f"case_{asked.seed}_{number}"
