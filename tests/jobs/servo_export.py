@@ -36,6 +36,7 @@ def small_job(folder):
         writer.writeheader()
         writer.writerows(rows)
     text = JOB.read_text().replace("servo_records/manifest.csv", "manifest.csv")
+    text = text.replace('effects = "all"', 'effects = "all"\nmax_effects = 3')
     (folder / "job.toml").write_text(text)
     return rows
 
