@@ -6,15 +6,11 @@
 #include "engine/effects/carry_over.hpp"
 
 namespace torquescope {
-namespace {
-
 bool can_be_simulated(Effect const& law, Regressor const& regressor) {
   auto const& terms = regressor.terms();
   return !law.is_given() && !law.is_of_whole_arm() && !law.is_torque_timing() &&
          std::find(terms.begin(), terms.end(), &law) == terms.end();
 }
-
-}  // namespace
 
 LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScales const& scales) {
   LoopMove move{{&law}, {}};
@@ -66,16 +62,22 @@ std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regr
   return moves;
 }
 
+std::vector<DriveLaw const*> drive_laws_of(DriveLawKind kind) {
+  std::vector<DriveLaw const*> laws;
+  for (DriveLaw const* law : drive_laws())
+    if (law->kind == kind) laws.push_back(law);
+  return laws;
+}
+
 std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
-                                  std::vector<DriveLawKind> const& kinds, bool fits_weight) {
+                                  std::vector<DriveLaw const*> const& laws, bool fits_weight) {
   std::vector<LoopMove> moves;
   if (loop.form == LoopForm::identified || loop.form == LoopForm::none) return moves;
   DriveScales const scales = drive_scales(training, numbers_of(loop.form, loop.values), fits_weight);
-  for (DriveLaw const* law : drive_laws()) {
+  for (DriveLaw const* law : laws) {
     LoopKey const own = law->keys.front();
     bool const is_free = std::find(loop.free.begin(), loop.free.end(), own) != loop.free.end();
-    bool const is_asked = std::find(kinds.begin(), kinds.end(), law->kind) != kinds.end();
-    if (!is_asked || is_free || loop.values[own] != facts_of(own).none) continue;
+    if (is_free || loop.values[own] != facts_of(own).none) continue;
     LoopMove move{{nullptr, own}, {}};
     for (auto const& start : law->starts(scales))
       if (law->adds || (start.front() > facts_of(own).least && start.front() < facts_of(own).most))

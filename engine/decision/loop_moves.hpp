@@ -17,12 +17,16 @@
 namespace torquescope {
 
 // shape: where it begins; what it leaves open begins at none of it, or in the middle
+// as one more effect of a simulated joint: not of the model already, no given column, none of an arm or of timing
+bool can_be_simulated(Effect const& law, Regressor const& regressor);
+
 LoopMove law_move(Effect const& law, std::vector<double> const& shape, JointScales const& scales);
 std::vector<LoopMove> law_moves(DecisionFacts const& scan, Regressor const& regressor, JointScales const& scales,
                                 DecisionNumbers const& numbers);
 
 // laws of the drive and the gear whose own number the loop has neither given nor free; none of an identified law
 std::vector<LoopMove> drive_moves(LoopSetting const& loop, std::vector<RolloutTrack> const& training,
-                                  std::vector<DriveLawKind> const& kinds, bool fits_weight = false);
+                                  std::vector<DriveLaw const*> const& laws, bool fits_weight = false);
+std::vector<DriveLaw const*> drive_laws_of(DriveLawKind kind);
 
 }  // namespace torquescope

@@ -43,7 +43,7 @@ LoopFacts decide_in_loop(DecisionQuestion const& question, JointDecision const& 
                        tracks.validation,  tracks.counts,   {},     question.most_laws, question.numbers,
                        question.seed,      question.threads};
     asked.progress = question.progress;
-    asked.moves = drive_moves(tracks.setting, tracks.training, {DriveLawKind::profile});
+    asked.moves = drive_moves(tracks.setting, tracks.training, drive_laws_of(DriveLawKind::profile));
     for (auto& law : law_moves(scan.facts, question.regressor, scales, question.numbers))
       asked.moves.push_back(std::move(law));
     double const loop_error = facts.loop_error;

@@ -109,9 +109,8 @@ ServoDecision decide_servo(ServoQuestion const& question) {
   decision.recorded = base.recorded;
   decision.scales = base.scales;
   LoopQuestion asked = asked_of(question, base.terms, base.loop, decision.scales);
-  asked.moves =
-      drive_moves(base.loop, question.training, {DriveLawKind::profile, DriveLawKind::drive, DriveLawKind::gear},
-                  fits_weight(question.regressor));
+  asked.moves = drive_moves(base.loop, question.training, question.laws.of_drive, fits_weight(question.regressor));
+  for (Effect const* law : question.laws.of_joint) asked.moves.push_back(law_move(*law, {}, decision.scales));
   LoopClimb climb = climb_ladder(asked, starts_of(asked, question.regressor));
   decision.facts = std::move(climb.facts);
   decision.base = std::move(climb.base);

@@ -22,12 +22,19 @@ namespace torquescope {
 
 enum class DriveCommand { voltage, current, position_servo };
 
+// what may be missing
+struct ServoLaws {
+  std::vector<DriveLaw const*> of_drive{};  // and of the gear
+  std::vector<Effect const*> of_joint{};
+};
+
 struct ServoQuestion {
   Regressor const& regressor;
   LoopSetting loop{};  // form p
   DriveCommand command = DriveCommand::voltage;
   std::vector<RolloutTrack> const& training;
   std::vector<RolloutTrack> const& validation;
+  ServoLaws laws{};
   std::size_t most_laws = 8;
   DecisionNumbers numbers{};
   std::uint64_t seed = 0;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/base/dense_solvers.hpp"
+#include "engine/rollout/measured_drive.hpp"
 
 namespace torquescope {
 namespace {
@@ -15,27 +16,14 @@ struct Row {
   double command, position, speed, acceleration, known;
 };
 
-double known_torque(TrackKnown const& known, double position, double acceleration) {
-  return known.gravity_moment * std::sin(position) + known.inertia * acceleration;
-}
-
 void add_rows(RolloutTrack const& track, LoopNumbers const& loop, std::vector<Row>& rows) {
-  constexpr double span_s = 0.05;
-  Index const span = std::max<Index>(1, std::llround(span_s * track.rate_hz));
-  double const apart_s = static_cast<double>(span) / track.rate_hz;
-  double const most = std::min(loop.most, track.known.command_limit);
-  for (auto const& segment : track.segments)
-    for (Index k = segment.first + span; k + span < segment.first + segment.samples; ++k) {
-      if (track.enabled.size() > 0 && track.enabled[k] == 0.0) continue;
-      double const before = track.position[k - span], here = track.position[k], after = track.position[k + span];
-      Row row{};
-      row.command = std::clamp(loop.kp * track.known.command_gain * (track.reference[k] - here), -most, most);
-      row.position = here;
-      row.speed = (after - before) / (2.0 * apart_s);
-      row.acceleration = (after - 2.0 * here + before) / (apart_s * apart_s);
-      row.known = known_torque(track.known, here, row.acceleration);
-      rows.push_back(row);
-    }
+  MeasuredDrive const drive = measured_drive(track, loop);
+  for (Index k = 0; k < track.position.size(); ++k) {
+    if (!is_drive_on(track, k) || !std::isfinite(drive.acceleration[k])) continue;
+    double const here = track.position[k], acceleration = drive.acceleration[k];
+    double const known = track.known.gravity_moment * std::sin(here) + track.known.inertia * acceleration;
+    rows.push_back({drive.command[k], here, drive.speed[k], acceleration, known});
+  }
 }
 
 double sign_of(double speed) { return speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0.0; }

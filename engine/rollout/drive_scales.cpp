@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine/rollout/drive_law.hpp"
+#include "engine/rollout/measured_drive.hpp"
 
 namespace torquescope {
 namespace {
@@ -18,17 +19,8 @@ double quantile(std::vector<double> values, double share) {
   return values[place];
 }
 
-// by differences over a twentieth of a second, which an encoder's steps hardly show in
-void add_pace(RolloutTrack const& track, std::vector<double>& speeds, std::vector<double>& accelerations) {
-  constexpr double span_s = 0.05;
-  Index const span = std::max<Index>(1, std::llround(span_s * track.rate_hz));
-  double const apart_s = static_cast<double>(span) / track.rate_hz;
-  for (auto const& segment : track.segments)
-    for (Index k = segment.first + span; k + span < segment.first + segment.samples; ++k) {
-      double const before = track.position[k - span], here = track.position[k], after = track.position[k + span];
-      speeds.push_back(std::abs(after - before) / (2.0 * apart_s));
-      accelerations.push_back(std::abs(after - 2.0 * here + before) / (apart_s * apart_s));
-    }
+void add_sizes(Eigen::VectorXd const& values, std::vector<double>& sizes) {
+  for (double const value : values) sizes.push_back(std::abs(value));
 }
 
 // more than a tenth apart
@@ -45,7 +37,9 @@ DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers co
   double errors = 0.0, commands = 0.0, torques = 0.0, samples = 0.0, arm = 0.0;
   scales.sample_s = infinite;
   for (auto const& track : tracks) {
-    add_pace(track, speeds, accelerations);
+    MeasuredDrive const drive = measured_drive(track, loop);
+    add_sizes(drive.speed, speeds);
+    add_sizes(drive.acceleration, accelerations);
     scales.sample_s = std::min(scales.sample_s, 1.0 / track.rate_hz);
     scales.encoder_step = std::max(scales.encoder_step, track.encoder_step);
     TrackKnown const& known = track.known;
@@ -55,10 +49,9 @@ DriveScales drive_scales(std::vector<RolloutTrack> const& tracks, LoopNumbers co
     coldest = std::fmin(coldest, known.temperature);
     hottest = std::fmax(hottest, known.temperature);
     if (track.reference.size() != track.position.size()) continue;
-    double const most = std::min(loop.most, known.command_limit);
     for (Index k = 0; k < track.position.size(); ++k) {
-      double const error = track.reference[k] - track.position[k];
-      double const command = std::clamp(loop.kp * known.command_gain * error, -most, most);
+      if (!is_drive_on(track, k)) continue;
+      double const error = track.reference[k] - track.position[k], command = drive.command[k];
       errors += error * error;
       commands += command * command;
       torques += loop.motor_gain * command * loop.motor_gain * command;

@@ -48,6 +48,8 @@ constexpr std::array<LoopKeyFacts, loop_keys> facts{{
     {LoopKey::arm_mass, "arm_mass", "kg", "kg", mass, 0.0, 0.0, largest},
     {LoopKey::motor_gain_per_kelvin, "motor_gain_per_kelvin", "1/K", "1/K", number, 0.0, -0.05, 0.05},
     {LoopKey::load_motor_share, "load_motor_share", "1", "1", number, 0.5, -1.0, 2.0},
+    {LoopKey::angle_friction_cos, "angle_friction_cos", "N m", "N", torque, 0.0, -largest, largest},
+    {LoopKey::angle_friction_sin, "angle_friction_sin", "N m", "N", torque, 0.0, -largest, largest},
 }};
 
 }  // namespace
@@ -140,7 +142,8 @@ LoopNumbers numbers_of(LoopForm form, LoopValues const& values) {
 GearFriction gear_of(LoopValues const& values) {
   using enum LoopKey;
   return {values[load_friction],          values[load_square_friction], values[stribeck_friction],
-          values[load_stribeck_friction], values[stribeck_speed],       values[load_motor_share]};
+          values[load_stribeck_friction], values[stribeck_speed],       values[load_motor_share],
+          values[angle_friction_cos],     values[angle_friction_sin]};
 }
 
 }  // namespace torquescope

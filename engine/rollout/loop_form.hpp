@@ -50,9 +50,11 @@ enum class LoopKey {
   load_stribeck_friction,
   arm_mass,
   motor_gain_per_kelvin,
-  load_motor_share
+  load_motor_share,
+  angle_friction_cos,
+  angle_friction_sin
 };
-inline constexpr std::size_t loop_keys = 27;
+inline constexpr std::size_t loop_keys = 29;
 
 // what a number is measured in: its natural size follows from those of the joint
 enum class LoopMeasure { number, time, torque, torque_per_speed, speed, acceleration, position, mass, per_torque };

@@ -72,7 +72,7 @@ HWY_INLINE V read_by_steps(LaneLoops const& loops, V q, std::size_t lane) {
 }
 
 // gear_friction.hpp; motor, weight: torques
-HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, std::size_t lane) {
+HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, V sine, V cosine, std::size_t lane) {
   V const one = hn::Set(d, 1.0);
   V const share = load(gears.motor_share, lane);
   V const load_torque = hn::Abs(hn::Add(weight, hn::Mul(share, hn::Sub(motor, weight))));
@@ -82,15 +82,18 @@ HWY_INLINE V friction_of_gear(LaneGears const& gears, V motor, V weight, V dq, s
   V const bell = hn::Div(one, hn::Mul(eighth, eighth));
   V const slow = hn::Add(load(gears.stribeck, lane), hn::Mul(load(gears.load_stribeck, lane), load_torque));
   V const loaded = hn::Add(load(gears.load, lane), hn::Mul(load(gears.load_square, lane), load_torque));
-  return hn::Add(hn::Mul(loaded, load_torque), hn::Mul(slow, bell));
+  V const still = hn::Add(hn::Mul(loaded, load_torque), hn::Mul(slow, bell));
+  V const turning = hn::Add(hn::Mul(load(gears.angle_cos, lane), cosine), hn::Mul(load(gears.angle_sin, lane), sine));
+  return hn::Add(still, turning);
 }
 
 void gear_friction_lanes(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
-                         double* friction) {
+                         double const* sine, double const* cosine, double* friction) {
   for (std::size_t lane = 0; lane < twin_lanes; lane += vector_lanes)
-    hn::StoreU(friction_of_gear(gears, hn::LoadU(d, motor + lane), hn::LoadU(d, weight + lane),
-                                hn::LoadU(d, speed + lane), lane),
-               d, friction + lane);
+    hn::StoreU(
+        friction_of_gear(gears, hn::LoadU(d, motor + lane), hn::LoadU(d, weight + lane), hn::LoadU(d, speed + lane),
+                         hn::LoadU(d, sine + lane), hn::LoadU(d, cosine + lane), lane),
+        d, friction + lane);
 }
 
 // a command on its way to the motor: what acts on average until the next tick
@@ -242,9 +245,12 @@ void roll(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& 
         if (rolled.gears.any) {
           V const motor_torque = hn::Sub(motor, hn::Mul(braking, dq[i]));
           V const weight_torque = hn::Mul(weight, load(joints.inertia, lane));
-          V const more = friction_of_gear(rolled.gears, motor_torque, weight_torque, dq[i], lane);
-          forward = hn::Add(forward, more);
-          backward = hn::Sub(backward, more);
+          V sine = hn::Zero(d), cosine = hn::Zero(d);
+          if constexpr (has_weight) sine = angle[i].sine, cosine = angle[i].cosine;
+          V const more = friction_of_gear(rolled.gears, motor_torque, weight_torque, dq[i], sine, cosine, lane);
+          // what lowers friction leaves none at the least
+          forward = hn::Max(hn::Add(forward, more), hn::Zero(d));
+          backward = hn::Min(hn::Sub(backward, more), hn::Zero(d));
         }
         Field<has_weight> const field(
             hn::Mul(hn::Sub(held, forward), per_inertia[i]), hn::Mul(hn::Sub(held, backward), per_inertia[i]),
@@ -352,12 +358,15 @@ void LaneGears::set(std::size_t lane, GearFriction const& gear) {
   load_stribeck[lane] = gear.load_stribeck;
   per_speed[lane] = 1.0 / gear.stribeck_speed;
   motor_share[lane] = gear.motor_share;
+  angle_cos[lane] = gear.angle_cos;
+  angle_sin[lane] = gear.angle_sin;
   any = any || !gear.is_none();
+  turns = turns || gear.turns();
 }
 
 void gear_friction(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
-                   double* friction) {
-  TORQUESCOPE_DISPATCH(gear_friction_lanes)(gears, motor, weight, speed, friction);
+                   double const* sine, double const* cosine, double* friction) {
+  TORQUESCOPE_DISPATCH(gear_friction_lanes)(gears, motor, weight, speed, sine, cosine, friction);
 }
 
 void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double const* first_goal, double torque) {
@@ -381,7 +390,7 @@ void LaneLoopState::start(LaneLoops const& loops, LaneState const& joint, double
 
 void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& inputs, std::size_t ticks,
                 std::size_t steps, LaneState& joint, LaneLoopState& loop, TickOutputs const& outputs) {
-  if (!rolled.joints.has_weight)
+  if (!rolled.needs_angle())
     return TORQUESCOPE_DISPATCH(roll_light)(rolled, loops, inputs, ticks, steps, joint, loop, outputs);
   alignas(64) double sine[twin_lanes], cosine[twin_lanes];
   kernels::cosine_sine_of_multiple(1.0, joint.q, twin_lanes, cosine, sine);

@@ -93,7 +93,8 @@ struct TickOutputs {
 struct LaneGears {
   using Lanes = double[twin_lanes];
   alignas(64) Lanes load{}, load_square{}, stribeck{}, load_stribeck{}, per_speed{}, motor_share{};
-  bool any = false;
+  alignas(64) Lanes angle_cos{}, angle_sin{};
+  bool any = false, turns = false;
 
   void set(std::size_t lane, GearFriction const& gear);
 };
@@ -103,11 +104,14 @@ struct RolledJoints {
   LaneDryFriction dry{};
   LaneGears gears{};
   alignas(64) double offset[twin_lanes] = {};
+
+  bool needs_angle() const { return joints.has_weight || gears.turns; }
 };
 
-// what the gears add to dry friction at this tick: motor, weight: torques on the joint; [lanes]
+// what the gears add to dry friction at this tick: motor, weight: torques on the joint; sine, cosine: of its angle;
+// [lanes]
 void gear_friction(LaneGears const& gears, double const* motor, double const* weight, double const* speed,
-                   double* friction);
+                   double const* sine, double const* cosine, double* friction);
 
 // `ticks` <= chunk_ticks ticks of `steps` steps each, of a joint without effects
 void roll_ticks(RolledJoints const& rolled, LaneLoops const& loops, TickInputs const& inputs, std::size_t ticks,

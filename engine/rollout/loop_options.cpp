@@ -38,7 +38,9 @@ constexpr std::array<Member, loop_keys> members{&LoopOptions::kp,
                                                 &LoopOptions::load_stribeck_friction,
                                                 &LoopOptions::arm_mass,
                                                 &LoopOptions::motor_gain_per_kelvin,
-                                                &LoopOptions::load_motor_share};
+                                                &LoopOptions::load_motor_share,
+                                                &LoopOptions::angle_friction_cos,
+                                                &LoopOptions::angle_friction_sin};
 
 double given(LoopOptions const& options, LoopKey key) { return options.*members[static_cast<std::size_t>(key)]; }
 
@@ -111,7 +113,9 @@ OptionTable<LoopOptions> const& LoopOptions::table() {
        {"motor_gain_per_kelvin", &Options::motor_gain_per_kelvin, "1/K", -1.0, 1.0,
         "of motor_gain, from 25 deg C on, over known.temperature"},
        {"load_motor_share", &Options::load_motor_share, "1", -1.0, 2.0,
-        "share of the motor's torque in what loads the gear, the rest is the weight's; 0.5"}});
+        "share of the motor's torque in what loads the gear, the rest is the weight's; 0.5"},
+       {"angle_friction_cos", &Options::angle_friction_cos, "N m", -1e9, 1e9, "dry friction by cos(position)"},
+       {"angle_friction_sin", &Options::angle_friction_sin, "N m", -1e9, 1e9, "dry friction by sin(position)"}});
   return table;
 }
 

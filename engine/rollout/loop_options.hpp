@@ -37,6 +37,7 @@ struct LoopOptions {
   double load_friction = not_given, load_square_friction = not_given, stribeck_friction = not_given,
          stribeck_speed = not_given, load_stribeck_friction = not_given;
   double arm_mass = not_given, motor_gain_per_kelvin = not_given, load_motor_share = not_given;
+  double angle_friction_cos = not_given, angle_friction_sin = not_given;
 
   static OptionTable<LoopOptions> const& table();
 };

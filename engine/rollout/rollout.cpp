@@ -180,17 +180,19 @@ class SlowSegment {
 
   void rub_gears(bool is_on, LaneState const& state) {
     alignas(64) double motor[twin_lanes], weight[twin_lanes], friction[twin_lanes];
+    alignas(64) double sine[twin_lanes], cosine[twin_lanes];
     LaneJoints const& joints = lanes_.rolled.joints;
     LaneDryFriction dry = lanes_.rolled.dry;
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
       motor[lane] = motor_[lane] - (is_on ? lanes_.loops.back_emf[lane] * state.dq[lane] : 0.0);
-      weight[lane] =
-          joints.gravity_sin[lane] * std::sin(state.q[lane]) + joints.gravity_cos[lane] * std::cos(state.q[lane]);
+      sine[lane] = std::sin(state.q[lane]);
+      cosine[lane] = std::cos(state.q[lane]);
+      weight[lane] = joints.gravity_sin[lane] * sine[lane] + joints.gravity_cos[lane] * cosine[lane];
     }
-    gear_friction(lanes_.rolled.gears, motor, weight, state.dq, friction);
+    gear_friction(lanes_.rolled.gears, motor, weight, state.dq, sine, cosine, friction);
     for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-      dry.forward[lane] += friction[lane];
-      dry.backward[lane] -= friction[lane];
+      dry.forward[lane] = std::max(dry.forward[lane] + friction[lane], 0.0);
+      dry.backward[lane] = std::min(dry.backward[lane] - friction[lane], 0.0);
     }
     motion_.set_dry_friction(dry);
   }
@@ -279,7 +281,7 @@ void roll_segment(RolloutTrack const& track, TrackSegment const& segment, Lanes 
   if (!lanes.is_fast()) slow.emplace(track, segment, lanes);
   Watch watch(track, segment, trials);
   std::size_t const all = static_cast<std::size_t>(segment.samples) * track.ticks_per_sample;
-  std::size_t const at_once = ticks_of_chunk(track, lanes.rolled.joints.has_weight && lanes.is_fast());
+  std::size_t const at_once = ticks_of_chunk(track, lanes.rolled.needs_angle() && lanes.is_fast());
   for (std::size_t first = 0; first < all; first += at_once) {
     std::size_t const ticks = std::min(at_once, all - first), samples = ticks / track.ticks_per_sample;
     if (!watch.all_lost(trials.size())) {

@@ -107,8 +107,8 @@ RolloutModel::RolloutModel(Regressor const& regressor, Eigen::VectorXd const& st
       parameters_.push_back(linear_parameter(term->parameters()[k], joint_, scales, start[at]));
       // the sign of a term's parameter is the recording's affair, but for what could not be a joint
       // beside a back-EMF, which the drive has while it is on, a joint that speeds itself up when it is off is none
-      bool const has_end = term->name() == "inertia" || term->name() == "coulomb" ||
-                           (term->name() == "viscous" && fits_back_emf);
+      bool const has_end =
+          term->name() == "inertia" || term->name() == "coulomb" || (term->name() == "viscous" && fits_back_emf);
       parameters_.back().lower = has_end ? 0.0 : -parameters_.back().upper;
     }
   }

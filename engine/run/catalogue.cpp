@@ -15,6 +15,7 @@
 #include "engine/problem/estimator.hpp"
 #include "engine/problem/loss.hpp"
 #include "engine/robot/robot_options.hpp"
+#include "engine/rollout/drive_law.hpp"
 #include "engine/rollout/loop_options.hpp"
 #include "engine/run/diagnose_options.hpp"
 #include "engine/run/estimator_plan.hpp"
@@ -80,6 +81,15 @@ void add_effects(std::vector<CatalogueEntry>& entries) {
     entry.text.push_back("source     " + effect->source());
     entries.push_back(std::move(entry));
   }
+}
+
+void add_drive_laws(std::vector<CatalogueEntry>& entries) {
+  for (DriveLaw const* law : drive_laws())
+    entries.push_back({law->name,
+                       "law",
+                       law->title,
+                       {fmt::format("equation   {}", law->equation), fmt::format("confused   with {}", law->confused)},
+                       {}});
 }
 
 void append(std::vector<OptionDescription>& options, std::vector<OptionDescription> const& more) {
@@ -203,6 +213,7 @@ std::vector<CatalogueEntry> const& catalogue() {
   static std::vector<CatalogueEntry> const entries = [] {
     std::vector<CatalogueEntry> made;
     add_effects(made);
+    add_drive_laws(made);
     add_estimators(made);
     add_readers_and_losses(made);
     add_sections(made);

@@ -138,7 +138,7 @@ RolloutPlan plan_rollouts(Job const& job, Regressor const& regressor, std::vecto
   RolloutPlan plan;
   plan.is_servo = has_recording_set(job);
   if (plan.is_servo) {
-    plan.loop = searched_servo_loop(servo_loop(job, problems));
+    plan.loop = searched_servo_loop(servo_loop(job, problems), known_keys(job));
   } else {
     plan.loop = read_options<LoopOptions>(job, problems);
     check_loop(plan.loop, section_or_empty(job, "loop"), problems);

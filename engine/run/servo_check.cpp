@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/health/finding_text.hpp"
+#include "engine/rollout/measured_drive.hpp"
 #include "engine/run/servo_words.hpp"
 #include "engine/run/servo_workflow.hpp"
 
@@ -72,22 +73,20 @@ std::string known_text(ServoJob const& job) {
   return text.empty() ? "nothing" : text;
 }
 
-}  // namespace
-
-namespace {
-
 // the recorded command over the known one, by least squares where the drive is on and not at its limit; NaN: not known
 double command_ratio(ServoJob const& job) {
   if (!job.has_torque || !job.known.command_gain) return std::numeric_limits<double>::quiet_NaN();
   double products = 0.0, squares = 0.0;
-  for (auto const& track : job.training)
-    for (Eigen::Index k = 0; k < track.position.size(); ++k) {
-      double const command = track.known.command_gain * (track.reference[k] - track.position[k]);
-      bool const is_off = track.enabled.size() > 0 && track.enabled[k] == 0.0;
-      if (is_off || std::abs(command) >= track.known.command_limit) continue;
-      products += track.torque[k] * command;
-      squares += command * command;
+  LoopNumbers const loop = numbers_of(job.loop.form, job.loop.values);
+  for (auto const& track : job.training) {
+    Eigen::VectorXd const command = measured_drive(track, loop).command;
+    double const most = std::min(loop.most, track.known.command_limit);
+    for (Eigen::Index k = 0; k < command.size(); ++k) {
+      if (!is_drive_on(track, k) || std::abs(command[k]) >= most) continue;
+      products += track.torque[k] * command[k];
+      squares += command[k] * command[k];
     }
+  }
   return products / squares;
 }
 

@@ -84,6 +84,7 @@ static const double load_friction = {load_friction:.17g}, load_square_friction =
 static const double stribeck_friction = {stribeck_friction:.17g}, stribeck_speed = {stribeck_speed:.17g};
 static const double load_stribeck_friction = {load_stribeck_friction:.17g};
 static const double load_motor_share = {load_motor_share:.17g}, arm_mass = {arm_mass:.17g};
+static const double angle_friction_cos = {angle_friction_cos:.17g}, angle_friction_sin = {angle_friction_sin:.17g};
 )";
 
 constexpr char const* step_in_c = R"(
@@ -131,7 +132,9 @@ void servo_step(servo_state *s, servo_known const *k, double goal, double read, 
   double load = fabs(weight + load_motor_share * (motor - weight));
   double turn = s->dq / stribeck_speed, bell = pow(1.0 + turn * turn / 16.0, -16.0);
   double dry = coulomb + (load_friction + load_square_friction * load) * load +
-               (stribeck_friction + load_stribeck_friction * load) * bell;
+               (stribeck_friction + load_stribeck_friction * load) * bell +
+               angle_friction_cos * cos(s->q) + angle_friction_sin * sin(s->q);
+  dry = fmax(dry, 0.0);
   double net = motor - weight - offset - viscous * s->dq, speed = s->dq + net / mass * dt, drop = dry / mass * dt;
   /* dry friction holds, or slows down and does not turn round */
   speed = fabs(speed) <= drop ? 0.0 : speed < 0.0 ? speed + drop : speed - drop;
@@ -161,7 +164,9 @@ std::string servo_c(std::string const& document) {
       fmt::arg("stribeck_friction", model["stribeck_friction"]),
       fmt::arg("load_stribeck_friction", model["load_stribeck_friction"]),
       fmt::arg("stribeck_speed", model["stribeck_speed"]), fmt::arg("arm_mass", model["arm_mass"]),
-      fmt::arg("load_motor_share", model["load_motor_share"]));
+      fmt::arg("load_motor_share", model["load_motor_share"]),
+      fmt::arg("angle_friction_cos", model["angle_friction_cos"]),
+      fmt::arg("angle_friction_sin", model["angle_friction_sin"]));
   return text + step_in_c;
 }
 

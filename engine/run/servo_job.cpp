@@ -11,6 +11,7 @@
 #include "engine/effects/model_options.hpp"
 #include "engine/health/finding_text.hpp"
 #include "engine/run/job_sections.hpp"
+#include "engine/run/servo_laws.hpp"
 
 namespace torquescope {
 namespace {
@@ -64,6 +65,7 @@ ServoQuestion ServoJob::question(int threads) const {
   ServoQuestion question{*regressor, loop, command, training, validation};
   question.numbers.alpha = diagnose.q;
   question.numbers.least_fall = diagnose.least_fall;
+  question.laws = laws;
   question.most_laws = static_cast<std::size_t>(diagnose.max_effects);
   question.seed = static_cast<std::uint64_t>(experiment.seed);
   question.threads = threads;
@@ -79,12 +81,12 @@ LoopOptions servo_loop(Job const& job, std::vector<Problem>& problems) {
   return loop;
 }
 
-LoopOptions searched_servo_loop(LoopOptions loop) {
+LoopOptions searched_servo_loop(LoopOptions loop, KnownKeys const& known) {
   auto const add = [&](char const* key, double given) {
     bool const is_listed = std::find(loop.fit.begin(), loop.fit.end(), key) != loop.fit.end();
     if (!is_listed && std::isnan(given)) loop.fit.emplace_back(key);
   };
-  add("motor_gain", loop.motor_gain);
+  if (known.gravity_moment || known.inertia) add("motor_gain", loop.motor_gain);
   if (loop.drive == "voltage") add("back_emf", loop.back_emf);
   return loop;
 }
@@ -109,6 +111,7 @@ ServoJob read_servo_job(Job job) {
   made.entries = read_recording_set(job, problems);
   if (!problems.empty()) throw Error(std::move(problems));
   made.regressor = make_regressor(model, section_or_empty(job, "model"));
+  made.laws = servo_laws(made.diagnose, *made.regressor, section_or_empty(job, "diagnose"), problems);
   std::stable_partition(made.entries.begin(), made.entries.end(), [](auto const& one) { return !one.is_validation; });
   for (auto& one : read_recordings(job, made.entries)) made.recordings.push_back(std::move(one.recording));
   refuse_faults(made.entries, made.recordings, problems);

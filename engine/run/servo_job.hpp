@@ -27,6 +27,7 @@ struct ServoJob {
   LoopSetting loop{};
   DriveCommand command = DriveCommand::voltage;
   std::optional<Regressor> regressor{};
+  ServoLaws laws{};
   std::vector<SetEntry> entries{};      // of training, then of validation
   std::vector<Recording> recordings{};  // of each entry
   std::vector<RolloutTrack> training{}, validation{};
@@ -44,8 +45,9 @@ ServoJob read_servo_job(Job job);
 
 // [loop] of a job with [[recordings]], as its drive has it: P on the position, ticks left open
 LoopOptions servo_loop(Job const& job, std::vector<Problem>& problems);
-// the same for a fit without a choice of laws: motor_gain and back_emf are searched beside loop.fit
-LoopOptions searched_servo_loop(LoopOptions loop);
+// the same for a fit without a choice of laws: back_emf is searched beside loop.fit; motor_gain beside a known load
+// alone, which fixes the scale of torques
+LoopOptions searched_servo_loop(LoopOptions loop, KnownKeys const& known);
 std::string unit_of_command(ServoJob const& job);  // "V", "A", "rad"
 // one line each
 std::vector<std::string> warnings_of(ServoJob const& job);

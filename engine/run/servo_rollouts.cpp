@@ -2,6 +2,7 @@
 
 #include "engine/decision/servo_start.hpp"
 #include "engine/problem/plain_least_squares.hpp"
+#include "engine/rollout/measured_drive.hpp"
 #include "engine/run/rollout_parts.hpp"
 #include "engine/run/servo_rollouts.hpp"
 
@@ -10,22 +11,13 @@ namespace {
 
 using Eigen::Index;
 
-// what the joint itself took of the motor's torque: rows of least squares know no loads of their own
+// What the joint itself took of the motor's torque: rows of least squares know no loads of their own. Where no
+// difference can be taken, at the ends, the known inertia takes nothing
 void add_joint_torque(Recording& recording, RolloutTrack const& track, LoopNumbers const& loop, double motor_gain) {
-  constexpr double span_s = 0.05;
-  Index const n = recording.position.size(), span = std::max<Index>(1, std::llround(span_s * track.rate_hz));
-  double const apart_s = static_cast<double>(span) / track.rate_hz;
-  double const most = std::min(loop.most, track.known.command_limit);
-  recording.torque.resize(n);
-  for (Index k = 0; k < n; ++k) {
-    double const here = recording.position[k], before = recording.position[std::max<Index>(k - span, 0)];
-    double const after = recording.position[std::min(k + span, n - 1)];
-    double const is_on = recording.enabled.size() > 0 ? recording.enabled[k] : 1.0;
-    double const command =
-        is_on * std::clamp(loop.kp * track.known.command_gain * (recording.reference[k] - here), -most, most);
-    recording.torque[k] = motor_gain * command - track.known.gravity_moment * std::sin(here) -
-                          track.known.inertia * (after - 2.0 * here + before) / (apart_s * apart_s);
-  }
+  MeasuredDrive const drive = measured_drive(track, loop);
+  Eigen::ArrayXd const acceleration = drive.acceleration.array().isFinite().select(drive.acceleration.array(), 0.0);
+  recording.torque = motor_gain * drive.command.array() - track.known.gravity_moment * track.position.array().sin() -
+                     track.known.inertia * acceleration;
 }
 
 RolloutData data_of(ServoJob const& servo, bool is_validation) {
@@ -59,15 +51,8 @@ void add_servo(RolloutParts& rollout, Regressor const& regressor, ServoJob const
   ServoQuestion const question = servo.question(1);
   ServoBase const base = servo_base(question);
   LoopSetting setting = base.loop;
-  for (auto const& name : rollout.plan.loop.fit) {
-    auto const key = loop_key_of(name);
-    if (key && std::find(setting.free.begin(), setting.free.end(), *key) == setting.free.end())
-      setting.free.push_back(*key);
-  }
   // in the order in which the parameters were named before the data
-  std::vector<LoopKey> ordered;
-  for (LoopKey const key : loop_setting(rollout.plan.loop, 1.0).free) ordered.push_back(key);
-  setting.free = ordered;
+  setting.free = loop_setting(rollout.plan.loop, 1.0).free;
   rollout.model.emplace(regressor, base.terms, base.scales, rollout.plan.effects, setting);
   rollout.variance = variance_at_start(rollout);
 }

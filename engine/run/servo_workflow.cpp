@@ -121,7 +121,7 @@ ServoTable without_each(std::string const& quantity, ServoJob const& job, ServoQ
       (value_of(training[k], quantity) == value ? left_out : kept).push_back(job.training[k]);
     if (kept.empty() || left_out.empty()) continue;
     std::vector<RolloutTrack> const none;
-    ServoQuestion const asked{question.regressor, question.loop, question.command, kept, none, question.most_laws,
+    ServoQuestion const asked{question.regressor, question.loop, question.command, kept, none, {}, question.most_laws,
                               question.numbers,   question.seed, question.threads};
     ServoRow row{value, {}, {}};
     row.train.recordings = static_cast<std::int64_t>(left_out.size());

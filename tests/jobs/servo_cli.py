@@ -97,7 +97,7 @@ class Found(Sets):
         self.assertEqual([found["error"][role]["recordings"] for role in ("train", "validate")], [4, 2])
         # people read the same
         self.assertIn("explained by", done.out)
-        for words in ("mrad unseen (2)", "command_delay_s", "goal_speed_limit", "load_friction", "without mass_kg"):
+        for words in ("mrad validation (2)", "command_delay_s", "goal_speed_limit", "load_friction", "without mass_kg"):
             self.assertIn(words, done.out)
         self.left_out(found)
         self.tables(found)

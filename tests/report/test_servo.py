@@ -48,10 +48,10 @@ class ReadsServos(unittest.TestCase):
         self.assertEqual((servo.verdict, servo.unit, servo.command_unit), ("class", "rad", "V"))
         self.assertTrue(servo.headline.startswith("explained by Delay of the command"))
         self.assertEqual((servo.train.recordings, servo.validate.recordings), (12, 6))
-        unseen = [one for one in servo.recordings if one.is_unseen]
-        self.assertEqual(len(unseen), 6)
+        validation = [one for one in servo.recordings if one.is_validation]
+        self.assertEqual(len(validation), 6)
         for side in ("before", "after"):
-            self.assertAlmostEqual(getattr(servo.validate, side), np.mean([getattr(one, side) for one in unseen]))
+            self.assertAlmostEqual(getattr(servo.validate, side), np.mean([getattr(one, side) for one in validation]))
 
     def test_laws_have_their_numbers_and_rivals(self):
         delay, friction = self.servo().kept
@@ -143,7 +143,7 @@ class ReadsServos(unittest.TestCase):
             servo, replay, text = result.servo(), result.replay(), "\n".join(summary(result))
         self.assertEqual(servo.document, told)
         self.assertEqual([one.name for one in servo.kept], [one["name"] for one in told["kept"]])
-        self.assertEqual([(one.name, one.is_unseen) for one in servo.recordings], [(TWO[0], False), (TWO[1], True)])
+        self.assertEqual([(one.name, one.is_validation) for one in servo.recordings], [(TWO[0], False), (TWO[1], True)])
         for one, simulated in zip(servo.recordings, replay.recordings):
             self.assertEqual((one.name, one.role), (simulated.name, simulated.purpose))
             self.assertEqual(one.after, simulated.position.mae[replay.after])

@@ -15,7 +15,8 @@ double Joint::greatest_friction(double motor_torque, double weight) const {
   double const load = 0.5 * std::abs(motor_torque + weight);
   double const pace = speed_ / servo_.stribeck_speed;
   double const near_rest = (servo_.stribeck_friction + servo_.load_stribeck * load) * std::exp(-pace * pace);
-  return servo_.coulomb + servo_.load_friction * load + servo_.load_square * load * load + near_rest;
+  return servo_.coulomb + servo_.load_friction * load + servo_.load_square * load * load + near_rest +
+         servo_.angle_friction * std::sin(position_);
 }
 
 void Joint::step(double command_v, bool is_on) {

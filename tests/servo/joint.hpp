@@ -5,6 +5,7 @@
 //            |dry| <= F, against the motion;  l = |tm + G sin q| / 2
 //            F = coulomb + load_friction l + load_square l^2
 //                + (stribeck_friction + load_stribeck l) exp(-(dq / stribeck_speed)^2)
+//                + angle_friction sin q
 //            J = inertia + m L^2 + arm_mass L^2 / 3,  G = 9.80665 L (m + arm_mass / 2);  q = 0 hangs down
 // Step       backward Euler of what brakes: friction holds what it can and never turns the joint round
 

@@ -54,7 +54,7 @@ bool lifts(ServoNumbers const& servo, Setting const& setting) {
   double const given = reserve * servo.motor_gain * setting.command_limit();
   double const load = 0.5 * (given + weight);
   double const friction = servo.coulomb + servo.stribeck_friction + (servo.load_friction + servo.load_stribeck) * load +
-                          servo.load_square * load * load;
+                          servo.load_square * load * load + servo.angle_friction;
   return given - weight > friction;
 }
 

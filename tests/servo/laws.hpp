@@ -17,7 +17,7 @@ struct Law {
   double ServoNumbers::*number;
 };
 
-inline constexpr std::array<Law, 11> laws{{
+inline constexpr std::array<Law, 12> laws{{
     {"command_delay", 0.020, 0.040, 0.0, &ServoNumbers::command_delay_s},
     {"goal_speed_limit", 3.0, 6.0, no_limit, &ServoNumbers::goal_speed_limit},
     {"goal_acceleration_limit", 20.0, 60.0, no_limit, &ServoNumbers::goal_acceleration_limit},
@@ -29,6 +29,7 @@ inline constexpr std::array<Law, 11> laws{{
     {"punch", 0.8, 1.8, 0.0, &ServoNumbers::punch},
     {"torque_lag", 0.004, 0.012, 0.0, &ServoNumbers::torque_lag_s},
     {"arm_mass", 0.05, 0.15, 0.0, &ServoNumbers::arm_mass},
+    {"angle_friction", 0.03, 0.06, 0.0, &ServoNumbers::angle_friction},
 }};
 
 Law const& law_named(std::string const& name);

@@ -24,7 +24,7 @@ from pathlib import Path
 from grade import grade, kept_names, summary, told
 
 LAWS = ("command_delay", "goal_speed_limit", "goal_acceleration_limit", "load_friction", "load_square", "stribeck",
-        "load_stribeck", "dead_band", "punch", "torque_lag", "arm_mass")
+        "load_stribeck", "dead_band", "punch", "torque_lag", "arm_mass", "angle_friction")
 KINDS = 4  # of cases: none to three laws
 
 

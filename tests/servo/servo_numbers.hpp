@@ -25,7 +25,8 @@ struct ServoNumbers {
   double stribeck_friction = 0.0;  // N m
   double load_stribeck = 0.0;      // 1
   double stribeck_speed = 0.2;
-  double arm_mass = 0.0;  // of a rod from the axis to the load
+  double angle_friction = 0.0;  // N m, by the sine of the angle
+  double arm_mass = 0.0;        // of a rod from the axis to the load
   // of the drive
   double motor_gain = 0.2, back_emf = 0.15;  // N m/V, N m s/rad
   double command_delay_s = 0.0, goal_speed_limit = no_limit, goal_acceleration_limit = no_limit;

@@ -79,7 +79,7 @@ void add_list(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope list\n"
       "  torquescope list effects\n"
       "  torquescope list effects --json - | jq -r .entries[].name\n");
-  command->add_option("KIND", *word, "effects, optimisers, readers, losses, estimators, sections, robots")
+  command->add_option("KIND", *word, "effects, laws, optimisers, readers, losses, estimators, sections, robots")
       ->type_name(kind_words());
   add_json_option(*command, chosen);
   add_colour_option(*command, chosen);

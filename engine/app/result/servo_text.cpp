@@ -41,7 +41,7 @@ std::string names_text(ServoReport const& report) {
 std::string table_text(ServoTable const& by) {
   TextTable table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right, Align::right},
                   "  ");
-  table.row({printable(by.quantity), "train", "before", "after", "unseen", "before", "after"});
+  table.row({printable(by.quantity), "train", "before", "after", "validation", "before", "after"});
   for (auto const& row : by.rows)
     table.row({printable(row.value), count_text(row.train.recordings), cell(row.train, row.train.before),
                cell(row.train, row.train.after), count_text(row.validate.recordings),
@@ -67,7 +67,7 @@ std::string recordings_text(ServoReport const& report) {
   table.row({"recording", "role", "before", "after"});
   for (std::size_t k = 0; k < report.replay.recordings.size(); ++k) {
     auto const& errors = report.replay.recordings[k].channels[0].errors;
-    table.row({printable(report.entries[k].name), report.entries[k].is_validation ? "unseen" : "train",
+    table.row({printable(report.entries[k].name), report.entries[k].is_validation ? "validation" : "train",
                mrad(errors[report.replay.before].mae), mrad(errors[report.replay.after].mae)});
   }
   return table.text(200);
@@ -85,7 +85,7 @@ std::string servo_verdict_text(ServoReport const& report, Ink const& ink) {
   text += fmt::format("mean absolute error of the position, all samples: {} mrad train ({} recordings)",
                       change(report.train), report.train.recordings);
   if (report.validate.recordings > 0)
-    text += fmt::format(", {} mrad unseen ({})", change(report.validate), report.validate.recordings);
+    text += fmt::format(", {} mrad validation ({})", change(report.validate), report.validate.recordings);
   return text + "\n";
 }
 

@@ -21,5 +21,6 @@ DriveLaw const& stribeck_friction_law();
 DriveLaw const& load_stribeck_friction_law();
 DriveLaw const& arm_mass_law();
 DriveLaw const& load_motor_share_law();
+DriveLaw const& angle_friction_law();
 
 }  // namespace torquescope

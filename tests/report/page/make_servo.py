@@ -34,7 +34,7 @@ def motion(seconds, rate_hz, seed, gain):
 
 
 def recordings(count, seconds):
-    """[(name, role, quantities, signals)]: those of the middle mass are unseen."""
+    """[(name, role, quantities, signals)]: those of the middle mass are of validation."""
     found = []
     for number, (mass, gain, kind) in zip(range(count), itertools.cycle(itertools.product(MASSES, GAINS, MOTIONS))):
         role = "validate" if mass == MASSES[1] else "train"
@@ -151,7 +151,7 @@ def of_recordings(count, seconds, has_laws=True):
 
 
 def servo(path, count=18, seconds=4):
-    """Two laws, one with a rival; several unseen recordings, and tables of what was left out."""
+    """Two laws, one with a rival; several of validation, and tables of what was left out."""
     ones, signals = of_recordings(count, seconds)
     headline = "explained by Delay of the command 0.0402 s; Load-dependent friction 0.1488"
     notes = [("always_on", "The drive is never off: viscous friction and back-EMF are one number.")]

@@ -1,4 +1,4 @@
-"""The page of many recordings of servos: the worst unseen recordings first, and numbers as the file has them."""
+"""The page of many recordings of servos: the worst validation recordings first, and numbers as the file has them."""
 
 import html
 import re
@@ -50,9 +50,9 @@ class Order(unittest.TestCase):
             "Do the laws hold where no number was fitted?", "All parameters", "Notes", "Every law that was tried",
             "The job file", "Where this page comes from"])
 
-    def test_unseen_recordings_come_first_the_worst_of_them_at_the_top(self):
+    def test_validation_recordings_come_first_the_worst_of_them_at_the_top(self):
         shown = words_of_servo.named_recordings(support.study("servo"))
-        self.assertEqual([one.is_unseen for _, _, one in shown], 6 * [True] + 12 * [False])
+        self.assertEqual([one.is_validation for _, _, one in shown], 6 * [True] + 12 * [False])
         for some in (shown[:6], shown[6:]):
             errors = [one.after for _, _, one in some]
             self.assertEqual(errors, sorted(errors, reverse=True))
@@ -101,7 +101,7 @@ class Words(unittest.TestCase):
     def test_notes_steps_and_the_job_are_there(self):
         said = read("servo")
         for text in (*servo().notes.values(), "With command delay and load friction, 48 replicates", "its fit failed",
-                     "unseen recordings are not predicted better", 'name = "servo_loads"'):
+                     "validation recordings are not predicted better", 'name = "servo_loads"'):
             self.assertIn(text, said)
 
     def test_words_of_a_manifest_are_no_markup(self):
@@ -120,7 +120,7 @@ class Tables(unittest.TestCase):
     def test_every_error_is_that_of_the_file(self):
         for quantity, rows in servo().tables.items():
             table = tables_of_servo.errors(servo(), quantity, rows)
-            self.assertEqual(table["groups"], ["training", "unseen"])
+            self.assertEqual(table["groups"], ["training", "validation"])
             for row, (value, cells) in zip(rows, table["rows"]):
                 self.assertEqual(value, row.value)
                 for of, cell in zip((row.train, row.validate), cells):
@@ -157,7 +157,7 @@ class Kinds(unittest.TestCase):
         said = read("servo_none")
         for text in ("Nothing is missing", "No law of drive or gear was kept.", 'No recording has role = "validate".'):
             self.assertIn(text, said)
-        for text in ("unseen", "after", "before"):
+        for text in ("validation", "after", "before"):
             self.assertNotIn(f" {text} ", said)
         self.assertEqual(len(words_of_servo.big_numbers(support.study("servo_none"))), 1)
 

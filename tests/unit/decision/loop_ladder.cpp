@@ -80,7 +80,7 @@ struct Asked {
   std::vector<RolloutTrack> training, validation;
   LoopFacts climbed(int threads) const {
     LoopQuestion question{terms, start, scales, loop, training, validation};
-    question.moves = drive_moves(loop, training, {DriveLawKind::profile});
+    question.moves = drive_moves(loop, training, drive_laws_of(DriveLawKind::profile));
     question.moves.push_back(law_move(*find_effect("cogging"), {7.1}, scales));
     question.moves.push_back(law_move(*find_effect("asymmetric_viscous"), {}, scales));
     question.moves.push_back(law_move(*find_effect("spring"), {}, scales));

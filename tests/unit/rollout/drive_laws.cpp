@@ -110,7 +110,7 @@ TEST(DriveLaws, ThatAddBeginWhereNothingChanges) {
           EXPECT_FALSE(same_bits(without.position, rolled(track, {}, {trial(with)}).position)) << law->name;
         }
       }
-      EXPECT_EQ(added, 6);
+      EXPECT_EQ(added, 7);
     }
   }
 }

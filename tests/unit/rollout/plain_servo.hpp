@@ -21,6 +21,7 @@ namespace torquescope::test {
 struct PlainServo {
   double inertia = 0.045, viscous = 0.05, coulomb = 0.12, offset = 0.0, weight = 0.0;  // weight: N m of sin q
   double load = 0.0, load_square = 0.0, stribeck = 0.0, load_stribeck = 0.0, stribeck_speed = 0.3;
+  double angle_cos = 0.0, angle_sin = 0.0;
   double gain = 60.0, limit = std::numeric_limits<double>::infinity();  // V per rad, V
   double dead_band = 0.0, punch = 0.0, command_delay_s = 0.0;
   double motor_gain = 0.25, back_emf = 0.16, encoder_step = 0.0;
@@ -86,7 +87,8 @@ class PlainServoRun {
     double const l = 0.5 * std::abs(motor - brake * v_ + s_.weight * std::sin(q_));
     double const x = v_ / s_.stribeck_speed;
     double const bell = std::pow(1.0 + x * x / 16.0, -16.0);
-    return s_.coulomb + (s_.load + s_.load_square * l) * l + (s_.stribeck + s_.load_stribeck * l) * bell;
+    double const of_angle = s_.angle_cos * std::cos(q_) + s_.angle_sin * std::sin(q_);
+    return s_.coulomb + (s_.load + s_.load_square * l) * l + (s_.stribeck + s_.load_stribeck * l) * bell + of_angle;
   }
 
   void move(double motor, double brake) {

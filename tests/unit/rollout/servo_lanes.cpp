@@ -34,6 +34,11 @@ std::vector<Case> const laws{{"load friction", [](PlainServo& s) { s.load = 0.2;
                              {"friction by the square of the load", [](PlainServo& s) { s.load_square = 0.1; }},
                              {"Stribeck friction", [](PlainServo& s) { s.stribeck = 0.15; }},
                              {"Stribeck friction of the load", [](PlainServo& s) { s.load_stribeck = 0.25; }},
+                             {"friction over the angle",
+                              [](PlainServo& s) {
+                                s.angle_cos = 0.04;
+                                s.angle_sin = -0.06;
+                              }},
                              {"dead band", [](PlainServo& s) { s.dead_band = 0.03; }, 1.8},
                              {"punch", [](PlainServo& s) { s.punch = 1.5; }, 3.0},
                              {"limit", [](PlainServo& s) { s.limit = 6.0; }},
@@ -182,18 +187,22 @@ TEST(ServoLanes, ComeToAGearThatRubsWithoutTicks) {
 TEST(ServoLanes, FallFromStickingToSlidingByTheBell) {
   LaneGears gears;
   alignas(64) double motor[twin_lanes], weight[twin_lanes], speed[twin_lanes], friction[twin_lanes];
+  alignas(64) double sine[twin_lanes], cosine[twin_lanes];
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
-    gears.set(lane, {0.1, 0.05, 0.3, 0.2, 0.4});
+    gears.set(lane, {0.1, 0.05, 0.3, 0.2, 0.4, 0.5, 0.07, -0.02});
     motor[lane] = 0.3 * static_cast<double>(lane) - 2.0;
     weight[lane] = 1.1 - 0.1 * static_cast<double>(lane);
     speed[lane] = 0.09 * (static_cast<double>(lane) - 6.0);
+    sine[lane] = std::sin(0.4 * static_cast<double>(lane));
+    cosine[lane] = std::cos(0.4 * static_cast<double>(lane));
   }
   ASSERT_TRUE(gears.any);
-  gear_friction(gears, motor, weight, speed, friction);
+  gear_friction(gears, motor, weight, speed, sine, cosine, friction);
   for (std::size_t lane = 0; lane < twin_lanes; ++lane) {
     double const l = 0.5 * std::abs(motor[lane] + weight[lane]), x = speed[lane] / 0.4;
     double const bell = std::pow(1.0 + x * x / 16.0, -16.0);
-    EXPECT_NEAR(friction[lane], 0.1 * l + 0.05 * l * l + (0.3 + 0.2 * l) * bell, 1e-14);
+    double const of_angle = 0.07 * cosine[lane] - 0.02 * sine[lane];
+    EXPECT_NEAR(friction[lane], 0.1 * l + 0.05 * l * l + (0.3 + 0.2 * l) * bell + of_angle, 1e-14);
     EXPECT_NEAR(bell, std::exp(-x * x), 0.03);
   }
 }

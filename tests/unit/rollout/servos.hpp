@@ -29,6 +29,8 @@ inline RolloutTrial trial_of(PlainServo const& servo) {
   values[stribeck_friction] = servo.stribeck;
   values[load_stribeck_friction] = servo.load_stribeck;
   values[stribeck_speed] = servo.stribeck_speed;
+  values[angle_friction_cos] = servo.angle_cos;
+  values[angle_friction_sin] = servo.angle_sin;
   trial.loop = numbers_of(LoopForm::p, values);
   trial.gear = gear_of(values);
   trial.encoder_step = servo.encoder_step;

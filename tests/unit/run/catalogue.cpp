@@ -18,7 +18,8 @@ TEST(Catalogue, NamesEveryThingOnceAndSaysWhatItIs) {
     kinds.insert(entry.kind);
     for (auto const& option : entry.options) EXPECT_FALSE(option.meaning.empty()) << entry.name << "." << option.key;
   }
-  EXPECT_EQ(kinds, (std::set<std::string>{"effect", "estimator", "loss", "optimiser", "reader", "robot", "section"}));
+  EXPECT_EQ(kinds,
+            (std::set<std::string>{"effect", "estimator", "law", "loss", "optimiser", "reader", "robot", "section"}));
 }
 
 TEST(Catalogue, DescribesEverySectionAJobMayHave) {

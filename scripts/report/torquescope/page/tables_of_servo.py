@@ -11,7 +11,7 @@ REFUSALS = {
     "smaller": "another law explains more",
     "failed_fit": "its fit failed",
     "at_bound": "a number ends at its bound",
-    "not_predicted": "unseen recordings are not predicted better",
+    "not_predicted": "validation recordings are not predicted better",
 }
 
 
@@ -65,9 +65,9 @@ def parameters(servo):
 
 
 def errors(servo, quantity, rows):
-    """{"quantity", "groups", "rows", "changed"}: a row is its value and, for each group ("training", "unseen"), a cell
+    """{"quantity", "groups", "rows", "changed"}: a row is its value and, for each group (training, validation), a cell
     {"recordings", "before", "after", "bars"} or None."""
-    groups = [("training", "train"), ("unseen", "validate")]
+    groups = [("training", "train"), ("validation", "validate")]
     groups = [(name, role) for name, role in groups if any(getattr(row, role).recordings for row in rows)]
     return _table(servo, quantity, groups, [(row.value, row) for row in rows])
 
@@ -110,7 +110,7 @@ def recordings(study):
     rows = []
     for _, _, one in say.named_recordings(study):
         shares = [one.relerr_before, one.relerr_after] if say.has_after(servo) else [one.relerr_before]
-        rows.append([one.name, "unseen" if one.is_unseen else "training",
+        rows.append([one.name, "validation" if one.is_validation else "training",
                      *(say.quantity_text(one, key) for key in known), q.whole(one.samples),
                      say.before_after(servo, one),
                      " → ".join(q.percent(value) if math.isfinite(value) else "diverged" for value in shares)])

@@ -55,18 +55,19 @@ def _evidence(servo):
 
 def head(study):
     servo = study.servo
-    unseen = sum(one.is_unseen for one in servo.recordings)
+    validation = sum(one.is_validation for one in servo.recordings)
     said = [study.job.name, f"{study.joint} joint" if study.joint else "servo"]
     if servo.recordings:
-        said.append(q.count(len(servo.recordings), "recording") + (f", {q.whole(unseen)} unseen" if unseen else ""))
+        of_validation = f", {q.whole(validation)} of validation" if validation else ""
+        said.append(q.count(len(servo.recordings), "recording") + of_validation)
     return [*said, *words.date_of(study)]
 
 
 def big_numbers(study):
-    """[(number, unit, caption)]: errors in training and unseen, before and after."""
+    """[(number, unit, caption)]: errors in training and validation, before and after."""
     servo, found = study.servo, []
-    for role, one in (("training", servo.train), ("unseen", servo.validate)):
-        of = q.count(one.recordings, f"{'unseen' if role == 'unseen' else 'training'} recording")
+    for role, one in (("training", servo.train), ("validation", servo.validate)):
+        of = q.count(one.recordings, f"{'validation' if role == 'validation' else 'training'} recording")
         for side, value in (("before", one.before), ("after", one.after)):
             if one.recordings and (side == "before" or has_after(servo)):
                 number = error(servo, value)
@@ -76,11 +77,11 @@ def big_numbers(study):
 
 
 def named_recordings(study):
-    """[(name of its figure, its replay, its record)]: unseen ones first, the worst after first."""
+    """[(name of its figure, its replay, its record)]: validation first, the worst after first."""
     both = [(f"replay_{at}", replay, record) for at, (replay, record) in
             enumerate(zip(study.replay.recordings, study.servo.recordings), start=1)] if study.replay else []
     worst = lambda one: -one.after if math.isfinite(one.after) else -math.inf  # noqa: E731
-    return sorted(both, key=lambda one: (not one[2].is_unseen, worst(one[2])))
+    return sorted(both, key=lambda one: (not one[2].is_validation, worst(one[2])))
 
 
 def captioned(study):
@@ -100,9 +101,9 @@ def folds(study):
     """[(summary, names of figures)] of those that are not shown at first."""
     rest = [(name, record) for name, _, record in named_recordings(study)[FIRST_SHOWN:MOST_DRAWN]]
     found = []
-    for is_unseen, kind in ((True, "unseen"), (False, "training")):
-        names = [name for name, record in rest if record.is_unseen == is_unseen]
-        shown = any(one[2].is_unseen == is_unseen for one in named_recordings(study)[:FIRST_SHOWN])
+    for is_validation, kind in ((True, "validation"), (False, "training")):
+        names = [name for name, record in rest if record.is_validation == is_validation]
+        shown = any(one[2].is_validation == is_validation for one in named_recordings(study)[:FIRST_SHOWN])
         if names:
             found.append((q.count(len(names), f"{'more ' if shown else ''}{kind} recording"), names))
     return found
@@ -127,8 +128,8 @@ def _caption(servo, replay, record):
 
 def motion_answer(study):
     servo = study.servo
-    unseen = any(one.is_unseen for one in servo.recordings)
-    order = "Unseen recordings come first" if unseen else "No recording is unseen"
+    validation = any(one.is_validation for one in servo.recordings)
+    order = "Validation recordings come first" if validation else "No recording is of validation"
     said = f"{order}; those with the largest error {'after ' if has_after(servo) else ''}lead. " \
         if len(servo.recordings) > 1 else ""
     said += "Simulated in closed loop from the commanded position, over all samples"
@@ -179,7 +180,7 @@ def equation(law):
 def errors_answer(study):
     unit = finer(study.servo)[0]
     return (f"Mean absolute error of the position in {unit}, over all samples of the recordings that have the value. "
-            "Recordings are counted in the columns training and unseen.")
+            "Recordings are counted in the columns training and validation.")
 
 
 def left_out_answer(study):

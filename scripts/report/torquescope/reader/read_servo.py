@@ -3,7 +3,7 @@
     from torquescope.reader import Result
     servo = Result("servo.h5").servo()                 None when the file holds none
     servo.verdict, servo.headline                      'named', 'explained by ...'
-    servo.validate.before, servo.validate.after        mean absolute errors of the position, unseen recordings
+    servo.validate.before, servo.validate.after        mean absolute errors of the position, validation recordings
     servo.kept[0].title, servo.kept[0].rivals          laws that were kept, and those they cannot be told from
     servo.parameters["load_friction"].value            with 95 % interval: lower, upper
     servo.tables["mass_kg"][0].validate.after          errors by one quantity of the recordings
@@ -69,7 +69,7 @@ class ServoRecording:
     horizon_s: float  # time until which the simulation can be believed; NaN: to its end
 
     @property
-    def is_unseen(self) -> bool:
+    def is_validation(self) -> bool:
         return self.role == "validate"
 
 
@@ -82,7 +82,7 @@ class ServoMove:
     gain: float  # D
     gain_by_chance: float  # D that a share alpha of the replicates reach
     p: float
-    error_before: float  # relative, of the position, unseen where there are such recordings
+    error_before: float  # relative, of the position, of validation where there are such recordings
     error_after: float
 
 
