@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace torquescope {
@@ -36,6 +39,38 @@ void check_marks(RecordingOptions const& arm, std::size_t joints, Section const&
   if (!arm.simulated_torque.empty()) check("simulated_torque", "simulated_torque", arm.simulated_torque);
 }
 
+// one number for all joints, or one for each
+void check_count(char const* key, std::vector<double> const& numbers, std::size_t joints, Section const& section,
+                 std::vector<Problem>& problems) {
+  if (numbers.size() == 1 || numbers.size() == joints) return;
+  problems.push_back(
+      problem_at(section, key, fmt::format("{} has {} numbers, and the arm has {} joints", key, numbers.size(), joints),
+                 "write one number for all joints, or one for each, from the base to the tip"));
+}
+
+// the joint whose column each joint has, from 0; its own where nothing is written
+std::vector<std::size_t> order_of(char const* key, std::vector<double> const& written, std::size_t joints,
+                                  Section const& section, std::vector<Problem>& problems) {
+  std::vector<std::size_t> order(joints);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (written.empty()) return order;
+  std::vector<double> sorted = written;
+  std::sort(sorted.begin(), sorted.end());
+  bool is_order = sorted.size() == joints;
+  for (std::size_t j = 0; is_order && j < joints; ++j) is_order = sorted[j] == static_cast<double>(j + 1);
+  if (!is_order) {
+    problems.push_back(problem_at(section, key, fmt::format("{} is no order of {} joints", key, joints),
+                                  fmt::format("write each number from 1 to {} once", joints)));
+    return order;
+  }
+  for (std::size_t j = 0; j < joints; ++j) order[j] = static_cast<std::size_t>(written[j]) - 1;
+  return order;
+}
+
+double of_joint(std::vector<double> const& numbers, std::size_t joint) {
+  return numbers[numbers.size() == 1 ? 0 : joint];
+}
+
 }  // namespace
 
 std::vector<RecordingOptions> joint_options(RecordingOptions const& arm, std::vector<std::string> const& joint_names,
@@ -43,21 +78,31 @@ std::vector<RecordingOptions> joint_options(RecordingOptions const& arm, std::ve
   std::size_t const joints = joint_names.size();
   std::vector<Problem> problems;
   check_marks(arm, joints, section, problems);
-  auto const& factors = arm.torque_per_unit;
-  if (factors.size() != 1 && factors.size() != joints)
-    problems.push_back(
-        problem_at(section, "torque_per_unit",
-                   fmt::format("torque_per_unit has {} numbers, and the arm has {} joints", factors.size(), joints),
-                   "write one number for all joints, or one for each, from the base to the tip"));
+  check_count("torque_per_unit", arm.torque_per_unit, joints, section, problems);
+  check_count("delay_s", arm.delay_s, joints, section, problems);
+  check_count("joint_sign", arm.joint_sign, joints, section, problems);
+  check_count("zero", arm.zero, joints, section, problems);
+  if (std::any_of(arm.joint_sign.begin(), arm.joint_sign.end(), [](double sign) { return std::abs(sign) != 1.0; }))
+    problems.push_back(problem_at(section, "joint_sign", "joint_sign holds another number than 1 and -1",
+                                  "write 1 or -1 for each joint"));
+  auto const positions = order_of("position_order", arm.position_order, joints, section, problems);
+  auto const torques = order_of("torque_order", arm.torque_order, joints, section, problems);
   if (!problems.empty()) throw Error(std::move(problems));
 
   std::vector<RecordingOptions> options;
   for (std::size_t j = 0; j < joints; ++j) {
-    Marks const marks = marks_of(j, joint_names[j]);
+    Marks const of_position = marks_of(positions[j], joint_names[positions[j]]);
+    Marks const of_torque = marks_of(torques[j], joint_names[torques[j]]);
     RecordingOptions one = arm;
-    for (auto& [channel, column] : one.columns) column = filled(column, marks);
-    one.simulated_torque = filled(one.simulated_torque, marks);
-    one.torque_per_unit = {factors[factors.size() == 1 ? 0 : j]};
+    for (auto& [channel, column] : one.columns) column = filled(column, channel == "torque" ? of_torque : of_position);
+    one.simulated_torque = filled(one.simulated_torque, of_torque);
+    double const sign = of_joint(arm.joint_sign, j);
+    one.position_per_unit *= sign;
+    one.velocity_per_unit *= sign;
+    one.torque_per_unit = {sign * of_joint(arm.torque_per_unit, j)};
+    one.delay_s = {of_joint(arm.delay_s, j)};
+    one.zero = {of_joint(arm.zero, j)};
+    one.joint_sign = {1.0};
     options.push_back(std::move(one));
   }
   return options;

@@ -52,6 +52,8 @@ enum class FindingKind {
   position_factor,  // size: the factor; detail: the unit, empty for a gear; errors before and after
   // motion
   other_joints_move,  // detail: their columns
+  arm_setup,          // detail: what is wrong with columns or robot file; line_to_write: what mends it
+  beyond_limits,      // size: share of the samples; detail: the limits
   standstill,         // size: the whole range of the motion, SI
   stretch_left_out,   // size: s, by the job or by missing values
   reader_remark,      // detail: what the reader of the file did
@@ -72,6 +74,7 @@ struct Finding {
   std::vector<std::int64_t> lines{};  // the first few
   double size = 0.0;
   std::string detail{};
+  std::string line_to_write{};                   // of the job
   double error_before = 0.0, error_after = 0.0;  // relative, of what a factor makes smaller
   double written = 1.0;                          // the factor that the job has already
 };

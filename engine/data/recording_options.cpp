@@ -32,8 +32,16 @@ OptionTable<RecordingOptions> const& RecordingOptions::table() {
         "stretches nobody should look at: [[from, until], ...] in s on the recording's own clock"},
        {"rate_hz", &Options::rate_hz, "Hz", 0.0, 1e7,
         "sampling rate of a file without time column; 0: columns.time is given"},
-       {"delay_s", &Options::delay_s, "s", -10.0, 10.0,
-        "added to the torque's time stamps; negative when the torque comes late"},
+       {"delay_s", &Options::delay_s,
+        "s, added to the torque's time stamps; negative when the torque comes late; of an arm one number, or one for "
+        "each joint"},
+       {"joint_sign", &Options::joint_sign,
+        "of an arm: -1 for a joint that counts the other way round than its robot file, position and torque alike; "
+        "one number for each joint"},
+       {"zero", &Options::zero, "rad or m, added to the position and the reference; of an arm one for each joint"},
+       {"position_order", &Options::position_order,
+        "of an arm: which number ({j}) the position column of each joint has: [1, 3, 2] exchanges joints 2 and 3"},
+       {"torque_order", &Options::torque_order, "the same of the torque columns"},
        {"gaps",
         &Options::gaps,
         {"error", "fill"},

@@ -30,7 +30,7 @@ struct RecordingOptions {
   std::map<std::string, std::string> encoding{};  // channel -> "unsigned16", "sign_magnitude", "plain"
   std::vector<double> leave_out{};                // s from, until, from, until, ...: on the recording's own clock
   double rate_hz = 0.0;                           // sampling rate when the file has no time column
-  double delay_s = 0.0;                           // added to the torque's time stamps
+  std::vector<double> delay_s{0.0};  // added to the torque's time stamps: of the joint, or of each of an arm
   std::string gaps = "fill";         // missing values: "error", or "fill" short ones and leave out longer ones
   std::string simulated_torque{};    // column of the user's own simulator, in N m (not scaled, not delayed)
   std::string simulated_position{};  // and of its position, from the reference, in the unit of the position column
@@ -38,6 +38,12 @@ struct RecordingOptions {
   // of an arm, kg: what its last link carries in each recording; none: nothing. First moments: three a recording
   std::vector<double> payload_kg{}, payload_first_moments_kgm{}, validate_payload_kg{};
 
+  // of an arm, of each joint or one for all: -1 turns position and torque round; added to the position, rad or m
+  std::vector<double> joint_sign{1.0}, zero{0.0};
+  // of an arm: numbers, from 1, of the joint whose column each joint has; empty: its own
+  std::vector<double> position_order{}, torque_order{};
+
+  double delay() const { return delay_s.front(); }
   double torque_factor() const { return torque_per_unit.front(); }
   double velocity_factor() const { return velocity_per_unit != 0.0 ? velocity_per_unit : position_per_unit; }
 

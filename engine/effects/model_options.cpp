@@ -17,6 +17,9 @@ OptionTable<ModelOptions> const& ModelOptions::table() {
         "of an arm: effects that every joint has beside the rigid arm, e.g. viscous, coulomb, offset"},
        {"drive_inertia", &ModelOptions::drive_inertia,
         "of an arm: the inertia of each drive, on the joint's side, is a parameter"},
+       {"gravity", &ModelOptions::gravity,
+        "of an arm: m/s^2 in the base frame of its file, in place of what the file says; [0, 0, 0] where the torque "
+        "has none of it"},
        {"drive_gains", &ModelOptions::drive_gains,
         "of an arm: the error of each torque_per_unit is a parameter; needs recording.payload_kg, and name = "
         "\"tls\""}});

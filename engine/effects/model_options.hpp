@@ -17,6 +17,7 @@ struct ModelOptions {
   std::string robot{};                  // its file, relative to the job's; "": the job is about one joint
   std::vector<std::string> friction{};  // terms of every joint beside the rigid arm
   bool drive_inertia = true;            // rotors are parameters of their own
+  std::vector<double> gravity{};        // m/s^2 in the base frame of an arm; empty: as its file says
   bool drive_gains = false;             // errors of torque_per_unit as well
 
   static OptionTable<ModelOptions> const& table();

@@ -69,6 +69,10 @@ std::string code_of(FindingKind kind) {
       return "reference_factor";
     case other_joints_move:
       return "other_joints_move";
+    case arm_setup:
+      return "arm_setup";
+    case beyond_limits:
+      return "beyond_limits";
     case standstill:
       return "standstill";
     case stretch_left_out:

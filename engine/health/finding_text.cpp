@@ -131,6 +131,10 @@ std::string what(Finding const& f) {
           "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
           "neighbours load it",
           f.detail);
+    case arm_setup:
+      return f.detail;
+    case beyond_limits:
+      return fmt::format("{:.3g} % of the samples are beyond {}", 100.0 * f.size, f.detail);
     case standstill:
       return fmt::format("the joint stands still: {} covers {:.3g} in all", column, f.size);
     case stretch_left_out:
@@ -209,6 +213,10 @@ std::string cure_of(Finding const& f) {
       return fmt::format("torque_per_unit = {:g}", f.size);
     case position_factor:
       return fmt::format("position_per_unit = {:.10g}", f.size * f.written);
+    case arm_setup:
+      return f.line_to_write;
+    case beyond_limits:
+      return "check the unit and the zero of the column, and the limits of the robot file";
     case reference_factor:
       return "log the reference in the unit of the position";
     case less_than_none:

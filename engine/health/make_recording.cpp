@@ -50,13 +50,20 @@ void check_options(RecordingOptions const& options, Section const& section) {
     problems.push_back(problem_at(section, key, fmt::format("{} = {:g} would erase the signal", key, value),
                                   "write the SI value of one unit of the column; 1 when it is in SI units already"));
   };
-  if (options.torque_per_unit.size() == 1)
-    check_unit("torque_per_unit", options.torque_factor());
-  else
-    problems.push_back(problem_at(
-        section, "torque_per_unit",
-        fmt::format("torque_per_unit has {} numbers, and the job is about one joint", options.torque_per_unit.size()),
-        "write one number; a list is for an arm: model.robot = \"ARM.toml\""));
+  auto const check_single = [&](char const* key, std::vector<double> const& numbers) {
+    if (numbers.size() == 1) return;
+    problems.push_back(problem_at(section, key,
+                                  fmt::format("{} has {} numbers, and the job is about one joint", key, numbers.size()),
+                                  "write one number; a list is for an arm: model.robot = \"ARM.toml\""));
+  };
+  check_single("torque_per_unit", options.torque_per_unit);
+  check_single("delay_s", options.delay_s);
+  check_single("zero", options.zero);
+  if (options.torque_per_unit.size() == 1) check_unit("torque_per_unit", options.torque_factor());
+  constexpr double longest_s = 10.0;
+  if (std::any_of(options.delay_s.begin(), options.delay_s.end(), [](double s) { return std::abs(s) > longest_s; }))
+    problems.push_back(problem_at(section, "delay_s", "delay_s lies outside -10 to 10 s",
+                                  "delays of joints are milliseconds: -0.004"));
   check_unit("position_per_unit", options.position_per_unit);
   check_encoding(options, section, problems);
   bool const has_pairs = options.leave_out.size() % 2 == 0;
@@ -310,11 +317,11 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
 
   auto const sampled = rows_of_position(exam);
   auto const sampling = sampling_of(exam, sampled);
-  auto const grid = grid_times(sampling, options.delay_s);
+  auto const grid = grid_times(sampling, options.delay());
   validate(grid.size() >= fewest_rows, [&] {
     return problem_at(
         section, "delay_s",
-        fmt::format("delay_s = {:g} leaves {} of {} samples", options.delay_s, grid.size(), sampling.times.size()),
+        fmt::format("delay_s = {:g} leaves {} of {} samples", options.delay(), grid.size(), sampling.times.size()),
         "delays of joints are milliseconds: -0.004");
   });
 
@@ -337,10 +344,11 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   };
   take("position", recording.position, 0.0);
   recording.torque = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
-  take("torque", recording.torque, options.delay_s);
+  take("torque", recording.torque, options.delay());
   take("reference", recording.reference, 0.0);
   take("velocity", recording.velocity, 0.0);
   take("acceleration", recording.acceleration, 0.0);
+  for (auto* positions : {&recording.position, &recording.reference}) positions->array() += options.zero.front();
   take("simulated_torque", recording.simulated_torque, 0.0);
   take("simulated_position", recording.simulated_position, 0.0);
   take("added_command", recording.added_command, 0.0);

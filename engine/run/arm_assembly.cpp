@@ -1,5 +1,7 @@
 #include "engine/run/arm_assembly.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,6 +30,7 @@
 namespace torquescope {
 namespace {
 
+using Eigen::Index;
 using Joints = std::vector<Recording>;  // of one arm recording
 using Files = std::vector<RecordedArm>;
 
@@ -131,7 +134,8 @@ void choose_filter(Experiment::Parts& parts, Files const& train, Files const& un
 
 // one recording of the arm: its rows, and into `set` what is to be said about it; into `track`, if there is one, what
 // its instruments are made from
-RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track) {
+RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& parts, DataSet& set, ArmTrack* track,
+                               ArmSamples* samples) {
   auto& joints = file.joints;
   Section const filter = section_or_empty(parts.job, "filter");
   auto const& model = parts.arm->model;
@@ -158,6 +162,8 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
     moves.push_back(moving_samples(motion.back().dq, motion.back().rate_hz, parallel_cutoff_of(parts.filter)));
   }
   if (track != nullptr) track->moves = moves;
+  constexpr Index most_samples = 1200;
+  if (samples != nullptr && !file.payload) samples->add(motion, moves, most_samples);
   whole.findings = joined_findings(whole.findings);
   auto rows = make_recorded_rows(whole.name, motion, moves, parts.filter, model, filter, file.payload);
   set.recordings.push_back(std::move(whole));
@@ -165,11 +171,11 @@ RecordedRows prepare_recording(RecordedArm&& file, Experiment::Parts const& part
 }
 
 std::vector<RecordedRows> prepare_files(Files&& files, Experiment::Parts const& parts, DataSet& set,
-                                        std::vector<ArmTrack>* tracks = nullptr) {
+                                        std::vector<ArmTrack>* tracks = nullptr, ArmSamples* samples = nullptr) {
   std::vector<RecordedRows> rows;
   for (auto& file : files) {
     ArmTrack* const track = tracks != nullptr ? &tracks->emplace_back() : nullptr;
-    rows.push_back(prepare_recording(std::move(file), parts, set, track));
+    rows.push_back(prepare_recording(std::move(file), parts, set, track, samples));
   }
   return rows;
 }
@@ -204,7 +210,9 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
   std::vector<ArmTrack> tracks;
   bool const is_instrumental = instrumental_section(parts) != nullptr;
   if (is_instrumental) require_references(parts, train);
-  auto const rows = prepare_files(std::move(train), parts, parts.train, is_instrumental ? &tracks : nullptr);
+  ArmSamples samples;
+  auto const rows = prepare_files(std::move(train), parts, parts.train, is_instrumental ? &tracks : nullptr, &samples);
+  parts.arm->samples = std::move(samples);
   parts.arm->grams = filtered_grams(rows, parts.arm->model);
   parts.arm->noise = noise_levels(parts.arm->grams, static_cast<Eigen::Index>(parts.parameters()));
   stack(rows, parts, parts.train);
@@ -221,6 +229,14 @@ void use_recordings(Experiment::Parts& parts, Files&& train, Files&& unseen) {
 
 ArmParts read_arm(Job const& job, ModelOptions const& options, std::vector<Payload> const& payloads) {
   SerialChain chain = read_robot(job.resolve(options.robot));
+  if (!options.gravity.empty()) {
+    validate(options.gravity.size() == 3, [&] {
+      return problem_at(section_or_empty(job, "model"), "gravity",
+                        fmt::format("gravity has {} numbers, not 3", options.gravity.size()),
+                        "write x, y and z in the base frame: gravity = [0, 0, -9.81]");
+    });
+    chain.gravity = chain.base.rotation.transpose() * Eigen::Vector3d::Map(options.gravity.data());
+  }
   ArmTerms terms{options.friction};
   read_joint_friction(job, chain.joints.size(), terms);
   terms.drives = options.drive_inertia ? DriveInertias::included : DriveInertias::left_out;

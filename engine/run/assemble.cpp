@@ -24,6 +24,7 @@
 #include "engine/run/sample_range.hpp"
 #include "engine/run/search_box.hpp"
 #include "engine/run/servo_rollouts.hpp"
+#include "engine/run/setup_findings.hpp"
 #include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/start_point.hpp"
@@ -420,6 +421,8 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     // what is missing may bend an inertia below nothing: a diagnosis asks what it is
     if (is_arm && purpose == Purpose::diagnose)
       for (auto& finding : found) finding.grade = std::min(finding.grade, Grade::warning);
+    if (is_arm)
+      for (auto& finding : setup_findings(*parts, recording)) found.push_back(std::move(finding));
     auto& findings = parts->train.recordings.front().findings;
     findings.insert(findings.end(), found.begin(), found.end());
     if (channels == Channels::taken && !parts->output.samples) parts->train.regression.forget_motion();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/arms/arm_setup.hpp"
 #include "engine/data/excitation.hpp"
 #include "engine/data/motion.hpp"
 #include "engine/data/recording.hpp"
@@ -52,6 +53,7 @@ struct ArmParts {
   std::string sha256;                 // of the chain that was read from it
   std::vector<FilteredGram> grams{};  // of the training rows
   NoiseLevels noise{};                // of the joints
+  ArmSamples samples{};               // of training recordings without a payload, for their set-up
   // of a diagnosis
   bool keeps_channels = false;
   std::vector<RecordedArm> train{}, validate{};

@@ -1,0 +1,216 @@
+#include "engine/arms/setup_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+
+constexpr double right_angle = 0.5 * std::numbers::pi;
+
+// a change and what it gives
+struct Trial {
+  SetupChange change;
+  SetupFit fit;
+  bool is_told_by_file = false;
+};
+
+class Search {
+ public:
+  Search(ArmSamples const& samples, SerialChain const& chain, SetupNumbers const& numbers)
+      : samples_(samples),
+        numbers_(numbers),
+        setup_(setup_as_read(chain)),
+        base_(of(chain)),
+        fit_(fit(setup_, base_)) {}
+
+  SetupSearch run() {
+    SetupSearch search;
+    while (search.steps.size() < numbers_.most_changes && is_in_question()) {
+      auto const best = best_change();
+      // a tilt is physics of the base, told by others
+      if (!best || is_small_tilt(best->change)) break;
+      auto const error = best->is_told_by_file ? &SetupFit::file_error : &SetupFit::error;
+      search.steps.push_back({best->change, best->is_told_by_file, fit_.*error, best->fit.*error});
+      setup_ = changed(std::move(setup_), best->change);
+      base_ = of(setup_.chain);
+      fit_ = best->fit;
+    }
+    search.fit = std::move(fit_);
+    search.setup = std::move(setup_);
+    return search;
+  }
+
+ private:
+  bool is_in_question() const {
+    bool const by_file = fit_.file_error.size() > 0 && fit_.file_error.maxCoeff() > numbers_.file_slack;
+    return by_file || fit_.error.maxCoeff() > numbers_.least_error;
+  }
+
+  static BaseParameters of(SerialChain const& chain) { return {chain, DriveInertias::included}; }
+
+  SetupFit fit(ArmSetup const& setup, BaseParameters const& base) const { return fit_of(samples_, setup, base); }
+
+  static bool is_of_chain(SetupKind kind) {
+    return kind == SetupKind::dh_convention || kind == SetupKind::gravity || kind == SetupKind::no_gravity;
+  }
+  static bool is_small_tilt(SetupChange const& change) {
+    return change.kind == SetupKind::gravity && std::abs(std::remainder(change.number, right_angle)) > 1e-6;
+  }
+
+  Trial tried(SetupChange change) const {
+    ArmSetup const other = changed(setup_, change);
+    return {change, is_of_chain(change.kind) ? fit(other, of(other.chain)) : fit(other, base_)};
+  }
+
+  // the factor follows from the other joints, whom the same links load, or from the robot file
+  void add_factors(std::vector<Trial>& all) const {
+    auto const n = samples_.q.cols();
+    auto const add = [&](Index joint, double factor) {
+      bool const is_a_unit = std::abs(std::log(std::abs(factor))) > std::log(numbers_.least_factor);
+      if (std::isfinite(factor) && is_a_unit) all.push_back(tried({SetupKind::torque_factor, joint, -1, factor}));
+    };
+    bool const has_gears = std::any_of(setup_.chain.joints.begin(), setup_.chain.joints.end(),
+                                       [](ChainJoint const& joint) { return joint.gear_ratio != 1.0; });
+    if (has_gears) all.push_back(tried({SetupKind::motor_side}));
+    for (Index j = 0; j < n && n > 1; ++j) add(j, fit_of(samples_, setup_, base_, j).scale);
+    if (fit_.file_scale.size() == 0) return;
+    for (Index j = 0; j < n && n > 1; ++j) add(j, fit_.file_scale[j]);
+    std::vector<double> sizes(fit_.file_scale.data(), fit_.file_scale.data() + n);
+    auto const middle = sizes.begin() + n / 2;
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    add(-1, *middle);
+  }
+
+  // of two zeros: by the recording, and by the file where that does not tell
+  bool better(SetupFit const& one, SetupFit const& other) const {
+    return one.score + one.file_score < other.score + other.file_score;
+  }
+
+  // about a zero that helps, by thirds: the error has one minimum within a few degrees
+  Trial refined_zero(Trial start) const {
+    double width = 0.5 * std::min(std::abs(start.change.number), right_angle / 6.0);
+    for (int k = 0; k < 8; ++k) {
+      Trial next = start;
+      for (double const side : {-1.0, 1.0}) {
+        SetupChange change = start.change;
+        change.number += side * width;
+        Trial trial = tried(change);
+        if (better(trial.fit, next.fit)) next = std::move(trial);
+      }
+      start = std::move(next);
+      width *= 0.5;
+    }
+    return start;
+  }
+
+  // single changes that need no number of their own, the plainer first
+  std::vector<SetupChange> plain_changes() const {
+    using enum SetupKind;
+    auto const n = samples_.q.cols();
+    std::vector<SetupChange> changes;
+    for (SetupKind const kind : {joint_sign, torque_sign, position_sign})
+      for (Index j = 0; j < n; ++j) changes.push_back({kind, j});
+    for (SetupKind const kind : {joints_exchanged, positions_exchanged, torques_exchanged})
+      for (Index j = 0; j < n; ++j)
+        for (Index i = j + 1; i < n; ++i) changes.push_back({kind, j, i});
+    changes.push_back({dh_convention});
+    changes.push_back({no_gravity});
+    constexpr double degree = std::numbers::pi / 180.0;
+    for (double const factor : {degree, 1.0 / degree, 1e-3})
+      for (Index j = n == 1 ? 0 : -1; j < n; ++j) changes.push_back({position_factor, j, -1, factor});
+    for (double const turn : {right_angle, -right_angle, 2.0 * right_angle})
+      for (Index axis = 0; axis < 2; ++axis) changes.push_back({gravity, axis, -1, turn});
+    for (double const turn : {right_angle, -right_angle, 2.0 * right_angle})
+      for (Index j = 0; j < n; ++j)
+        if (turns(j)) changes.push_back({zero, j, -1, turn});
+    return changes;
+  }
+
+  bool turns(Index joint) const {
+    return setup_.chain.joints[static_cast<std::size_t>(joint)].kind == JointKind::revolute;
+  }
+
+  // one joint's error falls by half, and no other's rises
+  bool mends(Eigen::VectorXd const& before, Eigen::VectorXd const& after, double least_error) const {
+    bool halves = false;
+    for (Index j = 0; j < after.size(); ++j) {
+      double const was = std::max(before[j], SetupFit::floor), is = std::max(after[j], SetupFit::floor);
+      if (is > numbers_.worse * was) return false;
+      halves = halves || (was > least_error && is < numbers_.halves * was);
+    }
+    return halves;
+  }
+
+  std::vector<Trial> trials() const {
+    std::vector<Trial> all;
+    for (auto const& change : plain_changes()) all.push_back(tried(change));
+    auto const n = samples_.q.cols();
+    add_factors(all);
+    constexpr double tenth = 0.1;
+    for (Index axis = 0; axis < 2; ++axis)
+      for (double const tilt : {tenth, -tenth, 3.0 * tenth, -3.0 * tenth})
+        all.push_back(tried({SetupKind::gravity, axis, -1, tilt}));
+    for (Index j = 0; j < n; ++j) {
+      if (!turns(j)) continue;
+      Trial best{{SetupKind::zero, j, -1, 0.0}, fit_};
+      for (double const zero : {0.1, 0.25, 0.5, 0.8})
+        for (double const side : {-1.0, 1.0}) {
+          Trial trial = tried({SetupKind::zero, j, -1, side * zero});
+          if (better(trial.fit, best.fit)) best = std::move(trial);
+        }
+      if (best.change.number != 0.0) all.push_back(refined_zero(std::move(best)));
+    }
+    return all;
+  }
+
+  // Inertias of a file are seldom right to a tenth: either it was far off, or it comes as close as the fit itself
+  bool is_told_by_file(SetupFit const& after) const {
+    if (fit_.file_error.size() == 0 || after.file_error.size() == 0) return false;
+    if (mends(fit_.file_error, after.file_error, numbers_.least_file_error)) return true;
+    auto const nearly_fits = (after.file_error.array() <= 1.5 * after.error.array() + numbers_.file_slack).all();
+    return nearly_fits && mends(fit_.file_error, after.file_error, numbers_.file_slack);
+  }
+
+  // the best by this score, the plainer of those that are as good
+  std::optional<Trial> best_of(std::vector<Trial> const& all, double SetupFit::*score) const {
+    if (all.empty()) return {};
+    double lowest = all.front().fit.*score;
+    for (auto const& one : all) lowest = std::min(lowest, one.fit.*score);
+    double const as_good = lowest + numbers_.alike * static_cast<double>(samples_.q.cols());
+    return *std::find_if(all.begin(), all.end(), [&](Trial const& one) { return one.fit.*score <= as_good; });
+  }
+
+  // what the recording says by itself, then what the robot file says where no fit gets worse by it
+  std::optional<Trial> best_change() const {
+    std::vector<Trial> const all = trials();
+    std::vector<Trial> fitting, of_file;
+    for (auto const& one : all) {
+      if (mends(fit_.error, one.fit.error, numbers_.least_error)) fitting.push_back(one);
+      bool const is_as_good =
+          (one.fit.error.array().max(SetupFit::floor) <= numbers_.worse * fit_.error.array().max(SetupFit::floor))
+              .all();
+      if (is_as_good && is_told_by_file(one.fit)) of_file.push_back({one.change, one.fit, true});
+    }
+    auto const by_fit = best_of(fitting, &SetupFit::score);
+    return by_fit ? by_fit : best_of(of_file, &SetupFit::file_score);
+  }
+
+  ArmSamples const& samples_;
+  SetupNumbers const numbers_;
+  ArmSetup setup_;
+  BaseParameters base_;
+  SetupFit fit_;
+};
+
+}  // namespace
+
+SetupSearch search_setup(ArmSamples const& samples, SerialChain const& chain, SetupNumbers const& numbers) {
+  return Search(samples, chain, numbers).run();
+}
+
+}  // namespace torquescope

@@ -1,0 +1,43 @@
+#pragma once
+// What may be wrong with an arm's set-up: signs, exchanged columns, zeros, units, the convention of its file, gravity's
+// direction. Asked before any physics, because a wrong set-up looks like all of it.
+//
+// How        every single change is fitted by products alone (setup_fit.hpp); the best one is taken where it halves the
+//            held-out error of a joint and makes no other worse; then the next, beside it, up to three
+// Not told   what the motion cannot tell: a vertical first joint has no zero; the last links of most arms no sign. A
+//            change that only gives other parameters their values changes no error
+// Units      SI
+// Threads    pure function
+
+#include <vector>
+
+#include "engine/arms/setup_fit.hpp"
+
+namespace torquescope {
+
+struct SetupNumbers {
+  double halves = 0.5;            // of the held-out error of at least one joint
+  double worse = 1.15;            // of that of any other
+  double alike = 0.05;            // a joint's logarithm of the error: the simpler of two changes is taken
+  double least_error = 0.05;      // a joint that is fitted as well as this has no reason to be asked
+  double least_file_error = 0.3;  // the same of the robot file's inertias, which are seldom better
+  double file_slack = 0.02;       // a file that is as close to the fit's own error is right
+  double least_factor = 1.5;      // of a torque: smaller ones are gains of drives, not units
+  std::size_t most_changes = 3;
+};
+
+struct SetupStep {
+  SetupChange change;
+  bool is_told_by_file = false;
+  Eigen::VectorXd before, after;  // [N] errors of the fit on held-out blocks, or of the robot file's inertias
+};
+
+struct SetupSearch {
+  std::vector<SetupStep> steps;  // empty: nothing is wrong that a change would mend
+  SetupFit fit;                  // of the set-up with all steps
+  ArmSetup setup;
+};
+
+SetupSearch search_setup(ArmSamples const& samples, SerialChain const& chain, SetupNumbers const& numbers = {});
+
+}  // namespace torquescope

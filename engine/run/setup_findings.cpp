@@ -1,0 +1,177 @@
+#include "engine/run/setup_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/arms/setup_search.hpp"
+#include "engine/data/arm_recording.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// "12 to 1.7 %" of the joint that gains most
+std::string gain_words(VectorXd const& before, VectorXd const& after, std::vector<std::string> const& names) {
+  Index most = 0;
+  (before.array() / after.array().max(SetupFit::floor)).maxCoeff(&most);
+  return fmt::format("{} {:.3g} to {:.2g} %", joint_title(static_cast<std::size_t>(most), names), 100.0 * before[most],
+                     100.0 * after[most]);
+}
+
+std::string what(SetupChange const& change, std::vector<std::string> const& names) {
+  auto const title = [&](Index joint) { return joint_title(static_cast<std::size_t>(joint), names); };
+  std::string const joint = change.joint >= 0 ? title(change.joint) : "all joints";
+  std::string const other = change.other >= 0 ? title(change.other) : "";
+  switch (change.kind) {
+    case SetupKind::joint_sign:
+      return fmt::format("{} counts the other way round than the robot file, position and torque alike", joint);
+    case SetupKind::torque_sign:
+      return fmt::format("the torque of {} has the other sign", joint);
+    case SetupKind::position_sign:
+      return fmt::format("the position of {} has the other sign", joint);
+    case SetupKind::joints_exchanged:
+      return fmt::format("the columns of {} and {} are exchanged", joint, other);
+    case SetupKind::positions_exchanged:
+      return fmt::format("the positions of {} and {} are exchanged", joint, other);
+    case SetupKind::torques_exchanged:
+      return fmt::format("the torques of {} and {} are exchanged", joint, other);
+    case SetupKind::dh_convention:
+      return "the Denavit-Hartenberg numbers of the robot file are of the other convention";
+    case SetupKind::gravity:
+      return "gravity points another way than the robot file says";
+    case SetupKind::no_gravity:
+      return "gravity is not in this torque, though the robot file has masses: something took it away";
+    case SetupKind::motor_side:
+      return "the torques are those of the motors, before the gears of the robot file";
+    case SetupKind::position_factor:
+      return fmt::format("the position of {} is in another unit: times {:.4g}", joint, change.number);
+    case SetupKind::torque_factor:
+      return fmt::format("the torque of {} is {:.3g} times too {}", joint,
+                         std::abs(change.number) > 1.0 ? std::abs(change.number) : 1.0 / std::abs(change.number),
+                         std::abs(change.number) > 1.0 ? "small" : "large") +
+             (change.number < 0.0 ? " and has the other sign" : "");
+    case SetupKind::zero:
+      break;
+  }
+  return fmt::format("the zero of {} lies {:.3g} rad beside that of the robot file", joint, -change.number);
+}
+
+std::string list_of(VectorXd const& numbers) {
+  std::vector<std::string> texts;
+  for (double const number : numbers) texts.push_back(fmt::format("{:.4g}", number == 0.0 ? 0.0 : number));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+// numbers of the job, one for each joint
+VectorXd of_joints(std::vector<double> const& numbers, Index joints) {
+  if (numbers.size() == 1) return VectorXd::Constant(joints, numbers.front());
+  return VectorXd::Map(numbers.data(), joints);
+}
+
+// number of the joint, from 1, whose column each joint is given
+VectorXd order_of(std::vector<double> const& written, std::vector<Index> const& taken) {
+  VectorXd order(static_cast<Index>(taken.size()));
+  for (std::size_t j = 0; j < taken.size(); ++j) {
+    auto const from = static_cast<std::size_t>(taken[j]);
+    order[static_cast<Index>(j)] = written.empty() ? static_cast<double>(from + 1) : written[from];
+  }
+  return order;
+}
+
+// what the job is to say so that its columns are taken as in this set-up; keys that do not change are left out
+std::string lines_of(ArmSetup const& setup, SerialChain const& chain, RecordingOptions const& options) {
+  Index const n = chain.size();
+  ArmSetup const as_read = setup_as_read(chain);
+  VectorXd const signs = of_joints(options.joint_sign, n), zeros = of_joints(options.zero, n),
+                 torques = of_joints(options.torque_per_unit, n);
+  VectorXd sign(n), zero(n), torque(n);
+  for (Index j = 0; j < n; ++j) {
+    Index const p = setup.position_of[static_cast<std::size_t>(j)], t = setup.torque_of[static_cast<std::size_t>(j)];
+    sign[j] = setup.position_factor[j] < 0.0 ? -signs[p] : signs[p];
+    zero[j] = setup.position_factor[j] * zeros[p] + setup.zero[j];
+    torque[j] = setup.torque_factor[j] * signs[t] * torques[t] * sign[j];
+  }
+  std::vector<std::string> lines;
+  if (setup.position_of != as_read.position_of)
+    lines.push_back("position_order = " + list_of(order_of(options.position_order, setup.position_of)));
+  if (setup.torque_of != as_read.torque_of)
+    lines.push_back("torque_order = " + list_of(order_of(options.torque_order, setup.torque_of)));
+  if (sign != signs) lines.push_back("joint_sign = " + list_of(sign));
+  if (zero != zeros) lines.push_back("zero = " + list_of(zero));
+  if (torque != torques) lines.push_back("torque_per_unit = " + list_of(torque));
+  VectorXd const units = setup.position_factor.cwiseAbs();
+  if (units.minCoeff() != 1.0 || units.maxCoeff() != 1.0)
+    lines.push_back(units.minCoeff() == units.maxCoeff()
+                        ? fmt::format("position_per_unit = {:.10g}", units[0] * options.position_per_unit)
+                        : "bring all position columns into one unit");
+  if (setup.chain.gravity != chain.gravity) {
+    Eigen::Vector3d const gravity = setup.chain.base.rotation * setup.chain.gravity;
+    lines.push_back("[model] gravity = " + list_of((gravity.array().abs() < 1e-9).select(0.0, gravity)));
+  }
+  bool const is_other_convention = setup.chain.joints.front().a != chain.joints.front().a ||
+                                   setup.chain.joints.back().alpha != chain.joints.back().alpha ||
+                                   setup.chain.joints.front().alpha != chain.joints.front().alpha;
+  if (is_other_convention)
+    lines.push_back("[robot] convention = \"standard_dh\" or \"modified_dh\", in the robot file");
+  return fmt::format("{}", fmt::join(lines, "   "));
+}
+
+Finding finding_of(Experiment::Parts const& parts, FindingKind kind) {
+  Finding finding{kind, Grade::warning};
+  finding.recording = parts.train.recordings.front().name;
+  return finding;
+}
+
+// samples beyond the positions and speeds that the robot file allows
+void add_limits(Experiment::Parts const& parts, std::vector<Finding>& findings) {
+  constexpr double slack = 0.05, few = 0.01;
+  auto const& samples = parts.arm->samples;
+  auto const& chain = parts.arm->model.chain();
+  auto const names = parts.arm->model.joint_names();
+  for (Index j = 0; j < chain.size(); ++j) {
+    ChainJoint const& joint = chain.joints[static_cast<std::size_t>(j)];
+    auto const q = samples.q.col(j).array(), dq = samples.dq.col(j).array();
+    double const room = std::isfinite(joint.upper - joint.lower) ? slack * (joint.upper - joint.lower) : 0.0;
+    double const beyond = (q < joint.lower - room || q > joint.upper + room).cast<double>().mean();
+    double const too_fast = (dq.abs() > (1.0 + slack) * joint.max_speed).cast<double>().mean();
+    if (std::max(beyond, too_fast) < few) continue;
+    Finding finding = finding_of(parts, FindingKind::beyond_limits);
+    finding.joint = joint_title(static_cast<std::size_t>(j), names);
+    finding.size = std::max(beyond, too_fast);
+    finding.detail = beyond >= too_fast
+                         ? fmt::format("the limits of the robot file, {:.4g} to {:.4g}", joint.lower, joint.upper)
+                         : fmt::format("the greatest speed in the robot file, {:.4g}", joint.max_speed);
+    findings.push_back(std::move(finding));
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
+  std::vector<Finding> findings;
+  auto const& arm = *parts.arm;
+  constexpr Index fewest = 200;
+  if (arm.samples.size() < fewest) return findings;
+  add_limits(parts, findings);
+  SetupSearch const found = search_setup(arm.samples, arm.model.chain());
+  if (found.steps.empty()) return findings;
+  Finding finding = finding_of(parts, FindingKind::arm_setup);
+  auto const names = arm.model.joint_names();
+  for (auto const& step : found.steps) {
+    if (!finding.detail.empty()) finding.detail += "; and ";
+    finding.detail += what(step.change, names);
+    finding.detail +=
+        step.is_told_by_file ? " (error of the robot file's own masses: " : " (error on held-out blocks: ";
+    finding.detail += gain_words(step.before, step.after, names) + ")";
+    if (!step.is_told_by_file) finding.grade = Grade::fault;
+    ++finding.count;
+  }
+  finding.line_to_write = lines_of(found.setup, arm.model.chain(), options);
+  findings.push_back(std::move(finding));
+  return findings;
+}
+
+}  // namespace torquescope

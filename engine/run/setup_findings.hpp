@@ -1,0 +1,19 @@
+#pragma once
+// What a recording of an arm says of its own set-up, before any physics: signs, order, zeros, units, gravity, limits.
+//
+// Grade      a fault where the change alone halves what the fit leaves: numbers and verdicts would be wrong. A warning
+//            where the robot file alone tells it, and where positions lie beyond its limits
+// Line       in line_to_write: keys of [recording] and [model] with all numbers of the arm, ready to be pasted
+// Threads    free function
+// Source     arms/setup_search.hpp
+
+#include <vector>
+
+#include "engine/run/experiment_parts.hpp"
+
+namespace torquescope {
+
+// empty where the recording has a payload throughout, or the set-up is as it should be
+std::vector<Finding> setup_findings(Experiment::Parts const& parts, RecordingOptions const& options);
+
+}  // namespace torquescope
