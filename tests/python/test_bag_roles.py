@@ -148,6 +148,13 @@ class TheReference(unittest.TestCase):
         self.assertEqual(found.moved, {})
         self.assertIn("does not follow", "\n".join(found.lines))
 
+    def test_is_not_the_position_once_more(self):
+        arm = Arm()
+        found = roles(arm.states(), topic("/arm/state", CONTROLLER, {f"{joint}/desired.positions": arm.position[joint]
+                                                                     for joint in JOINTS}))
+        self.assertEqual(found.moved, {})
+        self.assertIn("it is the measured position once more", "\n".join(found.lines))
+
     def test_is_offered_where_nothing_calls_it_a_command(self):
         arm = Arm()
         leader = topic("/leader", FLOATS, {f"data[{k}]": arm.command[joint] for k, joint in enumerate(JOINTS)})
