@@ -115,12 +115,13 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   ColumnGuess guess;
   guess.joints = joints.size();
   guess.joint = joint == 0 ? 1 : joint;
-  if (guess.joint > guess.joints) return guess;
   std::vector<double> ranges;
   for (auto const& each : joints) {
     auto const position = pick(table, positions, label, each);
     ranges.push_back(position.most - position.least);
+    if (!position.column.empty()) guess.positions.push_back(position.column);
   }
+  if (guess.joint > guess.joints) return guess;
   constexpr double hardly = 0.05;
   auto const largest = std::max_element(ranges.begin(), ranges.end());
   auto const moves = [&](double range) { return range > hardly * *largest; };

@@ -32,8 +32,9 @@ struct ChannelGuess {
 struct ColumnGuess {
   ChannelGuess position, torque, reference, velocity, enabled;
   std::size_t joint = 1, joints = 1;
-  std::size_t moving_joints = 1;     // of them: over a twentieth of the largest range, and more
-  std::size_t joint_that_moves = 1;  // `joint`, or where that hardly moves the one with the largest range
+  std::vector<std::string> positions{};  // the position column of each joint
+  std::size_t moving_joints = 1;         // of them: over a twentieth of the largest range, and more
+  std::size_t joint_that_moves = 1;      // `joint`, or where that hardly moves the one with the largest range
 };
 
 // joint: from 1; 0 for the first. One beyond the file's gives no position and no torque

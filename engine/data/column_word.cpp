@@ -46,6 +46,7 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"qdot", velocity, 100},
                              Entry{"vel", velocity, 100},
                              Entry{"velocity", velocity, 100},
+                             Entry{"velocities", velocity, 100},
                              Entry{"speed", velocity, 95},
                              Entry{"omega", velocity, 90},
                              Entry{"drehzahl", velocity, 90},
@@ -107,6 +108,7 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"feedback", measured},
                              Entry{"fb", measured},
                              Entry{"ist", measured},
+                             Entry{"state", measured},
                              Entry{"sensor", measured},
                              Entry{"error", doubtful},
                              Entry{"err", doubtful},
@@ -142,7 +144,10 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
 std::optional<ColumnWord> column_word(std::string_view word) {
   auto const found = std::find_if(column_words::entries.begin(), column_words::entries.end(),
                                   [&](auto const& e) { return e.word == word; });
-  return found == column_words::entries.end() ? std::nullopt : std::optional(ColumnWord{found->kind, found->weight});
+  if (found != column_words::entries.end()) return ColumnWord{found->kind, found->weight};
+  constexpr std::size_t shortest_plural = 5;  // "commands", as topics of ROS are called; "vels" may be anything
+  bool const is_plural = word.size() >= shortest_plural && word.ends_with('s') && !word.ends_with("ss");
+  return is_plural ? column_word(word.substr(0, word.size() - 1)) : std::nullopt;
 }
 
 }  // namespace torquescope

@@ -29,7 +29,7 @@ struct ColumnWord {
 
 inline bool is_quantity(WordKind kind) { return kind <= WordKind::drive; }
 
-// `word` in lower case; nothing when it says nothing
+// `word` in lower case, a plural as its singular; nothing when it says nothing
 std::optional<ColumnWord> column_word(std::string_view word);
 
 }  // namespace torquescope

@@ -122,4 +122,11 @@ std::string read_first_bytes(std::filesystem::path const& path, std::size_t coun
   return read_bytes(file, path, count);
 }
 
+std::string read_last_bytes(std::filesystem::path const& path, std::size_t count) {
+  OpenFile const file(open_regular(path));
+  // from the beginning where the file is shorter
+  ::lseek(file.descriptor(), -static_cast<off_t>(count), SEEK_END);
+  return read_bytes(file, path, count);
+}
+
 }  // namespace torquescope

@@ -18,5 +18,6 @@ inline constexpr std::uint64_t most_table_values = std::uint64_t{1} << 28;
 std::string read_whole_file(std::filesystem::path const& path, std::uint64_t most_bytes = largest_file_bytes);
 // fewer when the file is shorter
 std::string read_first_bytes(std::filesystem::path const& path, std::size_t count);
+std::string read_last_bytes(std::filesystem::path const& path, std::size_t count);
 
 }  // namespace torquescope

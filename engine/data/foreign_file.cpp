@@ -19,7 +19,9 @@ struct Export {
   std::string_view line{};
 };
 
-constexpr Export ros_bag{"convert it with the Python package (pip install \"torquescope[ros]\"):",
+constexpr Export ros_bag{"convert it with the Python package (in a clone of Torquescope: pip install '.[ros]'):",
+                         "python3 -m torquescope convert {2} {2}.h5"};
+constexpr Export lerobot{"convert it with the Python package (in a clone of Torquescope: pip install '.[lerobot]'):",
                          "python3 -m torquescope convert {2} {2}.h5"};
 constexpr Export parquet{"export it as CSV (pip install pandas pyarrow):",
                          "python3 -c 'import pandas; pandas.read_parquet({0}).to_csv({1})'"};
@@ -161,8 +163,10 @@ std::optional<Problem> foreign_file(std::filesystem::path const& path, std::stri
 
 std::optional<Problem> foreign_folder(std::filesystem::path const& path) {
   std::error_code unknown;
-  if (!std::filesystem::is_directory(path, unknown) || !std::filesystem::exists(path / "metadata.yaml", unknown))
-    return std::nullopt;
+  if (!std::filesystem::is_directory(path, unknown)) return std::nullopt;
+  if (std::filesystem::exists(path / "meta" / "info.json", unknown))
+    return problem_of(path, "a folder with a data set of LeRobot", lerobot);
+  if (!std::filesystem::exists(path / "metadata.yaml", unknown)) return std::nullopt;
   return problem_of(path, "a folder with a bag of ROS 2", ros_bag);
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/data/data_problem.hpp"
+#include "engine/data/packed_size.hpp"
 #include "engine/data/text_encoding.hpp"
 
 namespace torquescope {
@@ -41,8 +42,6 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string gunzip_text(std::string_view bytes, std::string const& path, std::uint64_t most_bytes) {
   constexpr std::size_t block = std::size_t{1} << 20;
-  constexpr std::size_t largest_unasked = std::size_t{64} << 20;
-  constexpr std::size_t most_times = 200;  // numbers that were measured pack to a half, a joint at rest to a fiftieth
   Inflater inflater;
   z_stream& stream = inflater.stream();
   std::string text;
@@ -65,9 +64,7 @@ std::string gunzip_text(std::string_view bytes, std::string const& path, std::ui
     if (text.size() + fresh.size() > most_bytes)
       damaged(path, fmt::format("unpacks to more than {} MiB", most_bytes >> 20),
               "cut it into several recordings: recording.train takes a list");
-    if (text.size() + fresh.size() > largest_unasked && text.size() / most_times > bytes.size())
-      damaged(path, fmt::format("unpacks to more than {} times its size, as no recording does", most_times),
-              "a bomb? if you trust it: unpack it (gunzip) and name the text in the job");
+    refuse_bomb(text.size() + fresh.size(), bytes.size(), path);
     bool const wide = looks_like_utf16(text.empty() ? fresh : std::string_view(text));
     if (!wide && fresh.find('\0') != std::string_view::npos)
       damaged(path, "is gzip, but what it holds is not text", "unpack .mat and .h5 files first (gunzip)");

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/data/data_problem.hpp"
 #include "engine/data/delimited_text.hpp"
+#include "engine/data/packed_size.hpp"
 
 namespace torquescope {
 namespace {
@@ -118,6 +119,7 @@ std::string ZipArchive::inflate_raw(std::string_view packed, ZipMember const& me
   constexpr std::uint64_t best_compression = 1032;
   if (member.bytes > best_compression * packed.size() + block)
     damaged(fmt::format("claims more in \"{}\" than its bytes can hold", shown(member.name)));
+  refuse_bomb(member.bytes, bytes_.size(), path_);
   RawInflater inflater;
   z_stream& stream = inflater.stream();
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // zlib does not write there

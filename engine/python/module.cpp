@@ -27,6 +27,7 @@
 #include "engine/python/work.hpp"
 #include "engine/run/catalogue.hpp"
 #include "engine/run/job_draft.hpp"
+#include "engine/run/joint_choice.hpp"
 #include "engine/run/robot_description.hpp"
 #include "engine/run/workflows.hpp"
 
@@ -188,8 +189,8 @@ NB_MODULE(_engine, module) {
   module.def("columns_of_file", &columns_of_file, "path"_a, "Columns of numbers of a recording, by name.");
   module.def(
       "draft_job",
-      [](std::filesystem::path const& path, std::size_t joint) {
-        JobDraft const draft = draft_job({path}, "job.toml", joint);
+      [](std::filesystem::path const& path, std::string const& joint) {
+        JobDraft const draft = draft_job({path}, "job.toml", joint_number(path, joint));
         return std::make_tuple(draft.text, draft.guesses, draft.warnings);
       },
       "path"_a, "joint"_a, "(text, guesses, warnings) of what `torquescope init` says of a recording.");

@@ -13,6 +13,7 @@
 #include "engine/run/draft_text.hpp"
 #include "engine/run/foreign_file.hpp"
 #include "engine/run/gravity_evidence.hpp"
+#include "engine/run/joint_choice.hpp"
 #include "engine/run/recording_draft.hpp"
 #include "engine/run/recording_guess.hpp"
 #include "engine/run/servo_draft.hpp"
@@ -59,6 +60,8 @@ class JobDrafter {
       text_.comment(
           "Many recordings of one servo under several loads and gains: torquescope init --servo FILES drafts "
           "that kind of job.");
+    if (train_.columns.joints > 1)
+      text_.comment("All joints of an arm together: torquescope init --robot ARM.urdf FILES drafts that kind of job.");
   }
 
   double seconds_of_shortest() const {
@@ -188,6 +191,12 @@ void check_draft(JobDraft& draft, RecordingGuess const& train, std::filesystem::
   }
 }
 
+std::vector<std::string> names_of_joints(std::vector<std::string> const& positions) {
+  std::vector<std::string> names;
+  for (auto const& column : positions) names.push_back(joint_name(column));
+  return names;
+}
+
 void list_guesses(JobDraft& draft, RecordingGuess const& train) {
   auto const& columns = train.columns;
   std::vector<std::string> channels;
@@ -201,7 +210,9 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
     channels.push_back("enabled " + columns.enabled.column);
   if (!channels.empty()) draft.guesses.push_back(fmt::format("{}", fmt::join(channels, ", ")));
   if (columns.joints > 1)
-    draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another", columns.joint, columns.joints));
+    draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another, by number or name ({})",
+                                        columns.joint, columns.joints,
+                                        fmt::join(names_of_joints(columns.positions), ", ")));
 }
 
 // a manifest may lie among them; `leading`: its index
@@ -231,7 +242,7 @@ JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::fi
     problem.code = ExitCode::usage;
     problem.what = fmt::format("{} has {} joint{}, no joint {}", recordings.front().string(), train.columns.joints,
                                train.columns.joints == 1 ? "" : "s", train.columns.joint);
-    problem.help = "--joint counts from 1, in the order of the file's position columns";
+    problem.help = "--joint counts from 1, in the order of the file's position columns, or takes a name";
     return problem;
   });
   bool const servo = torque == TorqueColumn::optional || is_servo(train.columns);

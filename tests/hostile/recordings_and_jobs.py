@@ -248,6 +248,16 @@ class TextRecordings(Folder):
         self.assert_refused(outcome, 65, "unpacks to more than 200 times its size")
         self.assertIn("gunzip", outcome.said)
         self.assertLess(seconds, 10)
+        np.savez_compressed(self.path("rec.npz"), q=np.zeros(1 << 25))
+        outcome, seconds = self.check_bounded("rec.npz")
+        self.assert_refused(outcome, 65, "unpacks to more than 200 times its size")
+        self.assertLess(seconds, 10)
+        with open(self.path("rec.csv"), "wb") as file:
+            file.write(TEXT)
+            file.truncate(1 << 30)
+        outcome, seconds = self.check_bounded("rec.csv")
+        self.assert_refused(outcome, 65, "of zero bytes or more")
+        self.assertLess(seconds, 10)
         self.write("nest.csv.gz", gzip.compress(gzip.compress(TEXT)))
         self.assert_refused(self.check("nest.csv.gz"), 65, "what it holds is not text")
 

@@ -242,7 +242,7 @@ class Refused(Folder):
             (
                 "a.mcap",
                 b"\x89MCAP0\r\n" + bytes(50),
-                ["is an MCAP file", 'pip install "torquescope[ros]"', "-m torquescope convert a.mcap a.mcap.h5"],
+                ["is an MCAP file", "pip install '.[ros]'", "-m torquescope convert a.mcap a.mcap.h5"],
             ),
             ("a.bag", b"#ROSBAG V2.0\n" + bytes(50), ["is a bag of ROS 1", "convert a.bag a.bag.h5"]),
             ("ros2.db3", None, ["is a database of SQLite", "convert ros2.db3 ros2.db3.h5"]),

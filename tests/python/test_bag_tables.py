@@ -22,7 +22,8 @@ sys.path.insert(0, sys.argv.pop(1))
 from torquescope.__main__ import main  # noqa: E402
 from torquescope.ros import merge, table  # noqa: E402
 from torquescope.ros.fields import header_stamp, numbers_of  # noqa: E402
-from torquescope.ros.series import HEADER, RECEIVED, Gathering, Series, Topic  # noqa: E402
+from torquescope.ros.path import PathGathering  # noqa: E402
+from torquescope.ros.series import HEADER, HOLD, PATH, RECEIVED, Gathering, Series, Topic  # noqa: E402
 
 MS = 10**6  # ns
 BEGIN = 1768472944 * 10**9
@@ -60,6 +61,11 @@ class NumbersOfAMessage(unittest.TestCase):
         self.assertEqual(numbers, {"data": True, "twist.linear.x": 1.5, "few[0]": 0, "few[1]": 1})
         self.assertEqual(too_long, {"picture": 640})
 
+    def test_interfaces_of_joints_have_their_names(self):
+        interfaces = [message(interface_names=["position", "effort"], values=np.array([k, 10.0 * k])) for k in (1, 2)]
+        numbers, _ = numbers_of(stamped(BEGIN, joint_names=["elbow", "wrist"], interface_values=interfaces))
+        self.assertEqual(numbers, {"elbow/position": 1, "elbow/effort": 10, "wrist/position": 2, "wrist/effort": 20})
+
     def test_a_stamp_that_was_never_set_is_none(self):
         self.assertEqual(header_stamp(stamped(BEGIN + 5)), BEGIN + 5)
         self.assertIsNone(header_stamp(stamped(0)))
@@ -82,7 +88,34 @@ class ATopic(unittest.TestCase):
         series = self.gathered([30, 10, 20, 20]).series
         np.testing.assert_array_equal(series["data"].stamps, [10, 20, 30])
         np.testing.assert_array_equal(series["data"].values, [1, 2, 0])
-        self.assertTrue(series["on"].is_switch)
+        self.assertEqual(series["on"].between, HOLD)
+
+
+class APath(unittest.TestCase):
+    def series(self, *messages):
+        """messages: (stamp, {ns after it: position})."""
+        gathering = PathGathering("/plan", "trajectory_msgs/msg/JointTrajectory")
+        for stamp, points in messages:
+            listed = [message(positions=np.array([value]), time_from_start=message(sec=0, nanosec=after))
+                      for after, value in points.items()]
+            gathering.add_message(stamp, None, message(joint_names=["elbow"], points=listed))
+        return gathering.finished(False).series["elbow/position"]
+
+    def at(self, series, *stamps):
+        return list(merge.on_stamps(series, np.array(stamps)))
+
+    def test_goes_from_point_to_point_and_stays(self):
+        series = self.series((1000, {100: 0.0, 200: 1.0}))
+        self.assertEqual(series.between, PATH)
+        self.assertEqual(self.at(series, 1150, 5000), [0.5, 1.0])
+
+    def test_of_several_points_ends_what_was_planned(self):
+        series = self.series((1000, {100: 0.0, 1100: 1.0}), (1600, {100: 2.0, 200: 2.0}))
+        np.testing.assert_allclose(self.at(series, 1599, 1700), [0.499, 2.0], atol=2e-3)
+
+    def test_streams_set_points_that_hold(self):
+        series = self.series((1000, {0: 1.0}), (2000, {0: 3.0}))
+        self.assertEqual(self.at(series, 1500, 2500), [1.0, 3.0])
 
 
 class TopicsOnTheStampsOfOne(unittest.TestCase):
@@ -118,7 +151,7 @@ class TopicsOnTheStampsOfOne(unittest.TestCase):
         self.assertFalse(np.any(np.isnan(merge.on_stamps(Series(short, np.ones(95)), self.stamps))))
 
     def test_a_switch_holds(self):
-        found = merge.on_stamps(Series(self.stamps[[10, 50]], np.array([1.0, 0.0]), is_switch=True), self.stamps)
+        found = merge.on_stamps(Series(self.stamps[[10, 50]], np.array([1.0, 0.0]), HOLD), self.stamps)
         np.testing.assert_array_equal(found[10:], np.arange(10, 100) < 50)
         self.assertTrue(np.all(np.isnan(found[:10])))
 
@@ -175,7 +208,7 @@ class TheCommand(unittest.TestCase):
         with mock.patch.dict(sys.modules, {"rosbags": None}):
             code, err = self.said("convert", "run.mcap", "rec.h5")
         self.assertEqual(code, 69)
-        self.assertIn('pip install "torquescope[ros]"', err)
+        self.assertIn("pip install rosbags", err)
 
     def test_ends_as_the_program_does(self):
         self.assertEqual(self.said("convert", "run.mcap")[0], 64)

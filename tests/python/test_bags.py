@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -44,18 +45,46 @@ float64[] effort
 """
 
 
+COMMANDS, FLOATS = "/joint_group_position_controller/commands", "std_msgs/msg/Float64MultiArray"
+CONTROL, PATH = "control_msgs/msg/JointTrajectoryControllerState", "trajectory_msgs/msg/JointTrajectory"
+POINT = "trajectory_msgs/JointTrajectoryPoint"
+LEAD = 0.01  # s that a command is ahead
+JOB = """
+[experiment]
+name = "simulated"
+seed = {seed}
+[model]
+joint = "revolute"
+terms = ["inertia", "viscous", "coulomb", "offset"]
+[simulate]
+mode = "closed_loop"
+rate_hz = 500
+duration_s = 20
+plant = {{inertia = 0.09, viscous = 0.35, coulomb = 0.6, stribeck = 0.3, stribeck_speed = 0.1, stribeck_exponent = 1}}
+reference = {{kind = "multisine", max_speed = 2.0}}
+controller = {{kind = "pd", rate_hz = 500}}
+encoder = {{counts_per_revolution = 131072}}
+noise = {{torque_std = 0.02}}
+"""
+
+
 class Motion:
     """Two joints, and the torque that moves them."""
 
     def __init__(self):
         self.stamps = BEGIN + STEP * np.arange(round(SECONDS * 1e9 / STEP))
         t = self.seconds = (self.stamps - BEGIN) * 1e-9
-        self.position = np.column_stack([np.sin(2 * t) + 0.4 * np.sin(5 * t), np.cos(3 * t)])
+        self.position, self.command = (np.column_stack([np.sin(2 * s) + 0.4 * np.sin(5 * s), np.cos(3 * s)])
+                                       for s in (t, t + LEAD))
         self.velocity = np.column_stack([2 * np.cos(2 * t) + 2 * np.cos(5 * t), -3 * np.sin(3 * t)])
         self.effort = 0.3 * self.velocity + 0.5 * np.tanh(self.velocity / 0.01)
 
 
 MOTION = Motion()
+
+
+def floats(types, values):
+    return types[FLOATS](types["std_msgs/msg/MultiArrayLayout"]([], 0), np.array(values))
 
 
 class Messages:
@@ -77,6 +106,7 @@ class Messages:
             yield "/joint_states", STATE, stamp + LATE, types[STATE](
                 self.header(stamp), [JOINTS[j] for j in order], MOTION.position[k, order],
                 MOTION.velocity[k, order], MOTION.effort[k, order])
+            yield COMMANDS, FLOATS, stamp - 1000, floats(types, MOTION.command[k, ::-1])
             if k % SLOW == 0:
                 yield "/load", FLOAT, stamp, types[FLOAT](float(MOTION.seconds[k]))
                 yield "/controller/state", CONTROLLER, stamp, types[CONTROLLER](
@@ -86,8 +116,46 @@ class Messages:
                                                     np.zeros(4, dtype=np.uint8))
 
 
-def write_ros2(path, plugin):
-    messages, connections = Messages(Stores.ROS2_HUMBLE), {}
+class CommandMessages(Messages):
+    """Joint states, and their commands in one of the ways in which drivers publish them."""
+
+    def __init__(self, way, state, command, effort=True):
+        super().__init__(Stores.ROS2_HUMBLE)
+        self.way, self.state, self.command, self.effort = way, state, command, effort
+        points = {"old": ("desired", "actual", "error"), "new": ("reference", "feedback", "error", "output")}
+        if way in points:
+            text = "std_msgs/Header header\nstring[] joint_names\n" + "".join(
+                f"{POINT} {name}\n" for name in points[way])
+            self.store.register(get_types_from_msg(text, CONTROL))
+
+    def point(self, positions):
+        none = np.array([], dtype=float)
+        duration = self.store.types["builtin_interfaces/msg/Duration"](0, 0)
+        return self.store.types[POINT.replace("/", "/msg/")](np.array(positions), none, none, none, duration)
+
+    def __iter__(self):
+        types, none = self.store.types, np.array([], dtype=float)
+        for stamp, (position, effort), wanted in zip(MOTION.stamps, self.state, self.command):
+            names = JOINTS[:len(position)]
+            yield "/joint_states", STATE, stamp, types[STATE](self.header(stamp), names, position, none,
+                                                              effort if self.effort else none)
+            if not self.effort:
+                yield "/motor_currents", FLOATS, stamp, floats(types, effort)
+            if self.way == "states":
+                yield "/joint_commands", STATE, stamp, types[STATE](self.header(stamp), names, wanted, none, none)
+            elif self.way == "floats":
+                yield "/cmd", FLOATS, stamp, floats(types, wanted)
+            elif self.way == "path":
+                yield "/arm/joint_trajectory", PATH, stamp, types[PATH](self.header(0), names, [self.point(wanted)])
+            elif self.way:
+                more = [self.point(none)] if self.way == "new" else []
+                yield "/arm/state", CONTROL, stamp, types[CONTROL](
+                    self.header(stamp), names, self.point(wanted), self.point(position), self.point(wanted - position),
+                    *more)
+
+
+def write_ros2(path, plugin, messages=None):
+    messages, connections = messages or Messages(Stores.ROS2_HUMBLE), {}
     with rosbag2.Writer(path, version=9, storage_plugin=plugin) as writer:
         for topic, kind, stamp, message in messages:
             if topic not in connections:
@@ -170,8 +238,20 @@ class EveryBag(Folder):
             np.testing.assert_array_equal(file["controller/state/wrist/desired.positions"][::SLOW],
                                           MOTION.position[::SLOW, 1])
             self.assertNotIn("camera", file)
-        self.assertIn("/camera: sensor_msgs/msg/Image holds bytes", told.left_out)
-        self.assertIn("the header stamps of /joint_states, all other topics are interpolated onto them", str(told))
+        self.assertIn("/camera: sensor_msgs/msg/Image holds bytes (1 message)", told.left_out)
+        self.assertIn("the header stamps of /joint_states, all other topics are put onto them", str(told))
+
+    def test_has_the_commands_beside_the_joints_that_follow_them(self):
+        for bag in self.bags:
+            with self.subTest(bag=bag.name):
+                told, file = self.table(bag)
+                with file:
+                    for j, joint in enumerate(JOINTS):
+                        np.testing.assert_array_equal(file[f"joint_states/{joint}/reference_position"][:],
+                                                      MOTION.command[:, j])
+                    self.assertEqual(file["joint_states/elbow/reference_position"].attrs["long_name"],
+                                     f"data[1] of {COMMANDS}, {FLOATS}")
+                self.assertIn(f"reference of elbow: data[1] of {COMMANDS}", str(told))
 
     def test_takes_one_clock_where_it_is_asked_to(self):
         told, file = self.table(self.bags[0], receive_time=True)
@@ -182,11 +262,13 @@ class EveryBag(Folder):
     def test_is_read_by_the_program(self):
         for ending in ("h5", "csv"):
             out = self.folder / f"read.{ending}"
-            convert(self.bags[0], out, topics=["joint_states"])
+            out.unlink(missing_ok=True)
+            convert(self.bags[0], out)
             drafted = subprocess.run([PROGRAM, "init", out.name], cwd=self.folder, capture_output=True, text=True)
             self.assertEqual(drafted.returncode, 0, drafted.stderr)
             for line in ('time = "t_s"', 'position = "joint_states/elbow/position"',
-                         'torque = "joint_states/elbow/effort"'):
+                         'torque = "joint_states/elbow/effort"',
+                         'reference = "joint_states/elbow/reference_position"'):
                 self.assertIn(line, drafted.stdout)
             (self.folder / "job.toml").write_text(drafted.stdout)
             checked = subprocess.run([PROGRAM, "check", "job.toml"], cwd=self.folder, capture_output=True, text=True)
@@ -197,6 +279,67 @@ class EveryBag(Folder):
             done = subprocess.run([PROGRAM, "init", str(bag)], capture_output=True, text=True)
             self.assertEqual(done.returncode, 65, done.stderr)
             self.assertIn(f"python3 -m torquescope convert {bag} {bag}.h5", done.stderr)
+
+
+class Commands(unittest.TestCase):
+    WAYS = ("states", "floats", "path", "old", "new")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_program(self, *words):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout + done.stderr
+
+    def of_the_motion(self, way, **options):
+        return CommandMessages(way, list(zip(MOTION.position, MOTION.effort)), MOTION.command, **options)
+
+    def test_are_found_however_they_are_published(self):
+        for way in self.WAYS:
+            with self.subTest(way=way):
+                write_ros2(self.folder / way, rosbag2.StoragePlugin.MCAP, self.of_the_motion(way))
+                told = str(convert(self.folder / way, self.folder / f"{way}.h5"))
+                self.assertIn("reference of elbow: ", told)
+                self.assertIn("reference of wrist: ", told)
+                for joint in JOINTS:
+                    drafted = self.run_program("init", f"{way}.h5", "--joint", joint)
+                    self.assertIn(f'position = "joint_states/{joint}/position"', drafted)
+                    self.assertIn(f'reference = "joint_states/{joint}/reference_position"', drafted)
+
+    def test_that_are_missing_are_told(self):
+        write_ros2(self.folder / "bag", rosbag2.StoragePlugin.SQLITE3, self.of_the_motion(""))
+        self.assertIn("reference none of elbow, wrist", str(convert(self.folder / "bag", self.folder / "a.h5")))
+
+    def test_are_no_positions_where_the_states_have_no_effort(self):
+        write_ros2(self.folder / "bag", rosbag2.StoragePlugin.MCAP, self.of_the_motion("states", effort=False))
+        told = str(convert(self.folder / "bag", self.folder / "a.h5"))
+        self.assertIn("--effort /motor_currents takes it", told)
+        self.assertIn('position = "joint_states/elbow/position"', self.run_program("init", "a.h5"))
+        convert(self.folder / "bag", self.folder / "b.csv", effort="/motor_currents")
+        drafted = subprocess.run([PROGRAM, "init", "b.csv"], cwd=self.folder, capture_output=True, text=True).stdout
+        self.assertIn('torque = "joint_states/elbow/current"', drafted)
+
+    def test_of_a_joint_with_something_concealed_lead_to_its_name(self):
+        files = []
+        for seed in (11, 12):
+            (self.folder / "sim.toml").write_text(JOB.format(seed=seed))
+            self.run_program("simulate", "sim.toml", "--out", f"{seed}.csv")
+            lines = (self.folder / f"{seed}.csv").read_text().splitlines()
+            rows = np.genfromtxt([line for line in lines if not line.startswith("#")], delimiter=",", names=True)
+            states = [(np.array([q]), np.array([tau])) for q, tau in zip(rows["q_rad"], rows["tau_Nm"])]
+            messages = CommandMessages("floats", states, rows["q_ref_rad"][:, None])
+            with unittest.mock.patch.object(MOTION, "stamps", BEGIN + STEP * np.arange(len(rows))):
+                write_ros2(self.folder / str(seed), rosbag2.StoragePlugin.MCAP, messages)
+            convert(self.folder / str(seed), self.folder / f"{seed}.h5")
+            files.append(f"{seed}.h5")
+        self.run_program("init", *files, "--out", "job.toml")
+        self.run_program("check", "job.toml")
+        found = self.run_program("diagnose", "job.toml", "--out", "r.h5")
+        self.assertIn("Stribeck", found)
+        self.assertIn("Stribeck", self.run_program("show", "r.h5"))
 
 
 class Refused(Folder):

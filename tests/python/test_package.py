@@ -8,6 +8,7 @@ import importlib.resources
 import io
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -57,6 +58,20 @@ class ADiagnosisOfArrays(unittest.TestCase):
         self.assertIn("Joint 1", self.found.reason)
         self.assertAlmostEqual(self.found.parameters["inertia"].value, PLANT["inertia"], delta=0.003)
 
+    def test_says_the_verdict_of_its_one_joint(self):
+        self.assertEqual((self.found.joints[0].verdict, self.found.joints[0].reason),
+                         (self.found.verdict, self.found.reason))
+
+    def test_can_be_pickled(self):
+        again = pickle.loads(pickle.dumps(self.found))
+        self.assertNotEqual(again.path, self.found.path)
+        again.verify()
+        self.assertEqual(again.parameters, self.found.parameters)
+        self.assertEqual(again.provenance.finished, self.found.provenance.finished)
+        folder = os.path.dirname(again.path)
+        del again
+        self.assertFalse(os.path.exists(folder))
+
     def test_is_told_in_one_line_and_in_a_block(self):
         self.assertRegex(repr(self.found), r"^<Result 'motion': (named|class): Joint 1 loses")
         block = self.found._repr_html_()
@@ -89,7 +104,7 @@ class ADiagnosisOfArrays(unittest.TestCase):
             self.assertTrue(figure._repr_png_().startswith(b"\x89PNG"))
             self.assertTrue(figure.axes)
         self.assertEqual(before, dict(matplotlib.rcParams))
-        with self.assertRaisesRegex(ts.UsageError, "it has: mismatch_map"):
+        with self.assertRaisesRegex(ts.UsageError, "it has: .*mismatch_map"):
             self.found.plot("map")
 
     def test_is_saved_opened_verified_and_made_a_page(self):
@@ -129,6 +144,8 @@ class AnIdentification(unittest.TestCase):
             guessed = ts.Recording.from_csv(file)
             self.assertEqual(guessed.joint, "q_rad")
             self.assertTrue(guessed.remarks)
+            named = ts.Recording.from_csv(file, joint="q_rad")
+            np.testing.assert_array_equal(named.position, guessed.position)
             for recording in (MOTION, guessed):
                 of_arrays = ts.identify(recording, model=MODEL, filter=FILTER)
                 self.assertEqual(of_arrays.parameters, of_file.parameters)
@@ -197,6 +214,10 @@ class Errors(unittest.TestCase):
                       .replace("nor a sampling", "no sampling"))
         other = ts.Recording(**MOTION.signals, torque_per_unit=2.0)
         self.assertIn("SI units", str(self.refusal(ts.UsageError, ts.diagnose, [MOTION, other], model=MODEL)))
+        for threads in (-1, 1.5, True):
+            for call in (ts.diagnose, ts.check):
+                self.assertIn("threads = ", str(self.refusal(ts.UsageError, call, MOTION, model=MODEL,
+                                                             threads=threads)))
         self.assertIn("no Recording", str(self.refusal(ts.UsageError, ts.diagnose, [np.zeros(3)], model=MODEL)))
 
     def test_of_files_are_told(self):

@@ -13,7 +13,9 @@
 
 #include "engine/app/commands/command.hpp"
 #include "engine/app/terminal/plain_text.hpp"
+#include "engine/run/arm_draft.hpp"
 #include "engine/run/job_draft.hpp"
+#include "engine/run/joint_choice.hpp"
 
 namespace torquescope {
 
@@ -22,7 +24,7 @@ namespace {
 struct InitArguments {
   std::vector<std::string> recordings{};
   std::string out{};
-  int joint = 0;
+  std::string joint{}, robot{};
   bool servo = false;
 };
 
@@ -59,9 +61,11 @@ std::string file_behind_stdout() {
 
 ExitCode init_job(InitArguments const& arguments, Session const& session) {
   std::string const job = arguments.out.empty() ? file_behind_stdout() : arguments.out;
-  JobDraft const draft = draft_job({arguments.recordings.begin(), arguments.recordings.end()}, job,
-                                   static_cast<std::size_t>(arguments.joint),
-                                   arguments.servo ? DraftKind::servo : DraftKind::of_the_files);
+  std::vector<std::filesystem::path> const recordings(arguments.recordings.begin(), arguments.recordings.end());
+  JobDraft const draft = arguments.robot.empty()
+                             ? draft_job(recordings, job, joint_number(recordings.front(), arguments.joint),
+                                         arguments.servo ? DraftKind::servo : DraftKind::of_the_files)
+                             : draft_arm_job(recordings, arguments.robot, job);
   if (arguments.out.empty())
     session.verdict(draft.text);
   else
@@ -82,6 +86,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope init arm.csv > arm.toml\n"
       "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
+      "  torquescope init --robot arm.urdf monday.h5 --out arm.toml\n"
       "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
       ->add_option(
@@ -90,9 +95,17 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
           "commanded position and no torque: as many as there are")
       ->required()
       ->type_name("FILE");
-  command->add_option("--joint", arguments->joint, "of a file with several joints, counted from 1 [1]")
-      ->check(CLI::Range(1, 1000).description(""))  // which would stand behind N
-      ->type_name("N")
+  auto* const joint = command
+                          ->add_option("--joint", arguments->joint,
+                                       "of a file with several joints: its number in the file, from 1, or its name [1]")
+                          ->type_name("N|NAME")
+                          ->group("recording");
+  command
+      ->add_option(
+          "--robot", arguments->robot,
+          "a job for a whole arm: its URDF or robot file, whose joints the columns are named or numbered after")
+      ->type_name("ROBOT")
+      ->excludes(joint)
       ->group("recording");
   command
       ->add_flag("--servo", arguments->servo,

@@ -264,7 +264,20 @@ class CsvText {
   std::vector<TextColumn> columns_;
 };
 
+// before a gigabyte of nothing is read and hashed
+void refuse_unwritten(std::filesystem::path const& path) {
+  constexpr std::size_t most_zeros = std::size_t{64} << 20;  // space that a logger reserves ahead
+  auto const end = read_last_bytes(path, most_zeros);
+  validate(end.size() < most_zeros || end.find_last_not_of('\0') != std::string::npos, [&] {
+    return bad_data(fmt::format("{} ends in {} MiB of zero bytes or more: space that was never written", path.string(),
+                                most_zeros >> 20),
+                    path.string(), 0,
+                    fmt::format("keep the text alone: tr -d '\\0' < {} > written.csv", path.string()));
+  });
+}
+
 RawTable read(std::filesystem::path const& path) {
+  refuse_unwritten(path);
   std::string bytes = read_whole_file(path);
   RawTable table;
   table.path = path.string();

@@ -77,11 +77,18 @@ class FileWalk {
     }
   }
 
-  // those that the budget allows, by name
+  static bool keeps_its_order(hid_t group) {
+    Handle const creation(H5Gget_create_plist(group), H5Pclose);
+    unsigned order = 0;
+    return creation && H5Pget_link_creation_order(creation.id(), &order) >= 0 && (order & H5P_CRT_ORDER_INDEXED) != 0;
+  }
+
+  // those that the budget allows, in the order in which they were written where the file keeps it, else by name
   std::vector<Link> links_of(hid_t group) {
     Listing listing{most_objects - n_objects_};
     hsize_t from = 0;
-    H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &from, note_link, &listing);
+    auto const index = keeps_its_order(group) ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
+    H5Literate(group, index, H5_ITER_INC, &from, note_link, &listing);
     n_objects_ += listing.links.size();
     is_cut_ = is_cut_ || listing.is_cut;
     return std::move(listing.links);

@@ -1,12 +1,13 @@
 // What `ros2 topic echo --csv` prints of a topic whose messages have a header: rows without a line of names.
 //
-// Row        sec, nanosec, frame_id, then the fields in the message's order; lists are spread, an empty one is an empty
-//            cell. sensor_msgs/JointState: n names, then n positions, velocities and efforts, or an empty cell each
-// Names      "stamp.sec", "stamp.nanosec" and "joint/position", "joint/velocity", "joint/effort"; of other messages
-//            "frame_id", "value[0]", "value[1]", ...
-// Left out   rows of other joints than the first row's, and what ros2 prints between messages; both are told
+// Row        sec, nanosec, frame_id, then the message's fields; lists are spread, an empty one is an empty cell.
+//            sensor_msgs/JointState: n names, then n positions, velocities and efforts, or an empty cell each;
+//            control_msgs/JointTrajectoryControllerState: n names, then points of four such lists, sec, nanosec
+// Names      "stamp.sec", "stamp.nanosec", "joint/position", ...; of a controller "joint/feedback.position", ...; of
+//            others "frame_id", "value[0]", ... Rows of other joints and notes of ros2 are left out, and told
 // Errors     Error 65 with file:line
-// Source     rosidl_runtime_py/convert.py (message_to_csv), sensor_msgs/msg/JointState.msg
+// Source     rosidl_runtime_py/convert.py (message_to_csv); the .msg files: points are desired, actual, error in old
+//            versions, reference, feedback, error, output in new ones
 
 #include <fmt/format.h>
 
@@ -32,6 +33,9 @@ using Cells = std::vector<std::string_view>;
 
 constexpr std::size_t n_header = 3;  // sec, nanosec, frame_id
 constexpr std::array channels{"position", "velocity", "effort"};
+// of a controller's state, by their places: the newer names
+constexpr std::array points{"reference", "feedback", "error", "output"};
+constexpr std::array fields_of_point{"position", "velocity", "acceleration", "effort"};
 constexpr std::size_t most_columns = 4096;
 constexpr std::size_t longest_line = std::size_t{1} << 20;
 
@@ -69,11 +73,10 @@ bool accepts(std::filesystem::path const&, std::string const& first_bytes) {
   return false;
 }
 
-// the numbers of a row of sensor_msgs/JointState, position, velocity and effort of n joints; nothing: it is none
-std::optional<std::vector<double>> joint_numbers(Cells const& cells, std::size_t n) {
+// `count` lists of n numbers, or an empty cell each (NaN), from `at` on, which moves behind them; nothing: no lists
+std::optional<std::vector<double>> lists_of(Cells const& cells, std::size_t n, std::size_t count, std::size_t& at) {
   std::vector<double> values;
-  std::size_t at = n_header + n;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
+  for (std::size_t c = 0; c < count; ++c) {
     if (at >= cells.size()) return std::nullopt;
     bool const is_missing = cells[at].empty();
     for (std::size_t j = 0; j < n; ++j) {
@@ -84,7 +87,34 @@ std::optional<std::vector<double>> joint_numbers(Cells const& cells, std::size_t
     }
     at += is_missing;
   }
-  return at == cells.size() ? std::optional(std::move(values)) : std::nullopt;
+  return values;
+}
+
+// of a row of sensor_msgs/JointState: position, velocity and effort of n joints; nothing: it is none
+std::optional<std::vector<double>> state_numbers(Cells const& cells, std::size_t n) {
+  std::size_t at = n_header + n;
+  auto values = lists_of(cells, n, channels.size(), at);
+  return values && at == cells.size() ? std::move(values) : std::nullopt;
+}
+
+// of a row of a controller's state: as many points as there are, then whatever comes; nothing: fewer than three
+std::optional<std::vector<double>> controller_numbers(Cells const& cells, std::size_t n) {
+  std::size_t at = n_header + n, n_found = 0;
+  std::vector<double> values;
+  for (; n_found < points.size(); ++n_found) {
+    std::size_t next = at;
+    auto const point = lists_of(cells, n, fields_of_point.size(), next);
+    double time = 0.0;
+    bool const has_time = point && next + 1 < cells.size() && read_cell(cells[next], time) == CellKind::number &&
+                          read_cell(cells[next + 1], time) == CellKind::number;
+    if (!has_time) break;
+    values.insert(values.end(), point->begin(), point->end());
+    at = next + 2;
+  }
+  constexpr std::size_t fewest = 3;  // a trajectory's point, alone, has one
+  if (n_found < fewest) return std::nullopt;
+  values.resize(points.size() * fields_of_point.size() * n, std::numeric_limits<double>::quiet_NaN());
+  return values;
 }
 
 std::size_t n_names(Cells const& cells) {
@@ -137,9 +167,10 @@ class Echo {
              [&] { return problem(line, "a row has sec, nanosec, frame_id, and at most 4096 cells"); });
     table_.names = {"stamp.sec", "stamp.nanosec"};
     std::size_t const n = n_names(cells);
-    if (n > 0 && joint_numbers(cells, n)) {
+    is_controller_ = n > 0 && !state_numbers(cells, n) && controller_numbers(cells, n);
+    if (n > 0 && (is_controller_ || state_numbers(cells, n))) {
       for (std::size_t j = 0; j < n; ++j) joints_.emplace_back(cells[n_header + j]);
-      for (auto const* channel : channels)
+      for (auto const& channel : channel_names())
         for (auto const& joint : joints_) table_.names.push_back(utf8_or_latin1(joint) + "/" + channel);
     } else {
       table_.names.emplace_back("frame_id");
@@ -147,6 +178,14 @@ class Echo {
         table_.names.push_back(fmt::format("value[{}]", k - n_header));
     }
     columns_.resize(table_.names.size());
+  }
+
+  std::vector<std::string> channel_names() const {
+    if (!is_controller_) return {channels.begin(), channels.end()};
+    std::vector<std::string> names;
+    for (auto const* point : points)
+      for (auto const* field : fields_of_point) names.push_back(fmt::format("{}.{}", point, field));
+    return names;
   }
 
   // false: it is no such message
@@ -164,7 +203,7 @@ class Echo {
 
   bool add_joints(Cells const& cells) {
     auto const n = n_names(cells);
-    auto const numbers = joint_numbers(cells, n);
+    auto const numbers = is_controller_ ? controller_numbers(cells, n) : state_numbers(cells, n);
     if (!numbers) return false;
     auto const names = cells.begin() + n_header;
     if (!std::equal(joints_.begin(), joints_.end(), names, names + static_cast<std::ptrdiff_t>(n))) {
@@ -206,6 +245,7 @@ class Echo {
   LineReader lines_;
   RawTable& table_;
   std::vector<std::string> joints_;  // as the file writes them; none: another message
+  bool is_controller_ = false;
   std::vector<TextColumn> columns_;
   DecimalMarks marks_;
   std::size_t n_others_ = 0, n_notices_ = 0;

@@ -14,9 +14,10 @@ import re
 import shutil
 import tempfile
 import warnings
-import weakref
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple, Union
+
+import numpy as np
 
 from .errors import Error, UsageError
 from .job_text import job_text
@@ -77,7 +78,7 @@ def check(recordings: Recordings | Path, *, validate: Recordings = (), model: Mo
     """Everything that `torquescope check` says before a run."""
     _engine = compiled()
     order = _order(recordings, validate, model, estimators, sections)
-    return [CheckLine(*line) for line in _engine.check(*order, threads)]
+    return [CheckLine(*line) for line in _engine.check(*order, _threads(threads))]
 
 
 def simulate(job: Mapping[str, Any] | Path) -> Recording:
@@ -109,7 +110,6 @@ def describe(name: str | None = None) -> None:
 
 def _simulated(columns):
     """As a logger would have it: reference, encoder position and torque of one joint, or of each joint of an arm."""
-    import numpy as np
     patterns = {"position": r"q(\d*)_(rad|m)", "torque": r"(?:tau|F)(\d*)_(Nm|N)", "reference": r"q_ref(\d*)_(rad|m)"}
     signals = {}
     for channel, pattern in patterns.items():
@@ -159,9 +159,15 @@ def _named(recordings):
     return tables, names
 
 
+def _threads(count):
+    if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 0:
+        raise UsageError(f"error: threads = {count!r}\n  help: 0 takes all processors that it may use, N takes N")
+    return int(count)
+
+
 def _carry_out(order, diagnoses, out, threads, progress):
     _engine = compiled()
-    folder = None
+    threads, folder = _threads(threads), None
     if out is None:
         folder = tempfile.mkdtemp(prefix="torquescope_")
         out = os.path.join(folder, "result.h5")
@@ -178,9 +184,7 @@ def _carry_out(order, diagnoses, out, threads, progress):
         if folder is not None:
             shutil.rmtree(folder, ignore_errors=True)
         raise
-    if folder is not None:
-        weakref.finalize(result, shutil.rmtree, folder, True)
-    return result
+    return result if folder is None else result.goes_with(folder)
 
 
 def _say_what_is_safe(work, interrupt):

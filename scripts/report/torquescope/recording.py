@@ -15,8 +15,14 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
+WITHOUT = {
+    "position": "position=q, in rad or m",
+    "torque": "torque=tau in N m or N, or a motor current with torque_per_unit=<N m per A>; of a servo without either "
+              "the program takes many recordings of the position: torquescope init --servo FILES"}
+
+
 class Recording:
-    """Signals [n] of one joint, or [n][joints] of an arm; time [n] is shared.
+    """Signals [n] of one joint, or [n][joints] of an arm; time [n] is shared. A column [n][1] is a signal [n].
 
     Units      s; rad or m; rad/s, rad/s2; N m or N. In other units give what one of theirs is, with the keys of a
                job's [recording]: Recording(..., torque_per_unit=0.105), position_per_unit, time_per_unit, ...
@@ -25,7 +31,7 @@ class Recording:
     joint      what sentences call it: "the joint of elbow"
     """
 
-    def __init__(self, *, position: ArrayLike, torque: ArrayLike, time: ArrayLike | None = None,
+    def __init__(self, *, position: ArrayLike, torque: ArrayLike | None = None, time: ArrayLike | None = None,
                  reference: ArrayLike | None = None, velocity: ArrayLike | None = None,
                  acceleration: ArrayLike | None = None, simulated_torque: ArrayLike | None = None,
                  name: str = "recording", joint: str | None = None, **options: Any):
@@ -34,14 +40,18 @@ class Recording:
         self.name, self.joint, self.options, self.remarks = str(name), joint, options, []
         self.signals: dict[str, np.ndarray] = {
             channel: _array(channel, values) for channel, values in given.items() if values is not None}
+        for channel, way_out in WITHOUT.items():
+            if channel not in self.signals:
+                raise DataError(f"error: a recording has no {channel}\n  help: {way_out}")
         self._check_shapes()
 
     @classmethod
-    def from_file(cls, path: str | os.PathLike[str], joint: int = 0, **options: Any) -> Recording:
+    def from_file(cls, path: str | os.PathLike[str], joint: int | str = "", **options: Any) -> Recording:
         """A file of any format that the program reads; columns and units are guessed as `torquescope init` does, and
-        .remarks says how. joint: of a file with several, counted from 1. Further options are keys of [recording]."""
+        .remarks says how. joint: of a file with several, its name, or its number from 1. Further options are keys of
+        [recording]."""
         _engine = compiled()
-        text, guesses, warnings = _engine.draft_job(os.fspath(path), joint)
+        text, guesses, warnings = _engine.draft_job(os.fspath(path), str(joint) if joint else "")
         drafted = _toml(text)["recording"]
         guessed = drafted.pop("columns", {})
         guessed.pop("enabled", None)  # of rollouts: no signal of this class
@@ -147,9 +157,19 @@ def common_section(recordings):
 
 
 def _array(channel, values):
-    array = np.asarray(values, dtype=float)
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise DataError(f"error: {channel} holds what is no number: {error}\n"
+                        "  help: give floats, and NaN for what is missing; of pandas: pandas.to_numeric(column, "
+                        "errors=\"coerce\")") from error
+    if array.ndim == 2 and array.shape[1] == 1:  # a column vector, a data frame of one column
+        array = array[:, 0]
     if array.ndim not in (1, 2):
         raise DataError(f"error: {channel} has {array.ndim} dimensions; signals are [n] or [n][joints]")
+    if array.ndim == 2 and array.shape[0] == 1 and array.shape[1] > 1:
+        raise DataError(f"error: {channel} has one row of {array.shape[1]} values: one sample of as many joints\n"
+                        f"  help: rows are samples: {channel}=values.T, or values.ravel() of one joint")
     return array
 
 

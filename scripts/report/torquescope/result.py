@@ -5,6 +5,8 @@ from __future__ import annotations
 import html
 import os
 import shutil
+import tempfile
+import weakref
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
     import xarray
 
     from .plots import Plots
+
+
+FILES = ("", ".made.json")  # of a result: itself, and what says when and where it was made
 
 
 class Result(read_result.Result):
@@ -131,6 +136,20 @@ class Result(read_result.Result):
         """Lines of text: the verdict, parameters, errors."""
         return "\n".join(summary(self))
 
+    def goes_with(self, folder: str) -> Result:
+        """The folder of its file is deleted with the object."""
+        weakref.finalize(self, shutil.rmtree, folder, True)
+        return self
+
+    def __reduce__(self):
+        """A pickle holds the whole file, so that it can be opened anywhere: by another process, on another machine."""
+        sides = {}
+        for ending in FILES:
+            if os.path.exists(self.path + ending):
+                with open(self.path + ending, "rb") as file:
+                    sides[ending] = file.read()
+        return _from_bytes, (os.path.basename(self.path), sides)
+
     def __repr__(self):
         if self.diagnosis:
             return f"<Result {self.job.name!r}: {self.verdict}: {self.reason}>"
@@ -145,6 +164,15 @@ class Result(read_result.Result):
         if self.diagnosis:
             return _verdict_block(self)
         return _parameter_block(self) if self.estimators else f"<pre>{html.escape(self.summary())}</pre>"
+
+
+def _from_bytes(name, files):
+    folder = tempfile.mkdtemp(prefix="torquescope_")
+    path = os.path.join(folder, name)
+    for ending, content in files.items():
+        with open(path + ending, "wb") as file:
+            file.write(content)
+    return Result(path).goes_with(folder)
 
 
 def _recordings(result):

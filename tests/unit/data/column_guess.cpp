@@ -61,6 +61,28 @@ TEST(ColumnGuess, TellsJointsApartByNumberOrName) {
   EXPECT_EQ(named.torque.column, "/joint_states/elbow/effort");
 }
 
+// a topic of commands is no measurement, whichever stands first
+TEST(ColumnGuess, ACommandIsNotThePosition) {
+  auto const guess = guess_columns(table_of({{"joint_commands/elbow/position", wave(1)},
+                                             {"joint_states/elbow/position", wave(1)},
+                                             {"joint_states/elbow/effort", wave(1)}}));
+  EXPECT_EQ(guess.position.column, "joint_states/elbow/position");
+  EXPECT_EQ(guess.reference.column, "joint_commands/elbow/position");
+  auto const echoed = guess_columns(table_of({{"elbow/reference.position", wave(1)},
+                                              {"elbow/feedback.position", wave(1)},
+                                              {"elbow/feedback.effort", wave(1)}}));
+  EXPECT_EQ(echoed.position.column, "elbow/feedback.position");
+  EXPECT_EQ(echoed.reference.column, "elbow/reference.position");
+}
+
+TEST(ColumnGuess, NamesThePositionOfEveryJoint) {
+  auto const guess = guess_columns(table_of({{"wrist/position", wave(1)},
+                                             {"elbow/position", wave(1)},
+                                             {"wrist/effort", wave(1)},
+                                             {"elbow/effort", wave(1)}}));
+  EXPECT_EQ(guess.positions, (std::vector<std::string>{"wrist/position", "elbow/position"}));
+}
+
 TEST(ColumnGuess, OfAJointThatIsNotThereIsEmpty) {
   auto const guess = guess_columns(table_of({{"q_rad", wave(1)}, {"tau_Nm", wave(1)}}), 3);
   EXPECT_EQ(guess.joint, 3u);

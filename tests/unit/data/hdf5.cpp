@@ -83,6 +83,26 @@ std::string reason_of(RawTable const& table, std::string const& name) {
   return "(usable)";
 }
 
+// as h5py writes with track_order: the order in which joints were written, not that of the alphabet
+TEST(Hdf5Order, IsThatOfTheFileWhereItKeepsOne) {
+  auto const path = data_test::folder() / "order.h5";
+  hid_t const creation = H5Pcreate(H5P_FILE_CREATE);
+  H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  hsize_t const size = 3;
+  std::vector<double> const values{1.0, 2.0, 3.0};
+  for (char const* name : {"wrist", "elbow", "base"}) {
+    hid_t const space = H5Screate_simple(1, &size, nullptr);
+    hid_t const id = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Dclose(id);
+    H5Sclose(space);
+  }
+  H5Fclose(file);
+  H5Pclose(creation);
+  EXPECT_EQ(read_table(path, recording_section()).names, (std::vector<std::string>{"wrist", "elbow", "base"}));
+}
+
 TEST(Hdf5Reader, ReadsNumericDatasetsOfAnyTypeAndGroup) {
   {
     Hdf5File file("arm.csv");  // chosen by content: the name says csv

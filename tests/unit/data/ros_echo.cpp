@@ -48,6 +48,34 @@ TEST(RosEcho, ListsThatAreEmptyAreNoColumns) {
   EXPECT_EQ(later.columns[3][1], 4);
 }
 
+// control_msgs/JointTrajectoryControllerState: three points, in newer versions four and what comes behind them
+TEST(RosEcho, PointsOfAControllerHaveTheJointsNames) {
+  std::string const desired = "0.5,1.5,,,,0,0", actual = "0.25,1.25,2.0,3.0,,7.0,8.0,0,5", error = "0.25,0.25,,,,0,0";
+  std::string const begin = "1,0,base,elbow,wrist,";
+  Names const names{"stamp.sec",
+                    "stamp.nanosec",
+                    "elbow/reference.position",
+                    "wrist/reference.position",
+                    "elbow/feedback.position",
+                    "wrist/feedback.position",
+                    "elbow/feedback.velocity",
+                    "wrist/feedback.velocity",
+                    "elbow/feedback.effort",
+                    "wrist/feedback.effort",
+                    "elbow/error.position",
+                    "wrist/error.position",
+                    "stamp"};
+  auto const row = begin + desired + "," + actual + "," + error;
+  auto const old = read(row + "\n" + row + "\n");
+  EXPECT_EQ(old.names, names);
+  EXPECT_EQ(old.columns[3], (std::vector<double>{1.5, 1.5}));
+  EXPECT_EQ(old.columns[8], (std::vector<double>{7.0, 7.0}));
+  auto const newer = row + ",,,,9.0,9.5,0,0,,,";
+  auto const now = read(newer + "\n" + newer + "\n");
+  EXPECT_EQ(now.names[12], "elbow/output.effort");
+  EXPECT_EQ(now.columns[13], (std::vector<double>{9.5, 9.5}));
+}
+
 TEST(RosEcho, OtherMessagesAreNumbered) {
   auto const table = read("1,0,tool,1.5,-2.5,true\n1,5,tool,3.5,-4.5,true\n");
   EXPECT_EQ(table.names, (Names{"stamp.sec", "stamp.nanosec", "value[0]", "value[1]", "stamp"}));

@@ -156,7 +156,7 @@ class Forward:
 class Joint:
     joint: int
     name: str  # of its position column; "" unknown
-    verdict: str  # of an arm's joint, with its reason; "" of a single joint
+    verdict: str  # with its reason; of a single joint that of the diagnosis
     reason: str
     unit_position: str
     unit_torque: str

@@ -1,4 +1,5 @@
-"""Bags of ROS 1 and ROS 2, and MCAP files, as one table over time that the program reads as a recording."""
+"""Bags of ROS 1 and ROS 2, MCAP files, and data sets of LeRobot, as one table over time that the program reads as a
+recording."""
 
 from .conversion import Conversion, convert
 

@@ -1,7 +1,8 @@
 """The numbers of a message of ROS, under names: fields by dotted path, lists of joints by the joint's name.
 
 A message whose `name` or `joint_names` lists joints (sensor_msgs/JointState, control_msgs) gives "elbow/position" for
-a list with as many numbers, wherever in the message; other lists give "data[0]". Messages are what rosbags makes of
+a list with as many numbers, wherever in the message, and of control_msgs/DynamicJointState, which has a message of
+named interfaces for each joint, "elbow/effort"; other lists give "data[0]". Messages are what rosbags makes of
 them: dataclasses. Headers and stamps are no signals.
 """
 
@@ -11,7 +12,7 @@ import numpy as np
 
 LONGEST_LIST = 64  # a list of more numbers is a picture or a scan, no signals
 JOINTS = ("name", "joint_names")
-NO_SIGNALS = ("header", "stamp", "layout")
+NO_SIGNALS = ("header", "stamp", "layout", "time_from_start")
 NUMBER = (bool, int, float, np.number, np.bool_)
 
 
@@ -49,8 +50,17 @@ def _walk(message, path, joints, numbers, too_long):
             numbers[here] = value
         elif dataclasses.is_dataclass(value):
             _walk(value, here, joints, numbers, too_long)
+        elif joints and isinstance(value, list) and len(value) == len(joints) and dataclasses.is_dataclass(value[0]):
+            for joint, message_of_joint in zip(joints, value):
+                _interfaces(message_of_joint, joint, numbers)
         elif isinstance(value, np.ndarray) or (isinstance(value, list) and all(isinstance(v, NUMBER) for v in value)):
             _list(value, here, joints, numbers, too_long)
+
+
+def _interfaces(message, joint, numbers):
+    names, values = getattr(message, "interface_names", []), getattr(message, "values", [])
+    if len(names) == len(values):
+        numbers.update({f"{joint}/{name}": value for name, value in zip(names, values)})
 
 
 def _list(values, here, joints, numbers, too_long):

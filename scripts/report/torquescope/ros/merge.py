@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .series import Series, Topic
+from .series import HOLD, PATH, Series, Topic
 
 # as of the program (engine/data/gaps.hpp): so many missing samples are filled, over longer stretches nothing is known
 LONGEST_FILLED_GAP = 5
@@ -20,9 +20,20 @@ class Base:
     stamps: np.ndarray
 
 
+@dataclass(frozen=True)
+class Column:
+    """One series on the stamps of all."""
+
+    topic: Topic
+    name: str           # of the series in its topic
+    values: np.ndarray
+    is_own: np.ndarray  # rows with a message of its own, not a value between two
+
+
 def densest(topics):
-    """Of the joint states, or of all topics where there are none, the signal with the most samples."""
-    candidates = [topic for topic in topics if topic.has_joint_states] or topics
+    """Of the joint states, else of what is no command, else of all topics, the signal with the most samples."""
+    candidates = [topic for topic in topics if topic.has_joint_states] or \
+        [topic for topic in topics if not topic.is_command] or topics
     topic = max(candidates, key=lambda one: max(len(series.stamps) for series in one.series.values()))
     longest = max(topic.series.values(), key=lambda series: len(series.stamps))
     return Base(topic, longest.stamps)
@@ -34,11 +45,13 @@ def seconds_since_first(stamps):
 
 
 def on_stamps(series: Series, stamps):
-    """Values at these stamps (ns): a line between neighbours, NaN outside and in gaps; a switch holds."""
+    """Values at these stamps (ns): a line between neighbours, NaN outside and in gaps; commands and switches hold."""
     if np.array_equal(series.stamps, stamps):
         return series.values
     own, asked = (series.stamps - stamps[0]) * 1e-9, (stamps - stamps[0]) * 1e-9
-    if series.is_switch:
+    if series.between == PATH:
+        return np.interp(asked, own, series.values, left=np.nan)
+    if series.between == HOLD:
         last = np.searchsorted(own, asked, side="right") - 1
         return np.where(last >= 0, series.values[np.maximum(last, 0)], np.nan)
     if len(own) < 2:
@@ -51,7 +64,7 @@ def on_stamps(series: Series, stamps):
 
 
 def merged(topics, base: Base):
-    """({column: values at the base's stamps}, [names of topics of which nothing is left])."""
+    """({path: Column}, [names of topics of which nothing is left])."""
     found, empty = {}, []
     for topic in topics:
         columns = {name: on_stamps(series, base.stamps) for name, series in topic.series.items()}
@@ -59,16 +72,18 @@ def merged(topics, base: Base):
         if not known:
             empty.append(topic.name)
         for name, values in known.items():
-            path = _path(f"{topic.name}/{name}")
-            while path in found:
-                path += "_"
-            found[path] = values
-    return {_leaf(path, found): values for path, values in found.items()}, empty
+            found[free_path(f"{topic.name}/{name}", found)] = Column(
+                topic, name, values, np.isin(base.stamps, topic.series[name].stamps))
+    return {_leaf(path, found): column for path, column in found.items()}, empty
 
 
-def _path(name):
-    """As HDF5 can name it: "/joint_states/elbow/position" -> "joint_states/elbow/position"."""
-    return "/".join("_" if part in (".", "..") else part for part in name.replace("\0", "_").split("/") if part)
+def free_path(name, taken):
+    """As HDF5 can name it, and nothing else is called: "/joint_states/elbow/position" -> "joint_states/elbow/position".
+    """
+    path = "/".join("_" if part in (".", "..") else part for part in name.replace("\0", "_").split("/") if part)
+    while path in taken:
+        path += "_"
+    return path
 
 
 def _leaf(path, paths):

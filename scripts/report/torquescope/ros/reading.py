@@ -5,12 +5,15 @@ from __future__ import annotations
 import contextlib
 
 from ..errors import DataError
-from .fields import LONGEST_LIST, NO_SIGNALS, header_stamp, numbers_of
+from .fields import LONGEST_LIST, NO_SIGNALS, header_stamp
+from .path import PathGathering
 from .series import Gathering
 
 MAGICS = {b"\x89MCAP0\r\n": ".mcap", b"#ROSBAG V2.0": ".bag", b"SQLite format 3\0": ".db3"}
 NO_MEASUREMENTS = ("Log", "ParameterEvent", "TFMessage", "Clock")
 BYTES = ("uint8", "int8", "byte", "char", "octet")
+LISTS_THAT_ARE_READ = ("JointTrajectory", "DynamicJointState")  # of messages: points, interfaces of joints
+INSTALL = "pip install rosbags (in a clone of Torquescope: pip install '.[ros]')"
 ENOUGH_SHOWN = 300  # letters of somebody else's message
 
 
@@ -19,7 +22,7 @@ def _rosbags():
         from rosbags import highlevel, typesys
     except ImportError as error:
         raise ImportError(f"error: bags are read by rosbags, which is not there ({error})\n"
-                          "  help: pip install \"torquescope[ros]\", or pip install rosbags") from error
+                          f"  help: {INSTALL}") from error
     return highlevel, typesys
 
 
@@ -57,29 +60,38 @@ def _told(path):
                         "what it left") from error
 
 
-def read_topics(path, wanted=(), receive_time=False):
-    """([Topic], ["NAME: why it was left out"]). wanted: topics by name; none: all that look like signals."""
+def read_topics(path, wanted=(), receive_time=False, also=()):
+    """([Topic], ["NAME: why it was left out"]). wanted: topics by name; none: all that look like signals. also: beside
+    those wanted, TOPIC or TOPIC/FIELD."""
     highlevel, typesys = _rosbags()
     _check(path)
     with _told(path):
         reader = highlevel.AnyReader([path], default_typestore=typesys.get_typestore(typesys.Stores.LATEST))
         with reader:
+            if wanted:
+                wanted = [*wanted, *_topics_of(also, {one.topic for one in reader.connections})]
             chosen, left_out = _choose(reader, path, wanted)
             gathered = {}
             # asked for none, it would read all
             messages = reader.messages(connections=chosen) if chosen else ()
             for connection, received, raw in messages:
                 if connection.topic not in gathered:
-                    gathered[connection.topic] = Gathering(connection.topic, connection.msgtype)
+                    make = PathGathering if connection.msgtype.endswith("/JointTrajectory") else Gathering
+                    gathered[connection.topic] = make(connection.topic, connection.msgtype)
                 message = reader.deserialize(raw, connection.msgtype)
-                gathered[connection.topic].add(received, header_stamp(message), *numbers_of(message))
-            silent = {connection.topic for connection in chosen} - set(gathered)
-    left_out += [f"{name}: no messages" for name in sorted(silent)]
+                gathered[connection.topic].add_message(received, header_stamp(message), message)
+            silent = {(one.topic, one.msgtype) for one in chosen if one.topic not in gathered}
+    left_out += [f"{name}: {kind}, no messages" for name, kind in sorted(silent)]
     for one in gathered.values():
         left_out += [f"{one.name}.{field}: {length} numbers a message" for field, length in one.too_long.items()]
         if not one.values:
             left_out.append(f"{one.name}: {one.kind} without a number")
     return [one.finished(receive_time) for one in gathered.values() if one.values], left_out
+
+
+def _topics_of(fields, there):
+    asked = ["/" + name.strip("/") for name in fields]
+    return [topic for name in asked for topic in (name, name.rpartition("/")[0]) if topic in there]
 
 
 def _choose(reader, path, wanted):
@@ -96,7 +108,8 @@ def _choose(reader, path, wanted):
         if names and name not in names:
             continue
         if reason:
-            left_out[name] = reason
+            count = sum(one.msgcount for one in reader.connections if one.topic == name)
+            left_out[name] = f"{reason} ({count} message{'' if count == 1 else 's'})"
     chosen = [one for one in reader.connections
               if one.topic not in left_out and (not names or one.topic in names)]
     return chosen, [f"{name}: {reason}" for name, reason in sorted(left_out.items())]
@@ -110,6 +123,8 @@ def _objection(definitions, kind, is_asked_for):
         return None
     if kind.rsplit("/", 1)[-1] in NO_MEASUREMENTS:
         return kind
+    if kind.rsplit("/", 1)[-1] in LISTS_THAT_ARE_READ:
+        return None
     leaves = list(_leaves(definitions, kind))
     if any(is_list and base in BYTES for base, is_list in leaves):
         return f"{kind} holds bytes"

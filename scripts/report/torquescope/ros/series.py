@@ -6,7 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .fields import numbers_of
+from .words import is_commanded
+
 HEADER, RECEIVED = "header stamps", "receive time"
+# between two messages: a line; the last value; a line however long, and the last value behind the end
+LINE, HOLD, PATH = "line", "hold", "path"
 
 
 @dataclass(frozen=True)
@@ -15,7 +20,7 @@ class Series:
 
     stamps: np.ndarray
     values: np.ndarray
-    is_switch: bool = False  # true or false: it holds until the next message
+    between: str = LINE
 
 
 @dataclass(frozen=True)
@@ -27,8 +32,13 @@ class Topic:
     series: dict[str, Series]
 
     @property
+    def is_command(self):
+        """Its name says so, or its kind: what it holds was asked for, not measured."""
+        return is_commanded(self.name) or self.kind.endswith("/JointTrajectory")
+
+    @property
     def has_joint_states(self):
-        return self.kind.endswith("/JointState")
+        return self.kind.endswith("/JointState") and not self.is_command
 
 
 @dataclass
@@ -55,12 +65,16 @@ class Gathering:
         if header is not None:
             self.header.append(header)
 
+    def add_message(self, received, header, message):
+        self.add(received, header, *numbers_of(message))
+
     def finished(self, receive_time):
-        """The topic. Header stamps serve where every message has one."""
+        """The topic. Header stamps serve where every message has one. A command holds until the next."""
         has_header = len(self.header) == len(self.received) and not receive_time
         clock = np.array(self.header if has_header else self.received, dtype=np.int64)
         series = {}
         for name, (at, values) in self.values.items():
             stamps, first = np.unique(clock[at], return_index=True)
-            series[name] = Series(stamps, np.array(values)[first], name in self.switches)
+            holds = name in self.switches or is_commanded(self.name)
+            series[name] = Series(stamps, np.array(values)[first], HOLD if holds else LINE)
         return Topic(self.name, self.kind, len(self.received), HEADER if has_header else RECEIVED, series)

@@ -1,0 +1,61 @@
+"""usage: test_recordings.py PACKAGE
+
+What a Recording takes and refuses, without the compiled engine. PACKAGE: the folder that holds `torquescope`.
+"""
+
+import pickle
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, sys.argv.pop(1))
+
+import torquescope as ts  # noqa: E402
+
+T = np.arange(100) * 0.01
+Q, TAU = np.sin(T), np.cos(T)
+
+
+class Frame:
+    """As pandas gives a data frame of one column to numpy."""
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(Q[:, None], dtype=dtype)
+
+
+class ARecording(unittest.TestCase):
+    def refused(self, **signals):
+        with self.assertRaises(ts.DataError) as caught:
+            ts.Recording(**{"time": T, "position": Q, "torque": TAU, **signals})
+        self.assertEqual(caught.exception.exit_code, 65)
+        self.assertIn("help:", str(caught.exception))
+        return str(caught.exception)
+
+    def test_takes_columns_and_frames_of_one_column(self):
+        made = ts.Recording(time=T[:, None], position=Frame(), torque=TAU.reshape(-1, 1), reference=list(Q))
+        self.assertEqual(made.joints, 1)
+        for channel, values in (("time", T), ("position", Q), ("torque", TAU), ("reference", Q)):
+            np.testing.assert_array_equal(made.signals[channel], values)
+        self.assertEqual(ts.Recording(time=T[:, None], position=np.column_stack([Q, Q]),
+                                      torque=np.column_stack([TAU, TAU])).joints, 2)
+
+    def test_without_a_torque_is_refused_with_the_way_out(self):
+        self.assertIn("has no torque", self.refused(torque=None))
+        self.assertIn("torque_per_unit", self.refused(torque=None))
+        self.assertIn("has no position", self.refused(position=None))
+
+    def test_of_a_row_or_of_no_numbers_is_refused(self):
+        self.assertIn("values.T", self.refused(torque=TAU[None, :]))
+        self.assertIn("no number", self.refused(position=np.array([{}] * 100, dtype=object)))
+        self.assertIn("no number", self.refused(position=["a"] * 100))
+
+    def test_can_be_pickled(self):
+        made = ts.Recording(time=T, position=Q, torque=TAU, name="motion", torque_per_unit=0.1)
+        again = pickle.loads(pickle.dumps(made))
+        self.assertEqual((again.name, again.options), ("motion", {"torque_per_unit": 0.1}))
+        np.testing.assert_array_equal(again.position, Q)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
