@@ -202,6 +202,7 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
   if (!channels.empty()) draft.guesses.push_back(fmt::format("{}", fmt::join(channels, ", ")));
   if (columns.joints > 1)
     draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another", columns.joint, columns.joints));
+  for (auto const& shift : columns.shifts) draft.guesses.push_back(shift_words(shift));
 }
 
 // a manifest may lie among them; `leading`: its index

@@ -29,6 +29,15 @@ std::string drive_words(ColumnName const& name) {
   }
 }
 
+}  // namespace
+
+std::string shift_words(NumberShift const& shift) {
+  return fmt::format("joints are counted from different numbers: \"{}\" belongs to \"{}\"", shift.other,
+                     shift.position);
+}
+
+namespace {
+
 class RecordingDraft {
  public:
   RecordingDraft(RecordingGuess const& train, std::vector<RecordingGuess> const& others,
@@ -167,6 +176,7 @@ class RecordingDraft {
       if (train_.columns.moving_joints > 1)
         text_.comment(fmt::format("{} of them move: what they do to this joint's torque is no part of this model.",
                                   train_.columns.moving_joints));
+      for (auto const& shift : joints.shifts) text_.comment(shift_words(shift) + ".");
     }
     if (train_.stamps) text_.setting("time", toml_text(train_.stamps->column), time_comment());
     write_channel("position", train_.columns.position, position_comment());
