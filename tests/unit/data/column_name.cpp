@@ -65,6 +65,10 @@ TEST(ColumnName, SaysQuantityUnitAndJointAsLoggersWriteThem) {
                               // data sets for imitation
                               {"observation.state[0]", WordKind::position, false, no_unit, "0"},
                               {"observation.effort[0]", WordKind::torque, false, no_unit, "0"},
+                              {"qpos[0]", WordKind::position, false, no_unit, "0"},
+                              {"joint_torques[1]", WordKind::torque, false, no_unit, "1"},
+                              {"joint_commands[1]", WordKind::position, true, no_unit, "1"},
+                              {"velocities_2", WordKind::velocity, false, no_unit, "2"},
                               {"action[0]", WordKind::position, true, no_unit, "0"},
                               // German, French, Spanish, Japanese, Chinese
                               {"Zeit [ms]", WordKind::time, false, 1e-3, ""},
