@@ -124,9 +124,40 @@ bool numbers_tell(std::vector<std::string> const& joints) {
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }
 
+// from 1: that of a column that a person named; 0 where no joint has it
+std::size_t joint_of(ChosenColumns const& named, Candidates const& all, Label const& label,
+                     std::vector<std::string> const& joints) {
+  for (auto const& [channel, likely] : {std::pair{"position", &all.positions}, std::pair{"torque", &all.torques}})
+    for (auto const& one : *likely) {
+      auto const given = named.find(channel);
+      if (given == named.end() || one.column != given->second) continue;
+      auto const at = std::find(joints.begin(), joints.end(), label(one.name));
+      if (at != joints.end()) return static_cast<std::size_t>(at - joints.begin()) + 1;
+    }
+  return 0;
+}
+
+void take_named(RawTable const& table, ChosenColumns const& named, ColumnGuess& guess) {
+  std::map<std::string, ChannelGuess*> const channels{
+      {"position", &guess.position}, {"torque", &guess.torque}, {"reference", &guess.reference}};
+  for (auto const& [channel, column] : named) {
+    auto const at = channels.find(channel);
+    if (at == channels.end() || at->second->column == column) continue;
+    auto const c = std::find(table.names.begin(), table.names.end(), column) - table.names.begin();
+    auto const k = static_cast<std::size_t>(c);
+    auto const name = parse_column_name(column, k < table.units.size() ? table.units[k] : "");
+    *at->second = describe(table, {column, name, column_role(name)});
+  }
+  // a guess must not stand in two places
+  for (auto const& [channel, other] : channels)
+    if (!named.contains(channel))
+      for (auto const& [its_channel, column] : named)
+        if (other->column == column) *other = {};
+}
+
 }  // namespace
 
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn torque) {
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn torque, ChosenColumns const& named) {
   Candidates const all(table, torque);
   Label const by_words = [](ColumnName const& name) { return name.rest + "#" + name.number; };
   Label const by_number = [](ColumnName const& name) { return name.number; };
@@ -154,6 +185,7 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   ColumnGuess guess;
   guess.shifts = all.shifts;
   guess.joints = joints.size();
+  if (joint == 0) joint = joint_of(named, all, label, joints);
   guess.joint = joint == 0 ? 1 : joint;
   if (guess.joint > guess.joints) return guess;
   std::vector<double> ranges;
@@ -183,6 +215,7 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   // "drive_on" says no joint's name; where joints have one each, the number tells them apart
   guess.enabled = pick(table, all.switches, by_number, guess.position.name.number);
   if (guess.enabled.column.empty() && all.switches.size() == 1) guess.enabled = pick(table, all.switches, all_one, "");
+  take_named(table, named, guess);
   return guess;
 }
 

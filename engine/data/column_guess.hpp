@@ -11,6 +11,7 @@
 //            are counts
 // Threads    free function
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,13 @@ struct ColumnGuess {
   std::size_t joint_that_moves = 1;   // `joint`, or where that hardly moves the one with the largest range
 };
 
-// joint: from 1; 0 for the first that can be fitted. One beyond the file's gives no position and no torque
+// columns that a person named, by channel: position, torque, reference, time
+using ChosenColumns = std::map<std::string, std::string>;
+
+// named: these serve whatever their names say; they exist
+// joint: from 1; 0 for that of a named position or torque, else the first that can be fitted. One beyond the file's gives no position and no torque
 // torque: optional takes no column for it
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required);
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required,
+                          ChosenColumns const& named = {});
 
 }  // namespace torquescope

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace torquescope {
 namespace column_words {
@@ -33,6 +34,9 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"q", position, 100},
                              Entry{"pos", position, 100},
                              Entry{"position", position, 100},
+                             Entry{"qpos", position, 95},
+                             Entry{"qvel", velocity, 95},
+                             Entry{"ctrl", commanded},
                              Entry{"theta", position, 95},
                              Entry{"angle", position, 95},
                              Entry{"winkel", position, 95},
@@ -250,10 +254,26 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
 
 }  // namespace column_words
 
+namespace column_words {
+
+std::optional<ColumnWord> as_written(std::string_view word) {
+  auto const found = std::find_if(entries.begin(), entries.end(), [&](auto const& e) { return e.word == word; });
+  return found == entries.end() ? std::nullopt : std::optional(ColumnWord{found->kind, found->weight});
+}
+
+// "torques", "velocities"
+std::string singular(std::string_view word) {
+  constexpr std::size_t shortest = 5;
+  if (word.size() < shortest || word.back() != 's') return {};
+  if (word.ends_with("ies")) return std::string(word.substr(0, word.size() - 3)) + "y";
+  return std::string(word.substr(0, word.size() - 1));
+}
+
+}  // namespace column_words
+
 std::optional<ColumnWord> column_word(std::string_view word) {
-  auto const found = std::find_if(column_words::entries.begin(), column_words::entries.end(),
-                                  [&](auto const& e) { return e.word == word; });
-  return found == column_words::entries.end() ? std::nullopt : std::optional(ColumnWord{found->kind, found->weight});
+  if (auto const found = column_words::as_written(word)) return found;
+  return column_words::as_written(column_words::singular(word));
 }
 
 }  // namespace torquescope

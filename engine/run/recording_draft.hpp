@@ -21,9 +21,6 @@ void draft_recording_sections(RecordingGuess const& train, std::vector<Recording
 void draft_shared_recording(RecordingGuess const& one, std::filesystem::path const& job_file, DraftText& text,
                             std::vector<std::string>& warnings);
 
-// "joints are counted from different numbers: "tau1" belongs to "q0""
-std::string shift_words(NumberShift const& shift);
-
 // as a job writes it: relative to the job's folder, unless it is absolute
 std::string path_from(std::filesystem::path const& job_file, std::filesystem::path const& recording);
 

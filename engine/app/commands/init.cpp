@@ -24,6 +24,13 @@ struct InitArguments {
   std::string out{};
   int joint = 0;
   bool servo = false;
+  std::string time{}, position{}, torque{}, reference{};
+
+  ChosenColumns named() const {
+    ChosenColumns all{{"time", time}, {"position", position}, {"torque", torque}, {"reference", reference}};
+    std::erase_if(all, [](auto const& one) { return one.second.empty(); });
+    return all;
+  }
 };
 
 // only ever a new file: a job may hold a day's work
@@ -61,12 +68,13 @@ ExitCode init_job(InitArguments const& arguments, Session const& session) {
   std::string const job = arguments.out.empty() ? file_behind_stdout() : arguments.out;
   JobDraft const draft = draft_job({arguments.recordings.begin(), arguments.recordings.end()}, job,
                                    static_cast<std::size_t>(arguments.joint),
-                                   arguments.servo ? DraftKind::servo : DraftKind::of_the_files);
+                                   arguments.servo ? DraftKind::servo : DraftKind::of_the_files, arguments.named());
   if (arguments.out.empty())
     session.verdict(draft.text);
   else
     write_new_file(arguments.out, draft.text);
   for (auto const& guess : draft.guesses) session.note(session.topic_line("guessed", guess));
+  for (auto const& look : draft.looks) session.note(session.topic_line("column", look));
   for (auto const& warning : draft.warnings) session.note(session.topic_line("warning", warning));
   if (!arguments.out.empty()) session.note(session.topic_line("wrote", arguments.out));
   session.note(session.topic_line("next", fmt::format("torquescope check {0}, torquescope diagnose {0}", job)));
@@ -82,6 +90,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
   command->footer(
       "  torquescope init arm.csv > arm.toml\n"
       "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
+      "  torquescope init odd.csv --position b --torque d > odd.toml\n"
       "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
       ->add_option(
@@ -94,6 +103,16 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       ->check(CLI::Range(1, 1000).description(""))  // which would stand behind N
       ->type_name("N")
       ->group("recording");
+  struct Channel {
+    char const* option;
+    std::string* column;
+    char const* says;
+  };
+  for (auto const& channel : {Channel{"--position", &arguments->position, "the column of the measured position"},
+                              Channel{"--torque", &arguments->torque, "of the torque, or the motor's current"},
+                              Channel{"--reference", &arguments->reference, "of the commanded position"},
+                              Channel{"--time", &arguments->time, "of the time stamps"}})
+    command->add_option(channel.option, *channel.column, channel.says)->type_name("COLUMN")->group("recording");
   command
       ->add_flag("--servo", arguments->servo,
                  "a job of many recordings of a servo ([[recordings]]), even where a column may be a torque")
