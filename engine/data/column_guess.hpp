@@ -45,7 +45,8 @@ struct ColumnGuess {
 using ChosenColumns = std::map<std::string, std::string>;
 
 // named: these serve whatever their names say; they exist
-// joint: from 1; 0 for that of a named position or torque, else the first that can be fitted. One beyond the file's gives no position and no torque
+// joint: from 1; 0 for that of a named position or torque, else the first that can be fitted. One beyond the file's
+// gives no position and no torque
 // torque: optional takes no column for it
 ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required,
                           ChosenColumns const& named = {});

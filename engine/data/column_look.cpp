@@ -107,10 +107,44 @@ ColumnLook own_look(std::string const& name, std::vector<double> const& values) 
   return look;
 }
 
+// The most alike first: a motion about one frequency is as like the bend of its own, and a speed is as smooth as a
+// position. What another column is the derivative of stays a position
+void mark_derivatives(std::vector<ArrayXd> const& signals, std::vector<Motion3> const& smooth,
+                      std::vector<ColumnLook>& looks) {
+  // a filtered speed is as like; a torque that is mostly friction reaches 0.92
+  constexpr double is_slope = 0.97;
+  struct Pair {
+    double likeness;
+    std::size_t derivative;
+    std::string of;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t c = 0; c < looks.size(); ++c) {
+    if (looks[c].look != Look::like_none && looks[c].look != Look::position) continue;
+    for (auto const& motion : smooth)
+      if (double const likeness = correlation(signals[c], motion.first);
+          motion.column != looks[c].column && std::fabs(likeness) > is_slope)
+        pairs.push_back({likeness, c, motion.column});
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](Pair const& a, Pair const& b) { return std::fabs(a.likeness) > std::fabs(b.likeness); });
+  std::vector<std::string> positions;
+  for (auto const& pair : pairs) {
+    auto& look = looks[pair.derivative];
+    auto const base = std::find_if(looks.begin(), looks.end(), [&](auto const& one) { return one.column == pair.of; });
+    bool const is_taken = std::find(positions.begin(), positions.end(), look.column) != positions.end();
+    if (is_taken || look.look == Look::derivative || base->look == Look::derivative) continue;
+    look.look = Look::derivative;
+    look.of = pair.of;
+    look.likeness = pair.likeness;
+    positions.push_back(pair.of);
+  }
+}
+
 }  // namespace
 
 std::vector<ColumnLook> column_looks(RawTable const& table) {
-  constexpr double is_smooth = 0.05, is_slope = 0.9, is_torque = 0.5;
+  constexpr double is_smooth = 0.05, is_torque = 0.5;
   // a torque without noise is smooth but for its friction at reversals: the motion has to explain more of it
   constexpr double is_smooth_torque = 0.8, rougher = 2.0;
   constexpr Index fewest_rows = 64;
@@ -129,17 +163,7 @@ std::vector<ColumnLook> column_looks(RawTable const& table) {
     smooth.push_back({looks[c].column, first, slope(first, half), half, roughness(signals[c])});
     looks[c].look = Look::position;
   }
-  // the slope of another column first: a speed is as smooth as a position
-  for (std::size_t c = 0; c < looks.size(); ++c) {
-    auto& look = looks[c];
-    if (look.look != Look::like_none && look.look != Look::position) continue;
-    for (auto const& motion : smooth) {
-      if (motion.column == look.column) continue;
-      double const likeness = correlation(signals[c], motion.first);
-      if (std::fabs(likeness) > std::max(is_slope, std::fabs(look.likeness)))
-        look = {look.column, Look::derivative, look.least, look.most, look.step, motion.column, likeness};
-    }
-  }
+  mark_derivatives(signals, smooth, looks);
   auto const is_position = [&](std::string const& column) {
     return std::any_of(looks.begin(), looks.end(),
                        [&](auto const& one) { return one.column == column && one.look == Look::position; });

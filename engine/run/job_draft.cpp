@@ -141,8 +141,10 @@ class JobDrafter {
     for (auto const& term : list) texts += (texts.empty() ? "" : ", ") + toml_text(term);
     text_.setting("terms", "[" + texts + "]", "what a joint has at least; a diagnosis finds the rest");
     if (gravity_.is_plain())
-      text_.comment(fmt::format("gravity: it takes away {:.0f} % of the squared residual over {:.2g} rad",
-                                100 * gravity_.share, gravity_.range_rad));
+      text_.comment(fmt::format(
+          "gravity: it takes away {:.0f} % of the squared residual over {:.2g} rad. Is the axis vertical? Then "
+          "it is a spring: take gravity out",
+          100 * gravity_.share, gravity_.range_rad));
     if (!both_ways_) text_.comment("no offset: the joint moves one way, and friction looks like one");
   }
 
