@@ -170,11 +170,13 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
     joints = {""};
   }
   bool const number_serves = numbers_tell(joints);
-  // of one joint: by its label; where that has nothing that moves, what shares its number, or of one joint anything
+  // of one joint: by its label; where that has nothing that moves, or a command alone, what shares its number, or of
+  // one joint anything
   auto const pick_of = [&](std::vector<LikelyColumn> const& likely, std::string const& one) {
     auto found = pick(table, likely, label, one);
     auto const take_moving = [&](ChannelGuess other) {
-      bool const is_better = found.column.empty() || (found.is_constant && !other.is_constant);
+      bool const is_measured = found.role.commanded && !other.role.commanded;
+      bool const is_better = found.column.empty() || (!other.is_constant && (found.is_constant || is_measured));
       if (!other.column.empty() && is_better) found = std::move(other);
     };
     if (number_serves && !one.empty()) take_moving(pick(table, likely, by_number, one.substr(one.rfind('#') + 1)));

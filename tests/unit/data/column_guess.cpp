@@ -217,6 +217,18 @@ TEST(ColumnGuess, PassesOverColumnsAndJointsThatNeverChange) {
   EXPECT_EQ(guess.torque.column, "motor_current_2");
 }
 
+TEST(ColumnGuess, AMeasuredTorqueOfAnotherNameGoesBeforeACommandedOne) {
+  auto const guess = guess_columns(table_of({{"q1", wave(1)},
+                                             {"q2", wave(1)},
+                                             {"tau_des_1", wave(1)},
+                                             {"tau_des_2", wave(1)},
+                                             {"joint_1_torque", wave(1)},
+                                             {"joint_2_torque", wave(1)}}),
+                                   2);
+  EXPECT_EQ(guess.joints, 2u);
+  EXPECT_EQ(guess.torque.column, "joint_2_torque");
+}
+
 TEST(ColumnGuess, PrefersNewtonMetresToAnUnknownUnit) {
   auto const guess = guess_columns(table_of({{"t", wave(1)}, {"i", wave(2)}, {"torAct", wave(3)}, {"q", wave(1)}}));
   EXPECT_EQ(guess.torque.column, "torAct");
