@@ -43,14 +43,13 @@ double share_equal(std::vector<double> const& q, std::vector<double> const& r, s
   return moving < fewest ? 0.0 : static_cast<double>(equal) / static_cast<double>(moving);
 }
 
-double median_step(std::vector<double> const& q) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < q.size(); ++i)
-    if (double const step = std::fabs(q[i] - q[i - 1]); step > 0) steps.push_back(step);
-  if (steps.empty()) return 0.0;
-  auto const middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+// what a copy of single precision may differ by
+double rounding_of(std::vector<double> const& q) {
+  constexpr double single_precision = 0x1p-23;
+  double largest = 0.0;
+  for (double value : q)
+    if (std::isfinite(value)) largest = std::max(largest, std::fabs(value));
+  return single_precision * largest;
 }
 
 }  // namespace
@@ -67,11 +66,11 @@ void examine_constant_reference(Examination& exam) {
 void examine_copied_reference(Examination& exam) {
   if (!exam.has("reference")) return;
   auto const& q = exam.values("position");
-  // convention: two hundredths of a step from row to row, which the digits of a copy may cost and no loop follows to;
-  // one row in twenty may differ, as where episodes meet
-  constexpr double of_a_step = 0.02, nearly_all = 0.95;
+  // convention: one row in twenty may differ, as where episodes meet. A joint that follows by just a row differs by its
+  // acceleration
+  constexpr double nearly_all = 0.95;
   constexpr std::ptrdiff_t furthest_ahead = 10, furthest_behind = 3;
-  double const tolerance = of_a_step * median_step(q);
+  double const tolerance = rounding_of(q);
   for (std::ptrdiff_t ahead = -furthest_behind; ahead <= furthest_ahead; ++ahead) {
     if (ahead == 0 || share_equal(q, exam.values("reference"), ahead, tolerance) < nearly_all) continue;
     return do_not_use(exam, FindingKind::reference_is_position, static_cast<double>(ahead));

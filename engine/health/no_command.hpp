@@ -5,8 +5,8 @@
 //            a loop with a constant command does not, unless the job names what else drives it (added_command,
 //            external_torque)
 // Copy       the position of a later row, as data sets for imitation call it an action, or of an earlier one: nearly
-//            all rows that move agree far better than a joint follows. The position of the same row is left to
-//            twin/echoed_reference.hpp
+//            all rows that move agree to single precision, and no joint follows so well (the position of the same row:
+//            twin/echoed_reference.hpp)
 // Then       the column is not used; of a recording without a torque it stays, for there is nothing else
 // Threads    free functions
 
