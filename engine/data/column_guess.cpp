@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "engine/data/columns.hpp"
+#include "engine/data/joint_numbers.hpp"
 
 namespace torquescope {
 namespace {
@@ -82,42 +83,115 @@ std::vector<std::string> labels_of(std::vector<LikelyColumn> const& likely, Labe
 
 }  // namespace
 
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn torque) {
-  auto const positions = signals(table, "position"), references = signals(table, "reference"),
-             velocities = signals(table, "velocity"), switches = switches_of(table),
-             torques = torque == TorqueColumn::required ? signals(table, "torque") : std::vector<LikelyColumn>{};
+namespace {
+
+// all that may serve as a channel, of any joint
+struct Candidates {
+  std::vector<LikelyColumn> positions, torques, references, velocities, switches;
+  std::vector<NumberShift> shifts{};  // of torques and references
+
+  Candidates(RawTable const& table, TorqueColumn torque)
+      : positions(signals(table, "position")),
+        torques(torque == TorqueColumn::required ? signals(table, "torque") : std::vector<LikelyColumn>{}),
+        references(signals(table, "reference")),
+        velocities(signals(table, "velocity")),
+        switches(switches_of(table)) {
+    for (auto* channel : {&torques, &references})
+      if (auto const shift = number_like(positions, *channel)) shifts.push_back(*shift);
+    number_like(positions, velocities);
+  }
+};
+
+// labels with a position and a torque, or in a file without one a reference, in the order of the file
+std::vector<std::string> joints_by(Label const& label, Candidates const& all, std::vector<std::string> const& names) {
+  auto const have_torque = labels_of(all.torques.empty() ? all.references : all.torques, label);
+  std::vector<LikelyColumn> in_file_order = all.positions;
+  std::stable_sort(in_file_order.begin(), in_file_order.end(), [&](auto const& a, auto const& b) {
+    return std::find(names.begin(), names.end(), a.column) < std::find(names.begin(), names.end(), b.column);
+  });
+  auto joints = labels_of(in_file_order, label);
+  std::erase_if(joints, [&](std::string const& text) {
+    return std::find(have_torque.begin(), have_torque.end(), text) == have_torque.end();
+  });
+  return joints;
+}
+
+// the numbers alone say the joint: no two joints of other names share one
+bool numbers_tell(std::vector<std::string> const& joints) {
+  std::vector<std::string> numbers;
+  for (auto const& joint : joints) numbers.push_back(joint.substr(joint.rfind('#') + 1));
+  std::sort(numbers.begin(), numbers.end());
+  return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
+}
+
+// from 1: that of a column that a person named; 0 where no joint has it
+std::size_t joint_of(ChosenColumns const& named, Candidates const& all, Label const& label,
+                     std::vector<std::string> const& joints) {
+  for (auto const& [channel, likely] : {std::pair{"position", &all.positions}, std::pair{"torque", &all.torques}})
+    for (auto const& one : *likely) {
+      auto const given = named.find(channel);
+      if (given == named.end() || one.column != given->second) continue;
+      auto const at = std::find(joints.begin(), joints.end(), label(one.name));
+      if (at != joints.end()) return static_cast<std::size_t>(at - joints.begin()) + 1;
+    }
+  return 0;
+}
+
+void take_named(RawTable const& table, ChosenColumns const& named, ColumnGuess& guess) {
+  std::map<std::string, ChannelGuess*> const channels{
+      {"position", &guess.position}, {"torque", &guess.torque}, {"reference", &guess.reference}};
+  for (auto const& [channel, column] : named) {
+    auto const at = channels.find(channel);
+    if (at == channels.end() || at->second->column == column) continue;
+    auto const c = std::find(table.names.begin(), table.names.end(), column) - table.names.begin();
+    auto const k = static_cast<std::size_t>(c);
+    auto const name = parse_column_name(column, k < table.units.size() ? table.units[k] : "");
+    *at->second = describe(table, {column, name, column_role(name)});
+  }
+  // a guess must not stand in two places
+  for (auto const& [channel, other] : channels)
+    if (!named.contains(channel))
+      for (auto const& [its_channel, column] : named)
+        if (other->column == column) *other = {};
+}
+
+}  // namespace
+
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn torque, ChosenColumns const& named) {
+  Candidates const all(table, torque);
   Label const by_words = [](ColumnName const& name) { return name.rest + "#" + name.number; };
   Label const by_number = [](ColumnName const& name) { return name.number; };
   Label const all_one = [](ColumnName const&) { return std::string(); };
-
-  // labels with a position and a torque, or in a file without one a reference, in the order of the file
-  auto const joints_by = [&](Label const& label) {
-    auto const have_torque = labels_of(torques.empty() ? references : torques, label);
-    std::vector<LikelyColumn> in_file_order = positions;
-    std::stable_sort(in_file_order.begin(), in_file_order.end(), [&](auto const& a, auto const& b) {
-      return std::find(table.names.begin(), table.names.end(), a.column) <
-             std::find(table.names.begin(), table.names.end(), b.column);
-    });
-    auto joints = labels_of(in_file_order, label);
-    std::erase_if(joints, [&](std::string const& text) {
-      return std::find(have_torque.begin(), have_torque.end(), text) == have_torque.end();
-    });
-    return joints;
-  };
   Label label = by_words;
-  auto joints = joints_by(by_words);
-  if (joints.empty()) joints = joints_by(label = by_number);
+  auto joints = joints_by(by_words, all, table.names);
+  if (joints.empty()) joints = joints_by(label = by_number, all, table.names);
   if (joints.empty()) {
     label = all_one;
     joints = {""};
   }
+  bool const number_serves = numbers_tell(joints);
+  // of one joint: by its label; where that has nothing that moves, or a command alone, what shares its number, or of
+  // one joint anything
+  auto const pick_of = [&](std::vector<LikelyColumn> const& likely, std::string const& one) {
+    auto found = pick(table, likely, label, one);
+    auto const take_moving = [&](ChannelGuess other) {
+      bool const is_measured = found.role.commanded && !other.role.commanded;
+      bool const is_better = found.column.empty() || (!other.is_constant && (found.is_constant || is_measured));
+      if (!other.column.empty() && is_better) found = std::move(other);
+    };
+    if (number_serves && !one.empty()) take_moving(pick(table, likely, by_number, one.substr(one.rfind('#') + 1)));
+    if (joints.size() == 1) take_moving(pick(table, likely, all_one, ""));
+    return found;
+  };
 
   ColumnGuess guess;
+  guess.shifts = all.shifts;
   guess.joints = joints.size();
+  if (joint == 0) joint = joint_of(named, all, label, joints);
   guess.joint = joint == 0 ? 1 : joint;
   std::vector<double> ranges;
   for (auto const& each : joints) {
-    auto const position = pick(table, positions, label, each);
+    auto const position = pick(table, all.positions, label, each);
     ranges.push_back(position.most - position.least);
     if (!position.column.empty()) guess.positions.push_back(position.column);
   }
@@ -126,23 +200,25 @@ ColumnGuess guess_columns(RawTable const& table, std::size_t joint, TorqueColumn
   auto const largest = std::max_element(ranges.begin(), ranges.end());
   auto const moves = [&](double range) { return range > hardly * *largest; };
   guess.moving_joints = static_cast<std::size_t>(std::count_if(ranges.begin(), ranges.end(), moves));
+  // nobody asked for one: the first whose columns change at all
+  for (std::size_t k = 0; joint == 0 && k < joints.size(); ++k) {
+    auto const its_torque = pick_of(all.torques, joints[k]);
+    bool const can_be_fitted = ranges[k] > 0 && (torque == TorqueColumn::optional || !its_torque.is_constant);
+    if (!can_be_fitted) continue;
+    guess.joint = k + 1;
+    break;
+  }
   guess.joint_that_moves =
       moves(ranges[guess.joint - 1]) ? guess.joint : static_cast<std::size_t>(largest - ranges.begin()) + 1;
   std::string const& chosen = joints[guess.joint - 1];
-  guess.position = pick(table, positions, label, chosen);
-  guess.torque = pick(table, torques, label, chosen);
-  guess.reference = pick(table, references, label, chosen);
-  guess.velocity = pick(table, velocities, label, chosen);
-  // a name that says less, of a file with one joint: "goal" beside "motor position"
-  if (guess.joints == 1 && guess.reference.column.empty()) guess.reference = pick(table, references, all_one, "");
-  if (guess.joints == 1 && guess.velocity.column.empty()) guess.velocity = pick(table, velocities, all_one, "");
-  // a torque of 0 in every row beside a current of another name
-  if (auto const any = pick(table, torques, all_one, "");
-      guess.joints == 1 && guess.torque.is_constant && !any.is_constant)
-    guess.torque = any;
+  guess.position = pick(table, all.positions, label, chosen);
+  guess.torque = pick_of(all.torques, chosen);
+  guess.reference = pick_of(all.references, chosen);
+  guess.velocity = pick_of(all.velocities, chosen);
   // "drive_on" says no joint's name; where joints have one each, the number tells them apart
-  guess.enabled = pick(table, switches, by_number, guess.position.name.number);
-  if (guess.enabled.column.empty() && switches.size() == 1) guess.enabled = pick(table, switches, all_one, "");
+  guess.enabled = pick(table, all.switches, by_number, guess.position.name.number);
+  if (guess.enabled.column.empty() && all.switches.size() == 1) guess.enabled = pick(table, all.switches, all_one, "");
+  take_named(table, named, guess);
   return guess;
 }
 

@@ -3,17 +3,21 @@
 //
 // Joints     columns belong together when their number and the words that say nothing are the same; where that leaves
 //            no joint with position and torque, the number alone; then all columns are one joint
+//            A channel that counts joints from 1 beside positions from 0 is counted anew (joint_numbers.hpp)
 //            Without any torque: with position and reference
 // Switch     0 and 1 alone under a name that says enabled or on: never a torque
 // Order      joints as their position columns stand in the file; `joint` counts them from 1
-// Values     a column that never changes serves only where no other does; whole numbers without a unit are counts
+// Values     a column, or a joint, that never changes serves only where no other does; whole numbers without a unit
+//            are counts
 // Threads    free function
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/data/column_suggestion.hpp"
+#include "engine/data/joint_numbers.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/data/torque_column.hpp"
 
@@ -33,12 +37,19 @@ struct ColumnGuess {
   ChannelGuess position, torque, reference, velocity, enabled;
   std::size_t joint = 1, joints = 1;
   std::vector<std::string> positions{};  // the position column of each joint
-  std::size_t moving_joints = 1;         // of them: over a twentieth of the largest range, and more
-  std::size_t joint_that_moves = 1;      // `joint`, or where that hardly moves the one with the largest range
+  std::size_t moving_joints = 1;      // of them: over a twentieth of the largest range, and more
+  std::vector<NumberShift> shifts{};  // columns of one joint that have different numbers
+  std::size_t joint_that_moves = 1;   // `joint`, or where that hardly moves the one with the largest range
 };
 
-// joint: from 1; 0 for the first. One beyond the file's gives no position and no torque
+// columns that a person named, by channel: position, torque, reference, time
+using ChosenColumns = std::map<std::string, std::string>;
+
+// named: these serve whatever their names say; they exist
+// joint: from 1; 0 for that of a named position or torque, else the first that can be fitted. One beyond the file's
+// gives no position and no torque
 // torque: optional takes no column for it
-ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required);
+ColumnGuess guess_columns(RawTable const& table, std::size_t joint = 0, TorqueColumn torque = TorqueColumn::required,
+                          ChosenColumns const& named = {});
 
 }  // namespace torquescope

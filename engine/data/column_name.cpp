@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/data/compound_word.hpp"
+#include "engine/data/plain_spelling.hpp"
+
 namespace torquescope {
 namespace {
 
@@ -88,23 +91,6 @@ void join_rates(std::vector<std::string>& pieces) {
   if (n >= 4 && pieces[n - 1] == "2" && lowered(pieces[n - 2]) == "s") joined(n - 3, "/s2");
 }
 
-// "ides" -> i and des; "actpos" -> act and pos; nothing when it is no quantity beside a modifier
-std::vector<ColumnWord> glued(std::string const& word) {
-  for (std::size_t at = 1; at < word.size(); ++at) {
-    auto const first = column_word(word.substr(0, at)), second = column_word(word.substr(at));
-    if (!first || !second || is_quantity(first->kind) == is_quantity(second->kind)) continue;
-    auto const& modifier = is_quantity(first->kind) ? *second : *first;
-    bool const one_letter = at + 1 == word.size() && !is_quantity(second->kind);  // "posr" is no word
-    if (!one_letter && (modifier.kind == WordKind::commanded || modifier.kind == WordKind::measured))
-      return {*first, *second};
-  }
-  return {};
-}
-
-}  // namespace
-
-namespace {
-
 // takes the word that is a unit out of the pieces: never the first, "v" alone is a name
 std::string take_unit_word(std::vector<std::string>& pieces) {
   join_rates(pieces);
@@ -123,9 +109,29 @@ std::string take_unit_word(std::vector<std::string>& pieces) {
 
 }  // namespace
 
+namespace {
+
+// two words that say one thing, as data sets for imitation name the position
+bool is_observed_state(std::vector<std::string> const& pieces) {
+  auto const state = std::find_if(pieces.begin(), pieces.end(), [](auto const& p) { return lowered(p) == "state"; });
+  return state != pieces.begin() && state != pieces.end() && lowered(*std::prev(state)) == "observation";
+}
+
+// letters that count only behind a quantity: "q_d", "tau_J_d" are desired; "i_q", "u_q" of the axis that makes torque
+bool says_letter(std::string const& word, bool is_last, std::vector<ColumnWord>& words) {
+  auto const last = std::find_if(words.rbegin(), words.rend(), [](auto const& w) { return is_quantity(w.kind); });
+  if (last == words.rend()) return false;
+  if (word == "q" && last->kind == WordKind::drive) return true;
+  if (word != "d" || !is_last) return false;
+  words.push_back({WordKind::commanded, 0});
+  return true;
+}
+
+}  // namespace
+
 ColumnName parse_column_name(std::string const& name, std::string const& units) {
   ColumnName parsed;
-  std::string text = name;
+  std::string text = with_plain_brackets(name);
   parsed.unit_text = take_bracketed_unit(text);
   auto pieces = pieces_of(text);
   if (parsed.unit_text.empty()) parsed.unit_text = take_unit_word(pieces);
@@ -135,16 +141,22 @@ ColumnName parse_column_name(std::string const& name, std::string const& units) 
     parsed.unit_text = stated->word;
   }
 
-  for (auto const& piece : pieces) {
-    if (is_digit(piece.front())) {
-      parsed.number = piece;
+  constexpr ColumnWord state{WordKind::position, 60};
+  if (is_observed_state(pieces)) parsed.words.push_back(state);
+  std::size_t n_words = pieces.size();
+  while (n_words > 0 && is_digit(pieces[n_words - 1].front())) --n_words;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (is_digit(pieces[k].front())) {
+      parsed.number = pieces[k];
       continue;
     }
-    std::string const word = lowered(piece);
+    std::string const word = without_accents(lowered(pieces[k]));
+    if (says_letter(word, k + 1 == n_words, parsed.words)) continue;
     auto const meaning = column_word(word);
-    auto const both = meaning ? std::vector<ColumnWord>{*meaning} : glued(word);
-    parsed.words.insert(parsed.words.end(), both.begin(), both.end());
-    if (both.empty()) parsed.rest += (parsed.rest.empty() ? "" : " ") + word;
+    bool const is_said = meaning && meaning->kind != WordKind::filler;
+    auto const all = is_said ? std::vector<ColumnWord>{*meaning} : compound_word(word);
+    parsed.words.insert(parsed.words.end(), all.begin(), all.end());
+    if (all.empty()) parsed.rest += (parsed.rest.empty() ? "" : " ") + word;
   }
   return parsed;
 }
@@ -168,9 +180,11 @@ WordKind quantity_by_unit(ColumnName const& name, WordKind by_words) {
     case Quantity::torque:
     case Quantity::force:
       return WordKind::torque;
-    case Quantity::counts:  // "loop_count" counts as well
-    case Quantity::current:
+    case Quantity::current:  // "i_q_A"; of a word that says nothing as well: the only current of a file
+      return by_words == WordKind::torque ? by_words : WordKind::drive;
     case Quantity::voltage:
+      return by_words == WordKind::position || by_words == WordKind::velocity ? WordKind::drive : by_words;
+    case Quantity::counts:  // "loop_count" counts as well
     case Quantity::ratio:
       return by_words;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace torquescope {
 namespace column_words {
@@ -14,9 +15,10 @@ struct Entry {
 
 constexpr WordKind time_ = WordKind::time, position = WordKind::position, velocity = WordKind::velocity,
                    acceleration = WordKind::acceleration, torque = WordKind::torque, drive = WordKind::drive,
-                   commanded = WordKind::commanded, measured = WordKind::measured, doubtful = WordKind::doubtful;
+                   commanded = WordKind::commanded, measured = WordKind::measured, doubtful = WordKind::doubtful,
+                   filler = WordKind::filler;
 
-// English, German, ROS, CiA 402 and the drives' own tools
+// English, German, French, Spanish, Italian, Japanese, Chinese, ROS, CiA 402 and the drives' own tools; accents are off
 constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"time", time_, 95},
                              Entry{"timestamp", time_, 95},
@@ -32,6 +34,9 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"q", position, 100},
                              Entry{"pos", position, 100},
                              Entry{"position", position, 100},
+                             Entry{"qpos", position, 95},
+                             Entry{"qvel", velocity, 95},
+                             Entry{"ctrl", commanded},
                              Entry{"theta", position, 95},
                              Entry{"angle", position, 95},
                              Entry{"winkel", position, 95},
@@ -137,17 +142,140 @@ constexpr std::array entries{Entry{"stamp", time_, 100},
                              Entry{"flag", doubtful},
                              Entry{"seq", doubtful},
                              Entry{"index", doubtful},
+                             Entry{"zeitstempel", time_, 90},
+                             Entry{"temps", time_, 90},
+                             Entry{"tiempo", time_, 90},
+                             Entry{"tempo", time_, 90},
+                             Entry{"時間", time_, 90},
+                             Entry{"時刻", time_, 90},
+                             Entry{"时间", time_, 90},
+                             Entry{"uhrzeit", time_, 60},
+                             Entry{"heure", time_, 60},
+                             Entry{"hora", time_, 60},
+                             Entry{"lage", position, 90},
+                             Entry{"posicion", position, 90},
+                             Entry{"posizione", position, 90},
+                             Entry{"位置", position, 90},
+                             Entry{"stellung", position, 85},
+                             Entry{"angulo", position, 85},
+                             Entry{"angolo", position, 85},
+                             Entry{"角度", position, 85},
+                             Entry{"回転角", position, 85},
+                             Entry{"geschwindigkeit", velocity, 90},
+                             Entry{"vitesse", velocity, 90},
+                             Entry{"velocidad", velocity, 90},
+                             Entry{"velocita", velocity, 90},
+                             Entry{"速度", velocity, 90},
+                             Entry{"回転数", velocity, 90},
+                             Entry{"转速", velocity, 90},
+                             Entry{"beschleunigung", acceleration, 100},
+                             Entry{"aceleracion", acceleration, 100},
+                             Entry{"accelerazione", acceleration, 100},
+                             Entry{"加速度", acceleration, 100},
+                             Entry{"momenten", torque, 95},
+                             Entry{"couple", torque, 95},
+                             Entry{"coppia", torque, 95},
+                             Entry{"トルク", torque, 95},
+                             Entry{"力矩", torque, 95},
+                             Entry{"扭矩", torque, 95},
+                             Entry{"转矩", torque, 95},
+                             Entry{"tor", torque, 85},
+                             Entry{"par", torque, 85},
+                             Entry{"fuerza", torque, 85},
+                             Entry{"forza", torque, 85},
+                             Entry{"courant", drive, 60},
+                             Entry{"corriente", drive, 60},
+                             Entry{"corrente", drive, 60},
+                             Entry{"電流", drive, 60},
+                             Entry{"电流", drive, 60},
+                             Entry{"spannung", drive, 50},
+                             Entry{"tension", drive, 50},
+                             Entry{"電圧", drive, 50},
+                             Entry{"电压", drive, 50},
+                             Entry{"action", commanded},
+                             Entry{"dmd", commanded},
+                             Entry{"req", commanded},
+                             Entry{"requested", commanded},
+                             Entry{"wanted", commanded},
+                             Entry{"planned", commanded},
+                             Entry{"setp", commanded},
+                             Entry{"stp", commanded},
+                             Entry{"sollwert", commanded},
+                             Entry{"vorgabe", commanded},
+                             Entry{"consigne", commanded},
+                             Entry{"consigna", commanded},
+                             Entry{"cible", commanded},
+                             Entry{"objetivo", commanded},
+                             Entry{"deseado", commanded},
+                             Entry{"deseada", commanded},
+                             Entry{"referencia", commanded},
+                             Entry{"riferimento", commanded},
+                             Entry{"指令", commanded},
+                             Entry{"目標", commanded},
+                             Entry{"目标", commanded},
+                             Entry{"给定", commanded},
+                             Entry{"observation", measured},
+                             Entry{"istwert", measured},
+                             Entry{"gemessen", measured},
+                             Entry{"mesure", measured},
+                             Entry{"mesuree", measured},
+                             Entry{"reel", measured},
+                             Entry{"reelle", measured},
+                             Entry{"real", measured},
+                             Entry{"medido", measured},
+                             Entry{"medida", measured},
+                             Entry{"misurato", measured},
+                             Entry{"misurata", measured},
+                             Entry{"現在", measured},
+                             Entry{"実測", measured},
+                             Entry{"実際", measured},
+                             Entry{"实际", measured},
+                             Entry{"反馈", measured},
+                             Entry{"bus", doubtful},
+                             Entry{"supply", doubtful},
+                             Entry{"battery", doubtful},
+                             Entry{"motor", filler},
+                             Entry{"dreh", filler},
+                             Entry{"gelenk", filler},
+                             Entry{"achs", filler},
+                             Entry{"achse", filler},
+                             Entry{"wert", filler},
+                             Entry{"en", filler},
+                             Entry{"s", filler},
+                             Entry{"値", filler},
+                             Entry{"值", filler},
+                             Entry{"モータ", filler},
+                             Entry{"モーター", filler},
+                             Entry{"関節", filler},
+                             Entry{"关节", filler},
+                             Entry{"軸", filler},
+                             Entry{"轴", filler},
+                             Entry{"回転", filler},
+                             Entry{"角", filler},
                              Entry{"raw", WordKind::raw}};
 
 }  // namespace column_words
 
+namespace column_words {
+
+std::optional<ColumnWord> as_written(std::string_view word) {
+  auto const found = std::find_if(entries.begin(), entries.end(), [&](auto const& e) { return e.word == word; });
+  return found == entries.end() ? std::nullopt : std::optional(ColumnWord{found->kind, found->weight});
+}
+
+// "torques", "velocities"
+std::string singular(std::string_view word) {
+  constexpr std::size_t shortest = 5;
+  if (word.size() < shortest || word.back() != 's') return {};
+  if (word.ends_with("ies")) return std::string(word.substr(0, word.size() - 3)) + "y";
+  return std::string(word.substr(0, word.size() - 1));
+}
+
+}  // namespace column_words
+
 std::optional<ColumnWord> column_word(std::string_view word) {
-  auto const found = std::find_if(column_words::entries.begin(), column_words::entries.end(),
-                                  [&](auto const& e) { return e.word == word; });
-  if (found != column_words::entries.end()) return ColumnWord{found->kind, found->weight};
-  constexpr std::size_t shortest_plural = 5;  // "commands", as topics of ROS are called; "vels" may be anything
-  bool const is_plural = word.size() >= shortest_plural && word.ends_with('s') && !word.ends_with("ss");
-  return is_plural ? column_word(word.substr(0, word.size() - 1)) : std::nullopt;
+  if (auto const found = column_words::as_written(word)) return found;
+  return column_words::as_written(column_words::singular(word));
 }
 
 }  // namespace torquescope

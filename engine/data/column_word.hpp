@@ -20,6 +20,7 @@ enum class WordKind {
   measured,   // "actual", "feedback"
   doubtful,   // "error", "limit", "temp": no plain channel
   raw,        // a register, as it came
+  filler,     // part of a compound that says nothing by itself: "motor" of "Motorstrom"
 };
 
 struct ColumnWord {
@@ -29,7 +30,7 @@ struct ColumnWord {
 
 inline bool is_quantity(WordKind kind) { return kind <= WordKind::drive; }
 
-// `word` in lower case, a plural as its singular; nothing when it says nothing
+// `word` in lower case and without accents, a plural as its singular; nothing when it says nothing
 std::optional<ColumnWord> column_word(std::string_view word);
 
 }  // namespace torquescope

@@ -19,10 +19,12 @@ std::string_view without_quotes(std::string_view cell) {
   return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
-// where the cell that begins at `from` ends; separators inside quotes do not count
+// where the cell that begins at `from` ends; separators inside quotes do not count, nor those of a list: [0.1, 0.2]
 std::size_t end_of_cell(std::string_view line, std::size_t from, char separator) {
   bool in_quotes = false;
-  for (std::size_t i = from; i < line.size(); ++i) {
+  std::size_t const first = std::min(line.find_first_not_of(' ', from), line.size());
+  std::size_t const end_of_list = first < line.size() && line[first] == '[' ? line.find(']', first) : first;
+  for (std::size_t i = end_of_list == std::string_view::npos ? from : end_of_list; i < line.size(); ++i) {
     if (line[i] == '"') in_quotes = !in_quotes;
     bool const separates = separator == blanks ? line[i] == ' ' || line[i] == '\t' : line[i] == separator;
     if (separates && !in_quotes) return i;

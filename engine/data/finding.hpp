@@ -45,7 +45,9 @@ enum class FindingKind {
   velocity_factor,       // size: velocity over derivative of the position; detail: what it may be
   velocity_late,         // size: s
   velocity_constant,
-  reference_factor,  // size: position over reference; detail: what it may be; errors before and after
+  reference_factor,       // size: position over reference; detail: what it may be; errors before and after
+  reference_constant,     // size: its value
+  reference_is_position,  // size: rows by which the position is ahead of it
   // the fit of the job's model
   less_than_none,   // detail: the parameters and their values
   wrong_sign,       // as less_than_none, and the torque takes work out of the joint

@@ -93,8 +93,12 @@ bool is_part_of_a_stamp(RawTable const& table, std::vector<LikelyColumn> const& 
 
 }  // namespace
 
-std::optional<StampGuess> guess_stamps(RawTable const& table) {
-  auto const likely = likely_columns("time", table.names, table.units);
+std::optional<StampGuess> guess_stamps(RawTable const& table, std::string const& named) {
+  auto likely = likely_columns("time", table.names, table.units);
+  if (!named.empty()) {
+    std::erase_if(likely, [&](LikelyColumn const& one) { return one.column != named; });
+    if (likely.empty()) likely.push_back({named, parse_column_name(named), {}});
+  }
   for (auto const& candidate : likely) {
     auto const& stamps = values_of(table, candidate.column);
     if (has_nanoseconds_beside(likely, candidate) || is_part_of_a_stamp(table, likely, candidate)) continue;

@@ -23,7 +23,7 @@ struct StampGuess {
   std::string why{};  // "the name says ms", "a step of 2e+06 suits nanoseconds"
 };
 
-// nothing when no column with the name of a time runs forwards
-std::optional<StampGuess> guess_stamps(RawTable const& table);
+// nothing when no column with the name of a time, or the one that was named, runs forwards
+std::optional<StampGuess> guess_stamps(RawTable const& table, std::string const& named = "");
 
 }  // namespace torquescope

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/data/delimited_text.hpp"
+#include "engine/data/list_cells.hpp"
 #include "engine/data/time_stamp.hpp"
 
 namespace torquescope {
@@ -51,6 +52,7 @@ struct Cells {
     auto kind = read_cell(cell, ignored);
     bool const maybe_comma = separator != ',' || cell.starts_with('"');
     if (kind == CellKind::text && maybe_comma) kind = read_comma_cell(cell, ignored);
+    if (kind == CellKind::text && !list_elements(cell).empty()) kind = CellKind::number;
     bool const is_stamp = kind == CellKind::text && read_stamp(unquoted(cell), ignored) != StampKind::none;
     n_numbers += kind == CellKind::number || is_stamp;
     n_words += kind == CellKind::text && !is_stamp;
@@ -89,15 +91,38 @@ bool all_differ(Cells const& cells) {
   return different.size() == cells.n_named && !different.contains("");
 }
 
+bool are_units(Cells const& cells) { return cells.n_units > 0 && 2 * cells.n_units >= cells.n_words; }
+
+// whether the line above names that repeat tells them apart
+bool has_groups(std::vector<Line> const& lines, std::size_t names, char separator, std::size_t n_columns) {
+  if (names == 0) return false;
+  Cells const cells(lines[names].text, separator), above(lines[names - 1].text, separator);
+  if (all_differ(cells) || !above.is_words() || above.all.size() < n_columns) return false;
+  std::vector<std::string> const plain(cells.all.begin(), cells.all.end());
+  auto const whole = with_groups(plain, above.all);
+  return std::set<std::string>(whole.begin(), whole.end()).size() == whole.size();
+}
+
 // whether `lower` describes the columns that `upper` names
 bool describes(Cells const& lower, Cells const& upper, bool only_two_at_the_top) {
   if (!all_differ(upper)) return false;  // a row of groups above the names
-  bool const mostly_units = lower.n_units > 0 && 2 * lower.n_units >= lower.n_words;
+  bool const mostly_units = are_units(lower);
   constexpr std::size_t enough_columns = 3;  // two cells may be a setting and its value
   return mostly_units || !all_differ(lower) || (only_two_at_the_top && upper.n_named >= enough_columns);
 }
 
 }  // namespace
+
+std::vector<std::string> with_groups(std::vector<std::string> const& names,
+                                     std::vector<std::string_view> const& groups) {
+  std::vector<std::string> whole;
+  std::string group;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (c < groups.size() && !groups[c].empty()) group = unquoted(groups[c]);
+    whole.push_back(group.empty() ? names[c] : group + "." + names[c]);
+  }
+  return whole;
+}
 
 std::string unit_in(std::string_view cell) {
   std::string unit = unquoted(cell);
@@ -248,11 +273,13 @@ std::optional<TableLayout> layout_of(std::string_view text) {
   }
   if (candidates.empty()) return std::nullopt;
   std::size_t names = candidates.front();
-  TableLayout layout{separator, lines.front().number, 0, 0, lines[row].number};
+  TableLayout layout{separator, lines.front().number, 0, 0, 0, lines[row].number};
   if (candidates.size() > 1) {
     std::size_t const upper = candidates[1];
     bool const only_two_at_the_top = upper == 0 && names == 1 && row == 2;
-    if (describes(Cells(lines[names].text, separator), Cells(lines[upper].text, separator), only_two_at_the_top)) {
+    Cells const lower(lines[names].text, separator);
+    bool const names_in_groups = are_units(lower) && has_groups(lines, upper, separator, first_row.all.size());
+    if (names_in_groups || describes(lower, Cells(lines[upper].text, separator), only_two_at_the_top)) {
       layout.units_line = lines[names].number;
       names = upper;
     }
@@ -263,6 +290,7 @@ std::optional<TableLayout> layout_of(std::string_view text) {
     if (cells.is_row() && cells.all.size() == first_row.all.size()) return std::nullopt;
   }
   layout.names_line = lines[names].number;
+  if (has_groups(lines, names, separator, first_row.all.size())) layout.groups_line = lines[names - 1].number;
   return layout;
 }
 

@@ -67,6 +67,10 @@ std::string code_of(FindingKind kind) {
       return "position_factor";
     case reference_factor:
       return "reference_factor";
+    case reference_constant:
+      return "reference_constant";
+    case reference_is_position:
+      return "reference_is_position";
     case other_joints_move:
       return "other_joints_move";
     case arm_setup:

@@ -16,8 +16,10 @@ std::string rows_words(Finding const& finding) {
   return text + (finding.count > static_cast<std::int64_t>(finding.lines.size()) ? ", ...)" : ")");
 }
 
-std::string done_words(Repair repair) {
-  switch (repair) {
+std::string done_words(Finding const& finding) {
+  bool const is_reference =
+      finding.kind == FindingKind::reference_constant || finding.kind == FindingKind::reference_is_position;
+  switch (finding.repair) {
     case Repair::corrected:
       return "; corrected";
     case Repair::filled:
@@ -25,7 +27,8 @@ std::string done_words(Repair repair) {
     case Repair::left_out:
       return "; left out of every fit";
     case Repair::channel_unused:
-      return "; the column is not used, the velocity is derived from the position";
+      return is_reference ? "; the column is not used"
+                          : "; the column is not used, the velocity is derived from the position";
     case Repair::none:
       break;
   }
@@ -126,6 +129,14 @@ std::string what(Finding const& f) {
     case reference_factor:
       return fmt::format("{} times {:.4g} is the position to {:.2g} %, as it stands to {:.3g} %{}", column, f.size,
                          100 * f.error_after, 100 * f.error_before, f.detail.empty() ? "" : ": " + f.detail);
+    case reference_constant:
+      return fmt::format("the reference {} is a constant and no command: {:g} in every row while the joint moves",
+                         column, f.size);
+    case reference_is_position:
+      return fmt::format(
+          "the reference {} is the position {:.0f} row{} {}, and no command", column, std::fabs(f.size),
+          std::fabs(f.size) == 1.0 ? "" : "s",
+          f.size > 0 ? "ahead (the next state, as data sets for imitation call it an action)" : "before");
     case other_joints_move:
       return fmt::format(
           "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
@@ -162,7 +173,7 @@ std::string grade_word(Grade grade) {
 std::string sentence_of(Finding const& finding) {
   bool const says_so = finding.kind == FindingKind::position_wraps || finding.kind == FindingKind::rows_out_of_order ||
                        finding.kind == FindingKind::stamps_of_arrival;
-  return whose(finding) + what(finding) + (says_so ? "" : done_words(finding.repair));
+  return whose(finding) + what(finding) + (says_so ? "" : done_words(finding));
 }
 
 std::string cure_of(Finding const& f) {
@@ -217,6 +228,9 @@ std::string cure_of(Finding const& f) {
       return f.line_to_write;
     case beyond_limits:
       return "check the unit and the zero of the column, and the limits of the robot file";
+    case reference_constant:
+    case reference_is_position:
+      return "take reference out of columns, or name what the controller was given";
     case reference_factor:
       return "log the reference in the unit of the position";
     case less_than_none:

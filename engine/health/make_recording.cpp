@@ -15,6 +15,7 @@
 #include "engine/data/signal_facts.hpp"
 #include "engine/health/channel_units.hpp"
 #include "engine/health/clock.hpp"
+#include "engine/health/no_command.hpp"
 #include "engine/health/reference_channel.hpp"
 #include "engine/health/register_coding.hpp"
 #include "engine/health/repeated_rows.hpp"
@@ -257,11 +258,13 @@ void examine(Examination& exam) {
     exam.add(FindingKind::reader_remark, Grade::note, Repair::none, file_name(exam.table), {}, 0.0, remark);
   if (exam.has("time")) examine_clock(exam);
   examine_units(exam);
+  examine_constant_reference(exam);
   decode_registers(exam);
   unwrap_position(exam);
   examine_repeated_rows(exam);  // or what makes up for them would be jumps
   examine_position_rows(exam);
   examine_reference(exam);
+  examine_copied_reference(exam);
   examine_torque_rows(exam);
   examine_torque_sign(exam);
   if (exam.time_s.empty())

@@ -9,6 +9,7 @@
 #include "engine/data/excitation.hpp"
 #include "engine/data/filter_suggestion.hpp"
 #include "engine/job/job.hpp"
+#include "engine/run/column_remarks.hpp"
 #include "engine/run/draft_notes.hpp"
 #include "engine/run/draft_text.hpp"
 #include "engine/run/foreign_file.hpp"
@@ -143,8 +144,10 @@ class JobDrafter {
     for (auto const& term : list) texts += (texts.empty() ? "" : ", ") + toml_text(term);
     text_.setting("terms", "[" + texts + "]", "what a joint has at least; a diagnosis finds the rest");
     if (gravity_.is_plain())
-      text_.comment(fmt::format("gravity: it takes away {:.0f} % of the squared residual over {:.2g} rad",
-                                100 * gravity_.share, gravity_.range_rad));
+      text_.comment(fmt::format(
+          "gravity: it takes away {:.0f} % of the squared residual over {:.2g} rad. Is the axis vertical? Then "
+          "it is a spring: take gravity out",
+          100 * gravity_.share, gravity_.range_rad));
     if (!both_ways_) text_.comment("no offset: the joint moves one way, and friction looks like one");
   }
 
@@ -213,16 +216,18 @@ void list_guesses(JobDraft& draft, RecordingGuess const& train) {
     draft.guesses.push_back(fmt::format("joint {} of {}; --joint N takes another, by number or name ({})",
                                         columns.joint, columns.joints,
                                         fmt::join(names_of_joints(columns.positions), ", ")));
+  if (auto const why = unused_reference_words(train); !why.empty()) draft.guesses.push_back(why);
+  for (auto const& shift : columns.shifts) draft.guesses.push_back(shift_words(shift));
 }
 
 // a manifest may lie among them; `leading`: its index
 RecordingGuess first_with_a_position(std::vector<std::filesystem::path> const& recordings, std::size_t joint,
-                                     TorqueColumn torque, std::size_t& leading) {
-  RecordingGuess first = guess_recording(recordings.front(), joint, torque);
+                                     TorqueColumn torque, ChosenColumns const& named, std::size_t& leading) {
+  RecordingGuess first = guess_recording(recordings.front(), joint, torque, named);
   bool const is_refused = first.columns.joint > first.columns.joints;
   if (!first.columns.position.column.empty() || is_refused) return first;
   for (std::size_t k = 1; k < recordings.size(); ++k)
-    if (auto next = guess_recording(recordings[k], joint, torque); !next.columns.position.column.empty()) {
+    if (auto next = guess_recording(recordings[k], joint, torque, named); !next.columns.position.column.empty()) {
       leading = k;
       return next;
     }
@@ -232,11 +237,11 @@ RecordingGuess first_with_a_position(std::vector<std::filesystem::path> const& r
 }  // namespace
 
 JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
-                   std::size_t joint, DraftKind kind) {
+                   std::size_t joint, DraftKind kind, ChosenColumns const& named) {
   for (auto const& recording : recordings) refuse_no_recording(recording);
   auto const torque = kind == DraftKind::servo ? TorqueColumn::optional : TorqueColumn::required;
   std::size_t leading = 0;
-  RecordingGuess train = first_with_a_position(recordings, joint, torque, leading);
+  RecordingGuess train = first_with_a_position(recordings, joint, torque, named, leading);
   validate(train.columns.joint <= train.columns.joints, [&] {
     Problem problem;
     problem.code = ExitCode::usage;
@@ -247,12 +252,13 @@ JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::fi
   });
   bool const servo = torque == TorqueColumn::optional || is_servo(train.columns);
   // a torque that never changes may stand in the way of the servo's columns
-  if (servo) train = guess_recording(recordings[leading], joint, TorqueColumn::optional);
+  if (servo) train = guess_recording(recordings[leading], joint, TorqueColumn::optional, named);
   std::vector<RecordingGuess> others;
   for (std::size_t k = 0; k < recordings.size(); ++k)
     if (k != leading) others.push_back(guess_like(recordings[k], train));
   JobDraft draft = servo ? draft_servo_job(train, others, job_file) : JobDrafter(train, others, job_file).draft();
   list_guesses(draft, train);
+  for (auto const& look : train.looks) draft.looks.push_back(look_words(look));
   if (!servo) check_draft(draft, train, job_file);
   return draft;
 }

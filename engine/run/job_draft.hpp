@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/data/column_guess.hpp"
 
 namespace torquescope {
 
 struct JobDraft {
   std::string text;
   std::vector<std::string> guesses{};   // one line each: columns, rate, filter
+  std::vector<std::string> looks{};     // where columns have to be named: what each looks like
   std::vector<std::string> warnings{};  // what to edit, and what `torquescope check` would refuse
   ExitCode code = ExitCode::ok;         // else why it does not run as it stands: 65 the recording, 78 lines to edit
 };
@@ -27,8 +29,8 @@ enum class DraftKind {
 };
 
 // recordings: of a joint the first with a position trains, the others validate. joint: from 1; 0 for the first of the
-// file
+// file. named: columns that serve whatever their names say
 JobDraft draft_job(std::vector<std::filesystem::path> const& recordings, std::filesystem::path const& job_file,
-                   std::size_t joint = 0, DraftKind kind = DraftKind::of_the_files);
+                   std::size_t joint = 0, DraftKind kind = DraftKind::of_the_files, ChosenColumns const& named = {});
 
 }  // namespace torquescope

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/data/recording_reader.hpp"
+#include "engine/run/column_remarks.hpp"
 
 namespace torquescope {
 
@@ -167,13 +168,18 @@ class RecordingDraft {
       if (train_.columns.moving_joints > 1)
         text_.comment(fmt::format("{} of them move: what they do to this joint's torque is no part of this model.",
                                   train_.columns.moving_joints));
+      for (auto const& shift : joints.shifts) text_.comment(shift_words(shift) + ".");
     }
+    for (auto const& look : train_.looks) text_.comment(look_words(look));
+    if (!train_.looks.empty())
+      text_.comment("torquescope init FILE --position COLUMN --torque COLUMN drafts it with the columns you name.");
     if (train_.stamps) text_.setting("time", toml_text(train_.stamps->column), time_comment());
     write_channel("position", train_.columns.position, position_comment());
     if (has_torque()) write_channel("torque", train_.columns.torque, torque_comment());
     if (!has_torque() || reference_serves(train_.columns))
       write_channel("reference", reference_fits(train_.columns) ? train_.columns.reference : ChannelGuess{},
                     "guessed from the name: the commanded position");
+    if (auto const why = unused_reference_words(train_); !why.empty()) text_.comment(why);
     if (auto const& enabled = train_.columns.enabled; !enabled.column.empty() && !(has_torque() && enabled.is_constant))
       text_.setting("enabled", toml_text(enabled.column), "0 and 1, and the name: whether the drive is on");
     if (auto const& velocity = train_.columns.velocity; !velocity.column.empty())
@@ -194,6 +200,9 @@ class RecordingDraft {
 
   std::string position_comment() const {
     auto const& position = train_.columns.position;
+    if (train_.named.contains("position") && !position.name.unit)
+      return position.counts ? "as you said; whole numbers, so counts"
+                             : fmt::format("as you said; no unit there, taken as {}", position_unit());
     if (position.name.unit) return fmt::format("guessed from the name and its unit, {}", position.name.unit->word);
     return position.counts ? "guessed from the name; whole numbers, so counts"
                            : fmt::format("guessed from the name; no unit there, taken as {}", position_unit());
@@ -201,6 +210,9 @@ class RecordingDraft {
 
   std::string torque_comment() const {
     auto const& torque = train_.columns.torque;
+    if (train_.named.contains("torque") && !torque.name.unit)
+      return torque_unit_is_known(torque) ? fmt::format("as you said; no unit there, taken as {}", torque_unit())
+                                          : "as you said; its unit is unknown";
     if (torque.name.unit) return fmt::format("guessed from the name and its unit, {}", torque.name.unit->word);
     return torque_unit_is_known(torque)
                ? fmt::format("guessed from the name; no unit there, taken as {}", torque_unit())

@@ -1,5 +1,8 @@
 #include "engine/run/recording_guess.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -36,6 +39,17 @@ Section written(RecordingOptions const& options) {
   return section;
 }
 
+// beside a torque a reference that is no command helps nobody; of a servo it is all there is
+void take_out_no_command(RecordingGuess& guess) {
+  for (auto const& finding : guess.recording->findings) {
+    bool const is_none =
+        finding.kind == FindingKind::reference_constant || finding.kind == FindingKind::reference_is_position;
+    if (!is_none || finding.repair != Repair::channel_unused) continue;
+    guess.no_command = finding;
+    guess.columns.reference = {};
+  }
+}
+
 void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
   bool const needs_torque = guess.torque == TorqueColumn::required;
   if (guess.columns.position.column.empty() || (needs_torque && guess.columns.torque.column.empty())) {
@@ -51,6 +65,7 @@ void read_as_guessed(RecordingGuess& guess, RawTable const& table) {
   try {
     guess.recording = make_recording(table, options, written(options), OtherJoints::ignored, guess.torque);
     guess.jitter = guess.recording->rows.jitter;
+    take_out_no_command(guess);
   } catch (Error const& refused) {
     guess.refusal = refused.problems().front().what;
   }
@@ -93,14 +108,35 @@ bool is_servo(ColumnGuess const& columns) {
   return !has_torque && !columns.position.column.empty() && reference_fits(columns);
 }
 
-RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint, TorqueColumn torque) {
+void check_named(RawTable const& table, ChosenColumns const& named) {
+  for (auto const& [channel, column] : named)
+    validate(std::find(table.names.begin(), table.names.end(), column) != table.names.end(), [&] {
+      auto const text = std::find_if(table.unusable.begin(), table.unusable.end(),
+                                     [&](auto const& one) { return one.name == column; });
+      Problem problem;
+      problem.code = ExitCode::usage;
+      problem.what = text != table.unusable.end()
+                         ? fmt::format("--{} \"{}\" cannot serve: the column {}", channel, column, text->reason)
+                         : fmt::format("--{} \"{}\": {} has no such column", channel, column,
+                                       std::filesystem::path(table.path).filename().string());
+      problem.help = fmt::format("the file has {}", fmt::join(table.names, ", "));
+      return problem;
+    });
+}
+
+RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint, TorqueColumn torque,
+                               ChosenColumns const& named) {
   RecordingGuess guess;
   guess.file = file;
   guess.torque = torque;
   RawTable const table = read_table(file, {"recording", {}, {}});
   guess.rows = table.columns.empty() ? 0 : table.columns.front().size();
-  guess.columns = guess_columns(table, joint, torque);
-  guess.stamps = guess_stamps(table);
+  check_named(table, named);
+  guess.named = named;
+  guess.columns = guess_columns(table, joint, torque, named);
+  guess.stamps = guess_stamps(table, named.contains("time") ? named.at("time") : "");
+  bool const lacks_torque = torque == TorqueColumn::required && guess.columns.torque.column.empty();
+  if (guess.columns.position.column.empty() || lacks_torque) guess.looks = column_looks(table);
   guess.names = table.names;
   guess.unusable = table.unusable;
   take_units(guess);
@@ -123,7 +159,7 @@ RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess cons
     if (std::find(table.names.begin(), table.names.end(), channel->column) == table.names.end())
       guess.refusal = "no column \"" + channel->column + "\"";
   if (!guess.refusal.empty()) return guess;
-  guess.stamps = guess_stamps(table);
+  guess.stamps = guess_stamps(table, first.named.contains("time") ? first.named.at("time") : "");
   read_as_guessed(guess, table);
   return guess;
 }

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "engine/data/column_guess.hpp"
+#include "engine/data/column_look.hpp"
+#include "engine/data/finding.hpp"
 #include "engine/data/recording.hpp"
 #include "engine/data/stamp_guess.hpp"
 
@@ -24,13 +26,16 @@ struct RecordingGuess {
   std::vector<UnusableColumn> unusable{};                 // of them, those that hold text
   double position_per_unit = 1.0, torque_per_unit = 1.0;  // 1 where the unit does not tell
   std::optional<Recording> recording{};                   // in SI units as far as they are known
+  std::optional<Finding> no_command{};                    // of a reference that was taken out of `columns`
+  ChosenColumns named{};                                  // by a person
+  std::vector<ColumnLook> looks{};                        // where the position or the torque is not known
   std::string refusal{};                                  // why there is none
   double jitter = 0.0;                                    // of the stamps
 };
 
-// joint, torque: as guess_columns()
+// joint, torque, named: as guess_columns(); Error 64 where there is no column of a name
 RecordingGuess guess_recording(std::filesystem::path const& file, std::size_t joint,
-                               TorqueColumn torque = TorqueColumn::required);
+                               TorqueColumn torque = TorqueColumn::required, ChosenColumns const& named = {});
 // another recording with the columns of the first
 RecordingGuess guess_like(std::filesystem::path const& file, RecordingGuess const& first);
 

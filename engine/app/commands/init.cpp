@@ -26,6 +26,13 @@ struct InitArguments {
   std::string out{};
   std::string joint{}, robot{};
   bool servo = false;
+  std::string time{}, position{}, torque{}, reference{};
+
+  ChosenColumns named() const {
+    ChosenColumns all{{"time", time}, {"position", position}, {"torque", torque}, {"reference", reference}};
+    std::erase_if(all, [](auto const& one) { return one.second.empty(); });
+    return all;
+  }
 };
 
 // only ever a new file: a job may hold a day's work
@@ -62,15 +69,17 @@ std::string file_behind_stdout() {
 ExitCode init_job(InitArguments const& arguments, Session const& session) {
   std::string const job = arguments.out.empty() ? file_behind_stdout() : arguments.out;
   std::vector<std::filesystem::path> const recordings(arguments.recordings.begin(), arguments.recordings.end());
-  JobDraft const draft = arguments.robot.empty()
-                             ? draft_job(recordings, job, joint_number(recordings.front(), arguments.joint),
-                                         arguments.servo ? DraftKind::servo : DraftKind::of_the_files)
-                             : draft_arm_job(recordings, arguments.robot, job);
+  JobDraft const draft =
+      arguments.robot.empty()
+          ? draft_job(recordings, job, joint_number(recordings.front(), arguments.joint),
+                      arguments.servo ? DraftKind::servo : DraftKind::of_the_files, arguments.named())
+          : draft_arm_job(recordings, arguments.robot, job);
   if (arguments.out.empty())
     session.verdict(draft.text);
   else
     write_new_file(arguments.out, draft.text);
   for (auto const& guess : draft.guesses) session.note(session.topic_line("guessed", guess));
+  for (auto const& look : draft.looks) session.note(session.topic_line("column", look));
   for (auto const& warning : draft.warnings) session.note(session.topic_line("warning", warning));
   if (!arguments.out.empty()) session.note(session.topic_line("wrote", arguments.out));
   session.note(session.topic_line("next", fmt::format("torquescope check {0}, torquescope diagnose {0}", job)));
@@ -87,6 +96,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       "  torquescope init arm.csv > arm.toml\n"
       "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
       "  torquescope init --robot arm.urdf monday.h5 --out arm.toml\n"
+      "  torquescope init odd.csv --position b --torque d > odd.toml\n"
       "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
       ->add_option(
@@ -107,6 +117,16 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       ->type_name("ROBOT")
       ->excludes(joint)
       ->group("recording");
+  struct Channel {
+    char const* option;
+    std::string* column;
+    char const* says;
+  };
+  for (auto const& channel : {Channel{"--position", &arguments->position, "the column of the measured position"},
+                              Channel{"--torque", &arguments->torque, "of the torque, or the motor's current"},
+                              Channel{"--reference", &arguments->reference, "of the commanded position"},
+                              Channel{"--time", &arguments->time, "of the time stamps"}})
+    command->add_option(channel.option, *channel.column, channel.says)->type_name("COLUMN")->group("recording");
   command
       ->add_flag("--servo", arguments->servo,
                  "a job of many recordings of a servo ([[recordings]]), even where a column may be a torque")

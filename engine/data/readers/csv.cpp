@@ -3,6 +3,7 @@
 // Names      the line right above the rows (table_layout.hpp), a preamble and a line of units apart; else the first
 //            line that is no comment, or the comment right above numbers (numpy.savetxt)
 // Rows       as many cells as names, and one trailing separator; a last line that was cut short is left out
+// Lists      a column of lists in cells is spread into columns "NAME[0]", "NAME[1]", ... (list_cells.hpp)
 // Cells      text_column.hpp; a column with text in some cell is unusable, a line of text alone is an error
 // Bounds     a line 1 MiB, columns 4096; of gzip see gunzip.hpp
 // Errors     Error 65 with file:line
@@ -18,6 +19,7 @@
 #include "engine/data/delimited_text.hpp"
 #include "engine/data/file_bytes.hpp"
 #include "engine/data/gunzip.hpp"
+#include "engine/data/list_cells.hpp"
 #include "engine/data/recording_reader.hpp"
 #include "engine/data/table_layout.hpp"
 #include "engine/data/text_column.hpp"
@@ -99,18 +101,37 @@ class CsvText {
           "write the names above them, separated like the numbers: t_s,q_rad,tau_Nm");
     });
     table_.names = names_in_comment ? comment_names() : names_of(cells_);
-    validate(table_.names.size() <= most_columns, [&] {
-      return problem(fmt::format("{} columns; a recording may have {}", table_.names.size(), most_columns),
-                     "keep the columns that recording.columns names");
-    });
+    if (layout_ && layout_->groups_line > 0) take_groups();
+    check_number_of_columns();
+    n_cells_ = table_.names.size();
     columns_.resize(table_.names.size());
     if (names_in_comment) add_row();
   }
 
+  void check_number_of_columns() const {
+    validate(table_.names.size() <= most_columns, [&] {
+      return problem(fmt::format("{} columns; a recording may have {}", table_.names.size(), most_columns),
+                     "keep the columns that recording.columns names");
+    });
+  }
+
+  void take_groups() {
+    std::vector<std::string_view> groups;
+    split_cells(groups_, separator_, groups);
+    table_.names = with_groups(table_.names, groups);
+    for (auto& name : table_.names) name = utf8_or_latin1(name);
+    table_.remarks.push_back(fmt::format("Line {} was read as groups of the columns: \"{}\" and so on.",
+                                         layout_->groups_line, table_.names.front()));
+  }
+
   void skip_preamble() {
-    std::int64_t const first = lines_.line_number(), last = layout_->names_line - 1;
+    std::int64_t const groups = layout_->groups_line, first = lines_.line_number(),
+                       last = (groups > 0 ? groups : layout_->names_line) - 1;
+    while (lines_.line_number() < layout_->names_line) {
+      if (lines_.line_number() == groups) groups_ = line_;
+      next_line();
+    }
     if (first > last) return;
-    while (lines_.line_number() < layout_->names_line) next_line();
     table_.remarks.push_back(first == last
                                  ? fmt::format("Line {} above the column names was skipped.", first)
                                  : fmt::format("Lines {} to {} above the column names were skipped.", first, last));
@@ -147,19 +168,36 @@ class CsvText {
     return std::all_of(cells_.begin(), cells_.end(), [&](auto cell) { return TextColumn().add(cell, 1, marks); });
   }
 
+  // what the first row shows
+  void spread_lists() {
+    lists_.emplace(cells_);
+    if (!lists_->any()) return;
+    std::size_t const before = table_.names.size();
+    table_.names = lists_->spread_names(table_.names);
+    table_.units = lists_->spread_units(table_.units);
+    check_number_of_columns();
+    columns_.resize(table_.names.size());
+    table_.remarks.push_back(
+        fmt::format("Cells with lists were read as columns: {} for {}.", table_.names.size(), before));
+  }
+
   void add_row() {
     split_cells(line_, separator_, cells_);
-    std::size_t const n_columns = table_.names.size();
+    std::size_t const n_columns = n_cells_;
     if (cells_.size() == n_columns + 1 && cells_.back().empty()) cells_.pop_back();
     bool const last = lines_.at_end();
     if (last && cells_.size() < n_columns && !table_.line_of_row.empty()) return leave_out_last_line();
     validate(cells_.size() == n_columns, [&] { return ragged_row(); });
-    if (last && !lines_.line_ended() && is_torn(cells_.back())) return leave_out_last_line();
+    bool const is_list = !list_elements(cells_.back()).empty();
+    if (last && !lines_.line_ended() && !is_list && is_torn(cells_.back())) return leave_out_last_line();
+    if (!lists_) spread_lists();
+    if (lists_->any()) lists_->spread_cells(cells_);
     std::size_t n_text = 0;
-    for (std::size_t c = 0; c < n_columns; ++c) n_text += !columns_[c].add(cells_[c], lines_.line_number(), marks_);
-    validate(n_text < n_columns, [&] { return row_of_text(); });
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      n_text += !columns_[c].add(cells_[c], lines_.line_number(), marks_);
+    validate(n_text < columns_.size(), [&] { return row_of_text(); });
     table_.line_of_row.push_back(lines_.line_number());
-    validate(table_.line_of_row.size() * n_columns <= most_table_values, [&] {
+    validate(table_.line_of_row.size() * columns_.size() <= most_table_values, [&] {
       return problem(fmt::format("more than {} numbers; one recording may not hold more", most_table_values),
                      "cut it into several recordings: recording.train takes a list");
     });
@@ -214,9 +252,8 @@ class CsvText {
   }
 
   Problem ragged_row() const {
-    auto const what =
-        fmt::format("line {} has {} cells, the header {}", lines_.line_number(), cells_.size(), table_.names.size());
-    bool const decimal_comma = separator_ == ',' && cells_.size() > table_.names.size();
+    auto const what = fmt::format("line {} has {} cells, the header {}", lines_.line_number(), cells_.size(), n_cells_);
+    bool const decimal_comma = separator_ == ',' && cells_.size() > n_cells_;
     return problem(what, decimal_comma ? "a decimal comma? write 1.5 for 1,5, or separate the cells by semicolons"
                                        : "was the line cut short? delete it, or cut the recording there");
   }
@@ -258,9 +295,12 @@ class CsvText {
   std::optional<TableLayout> layout_;
   std::string_view line_;
   std::string_view last_comment_;
+  std::string_view groups_;
   char separator_ = ',';
   DecimalMarks marks_;
   std::vector<std::string_view> cells_;
+  std::size_t n_cells_ = 0;  // of a line
+  std::optional<ListColumns> lists_{};
   std::vector<TextColumn> columns_;
 };
 

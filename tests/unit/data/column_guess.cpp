@@ -176,5 +176,85 @@ TEST(ColumnGuess, TakesNoTorqueWhereNoneIsWanted) {
   EXPECT_EQ(guess.reference.column, "goal_rad");
 }
 
+Columns six_joints(int first_position, int first_torque, std::string const& torque = "tau") {
+  Columns columns{{"t_s", wave(1)}};
+  for (int k = 0; k < 6; ++k) columns.push_back({"q" + std::to_string(first_position + k), wave(1, k)});
+  for (int k = 0; k < 6; ++k) columns.push_back({torque + std::to_string(first_torque + k), wave(2, k)});
+  return columns;
+}
+
+TEST(ColumnGuess, PairsJointsThatAreCountedFromZeroAndFromOne) {
+  for (auto const& [from, other] : {std::pair{0, 1}, {1, 0}}) {
+    auto const guess = guess_columns(table_of(six_joints(from, other)), 6);
+    EXPECT_EQ(guess.joints, 6u);
+    EXPECT_EQ(guess.position.column, "q" + std::to_string(from + 5));
+    EXPECT_EQ(guess.torque.column, "tau" + std::to_string(other + 5));
+    ASSERT_EQ(guess.shifts.size(), 1u);
+    EXPECT_EQ(guess.shifts[0].position, "q" + std::to_string(from));
+    EXPECT_EQ(guess.shifts[0].other, "tau" + std::to_string(other));
+  }
+  // counted alike, and a second family that is not
+  EXPECT_TRUE(guess_columns(table_of(six_joints(1, 1))).shifts.empty());
+  auto both = six_joints(0, 0);
+  for (int k = 1; k <= 6; ++k) both.push_back({"goal_pos_" + std::to_string(k), wave(1, k)});
+  auto const guess = guess_columns(table_of(both), 2);
+  EXPECT_EQ(guess.torque.column, "tau1");
+  EXPECT_EQ(guess.reference.column, "goal_pos_2");
+  // five torques beside six positions: which one has none cannot be told by counting
+  auto five = six_joints(0, 1);
+  five.pop_back();
+  EXPECT_EQ(guess_columns(table_of(five)).joints, 5u);
+}
+
+TEST(ColumnGuess, CommandsAreNoFurtherJoints) {
+  for (std::string const word :
+       {"cmd", "des", "desired", "goal", "target", "ref", "reference", "setpoint", "sp", "command", "commanded", "d"})
+    for (bool const in_front : {false, true}) {
+      if (word == "d" && in_front) continue;
+      Columns columns{{"t", wave(1)}};
+      for (std::string const joint : {"1", "2"})
+        for (std::string const quantity : {"q", "tau"}) {
+          columns.push_back({quantity + "_" + joint, wave(1)});
+          columns.push_back({in_front ? word + "_" + quantity + "_" + joint : quantity + "_" + word + joint, wave(2)});
+        }
+      auto const guess = guess_columns(table_of(columns), 2);
+      EXPECT_EQ(guess.joints, 2u) << word;
+      EXPECT_EQ(guess.position.column, "q_2") << word;
+      EXPECT_EQ(guess.torque.column, "tau_2") << word;
+      EXPECT_EQ(guess.reference.column, in_front ? word + "_q_2" : "q_" + word + "2");
+    }
+}
+
+TEST(ColumnGuess, PassesOverColumnsAndJointsThatNeverChange) {
+  std::vector<double> const still(200, 0.0);
+  auto const guess = guess_columns(table_of({{"q1", still},
+                                             {"q2", wave(1)},
+                                             {"effort1", still},
+                                             {"effort2", still},
+                                             {"motor_current_1", wave(1)},
+                                             {"motor_current_2", wave(2)}}));
+  EXPECT_EQ(guess.joints, 2u);
+  EXPECT_EQ(guess.joint, 2u);
+  EXPECT_EQ(guess.position.column, "q2");
+  EXPECT_EQ(guess.torque.column, "motor_current_2");
+}
+
+TEST(ColumnGuess, AMeasuredTorqueOfAnotherNameGoesBeforeACommandedOne) {
+  auto const guess = guess_columns(table_of({{"q1", wave(1)},
+                                             {"q2", wave(1)},
+                                             {"tau_des_1", wave(1)},
+                                             {"tau_des_2", wave(1)},
+                                             {"joint_1_torque", wave(1)},
+                                             {"joint_2_torque", wave(1)}}),
+                                   2);
+  EXPECT_EQ(guess.joints, 2u);
+  EXPECT_EQ(guess.torque.column, "joint_2_torque");
+}
+
+TEST(ColumnGuess, PrefersNewtonMetresToAnUnknownUnit) {
+  auto const guess = guess_columns(table_of({{"t", wave(1)}, {"i", wave(2)}, {"torAct", wave(3)}, {"q", wave(1)}}));
+  EXPECT_EQ(guess.torque.column, "torAct");
+}
+
 }  // namespace column_guess_test
 }  // namespace torquescope

@@ -55,7 +55,40 @@ TEST(ColumnName, SaysQuantityUnitAndJointAsLoggersWriteThem) {
                               {"ides1_A", WordKind::drive, true, depends_on_drive, "1"},
                               {"present_current", WordKind::drive, false, no_unit, ""},
                               {"motor current (mA)", WordKind::drive, false, depends_on_drive, ""},
-                              {"u_V", WordKind::drive, false, depends_on_drive, ""}};
+                              {"u_V", WordKind::drive, false, depends_on_drive, ""},
+                              // a current by its unit alone, and of the axis of the motor that makes torque
+                              {"Achse X [mA]", WordKind::drive, false, depends_on_drive, ""},
+                              {"i_q_A", WordKind::drive, false, depends_on_drive, ""},
+                              {"i_d_A", WordKind::drive, true, depends_on_drive, ""},
+                              {"q_d", WordKind::position, true, no_unit, ""},
+                              {"tau_J_d[3]", WordKind::torque, true, no_unit, "3"},
+                              // data sets for imitation
+                              {"observation.state[0]", WordKind::position, false, no_unit, "0"},
+                              {"observation.effort[0]", WordKind::torque, false, no_unit, "0"},
+                              {"qpos[0]", WordKind::position, false, no_unit, "0"},
+                              {"joint_torques[1]", WordKind::torque, false, no_unit, "1"},
+                              {"joint_commands[1]", WordKind::position, true, no_unit, "1"},
+                              {"velocities_2", WordKind::velocity, false, no_unit, "2"},
+                              {"action[0]", WordKind::position, true, no_unit, "0"},
+                              // German, French, Spanish, Japanese, Chinese
+                              {"Zeit [ms]", WordKind::time, false, 1e-3, ""},
+                              {"Motorstrom [mA]", WordKind::drive, false, depends_on_drive, ""},
+                              {"Sollwinkel (Grad)", WordKind::position, true, degree, ""},
+                              {"Lageistwert [°]", WordKind::position, false, degree, ""},
+                              {"Drehmomentistwert", WordKind::torque, false, no_unit, ""},
+                              {"Winkelgeschwindigkeit [°/s]", WordKind::velocity, false, degree, ""},
+                              {"Temps (s)", WordKind::time, false, 1.0, ""},
+                              {"Vitesse mesurée", WordKind::velocity, false, no_unit, ""},
+                              {"Couple (N·m)", WordKind::torque, false, 1.0, ""},
+                              {"Consigne de position [rad]", WordKind::position, true, 1.0, ""},
+                              {"Posición [rad]", WordKind::position, false, 1.0, ""},
+                              {"Par motor [Nm]", WordKind::torque, false, 1.0, ""},
+                              {"Corriente [A]", WordKind::drive, false, depends_on_drive, ""},
+                              {"時間（秒）", WordKind::time, false, 1.0, ""},
+                              {"速度 [rpm]", WordKind::velocity, false, turn / 60, ""},
+                              {"指令位置［deg］", WordKind::position, true, degree, ""},
+                              {"J2トルク(Nm)", WordKind::torque, false, 1.0, "2"},
+                              {"电机电流 [A]", WordKind::drive, false, depends_on_drive, ""}};
   for (auto const& example : examples) {
     SCOPED_TRACE(example.column);
     auto const name = parse_column_name(example.column);

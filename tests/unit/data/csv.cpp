@@ -49,6 +49,39 @@ TEST(CsvReader, AllUsualSpellingsGiveTheSameTable) {
   expect_the_table(read_text("# a robot\n# t_s,q_rad,tau\n0,1.5,-1\n0.001,-2.5e-3,0\n0.002,4,1e3\n"));  // numpy.savetxt
 }
 
+TEST(CsvReader, NamesThatRepeatBelongToTheGroupsAboveThem) {
+  std::vector<std::string> const names{"Time", "Axis 1.Position", "Axis 1.Torque", "Axis 2.Position", "Axis 2.Torque"};
+  std::string const groups = ",Axis 1,,Axis 2,\n", header = "Time,Position,Torque,Position,Torque\n",
+                    rows = "0,1,2,3,4\n1,2,3,4,5\n2,3,4,5,6\n";
+  EXPECT_EQ(read_text(groups + header + rows).names, names);
+  auto const with_units = read_text("Log of Monday\n" + groups + header + "s,deg,Nm,deg,Nm\n" + rows);
+  EXPECT_EQ(with_units.names, names);
+  EXPECT_EQ(with_units.units, (std::vector<std::string>{"s", "deg", "Nm", "deg", "Nm"}));
+  // names that differ need no groups
+  EXPECT_EQ(read_text(",Axis 1,\nTime,Position,Torque\n0,1,2\n1,2,3\n2,3,4\n").names[1], "Position");
+}
+
+TEST(CsvReader, ListsInCellsBecomeColumns) {
+  std::vector<std::string> const names{"t_s", "state[0]", "state[1]", "action[0]", "action[1]"};
+  for (std::string const text : {"t_s,state,action\n0,\"[1.5, 2]\",\"[3,4]\"\n1,\"[-2.5e-3, 3]\",\"[5,6]\"\n",
+                                 "t_s,state,action\n0,[1.5, 2],[3, 4]\n1,[-2.5e-3, 3],[5, 6]",
+                                 "t_s;state;action\n0;[ 1.5  2. ];[3 4]\n1;[-2.5e-3 3];[5 6]\n",
+                                 "t_s\tstate\taction\n0\t[1.5; 2]\t[3; 4]\n1\t[-2.5e-3; 3]\t[5; 6]\n"}) {
+    auto const table = read_text(text);
+    EXPECT_EQ(table.names, names) << text;
+    ASSERT_EQ(table.columns.size(), names.size());
+    EXPECT_EQ(table.columns[1], (std::vector<double>{1.5, -2.5e-3}));
+    EXPECT_EQ(table.columns[4], (std::vector<double>{4, 6}));
+    EXPECT_TRUE(table.unusable.empty());
+  }
+  // a list of another length is text, and said; empty columns stay columns
+  auto const odd = read_text("t_s,state\n0,\"[1, 2]\"\n1,\"[1, 2, 3]\"\n2,\"[1, 2]\"\n");
+  EXPECT_EQ(odd.names, std::vector<std::string>{"t_s"});
+  ASSERT_EQ(odd.unusable.size(), 2u);
+  EXPECT_NE(odd.unusable[0].reason.find("line 3"), std::string::npos);
+  EXPECT_EQ(read_text("a\t\tb\n1\t\t2\n3\t\t4\n").columns.size(), 3u);
+}
+
 TEST(CsvReader, GzipGivesTheTableAndTheDigestOfItsOwnBytes) {
   auto const path = data_test::folder() / "arm.csv.gz";
   std::string const text = "t_s,q_rad,tau\n0,1.5,-1\n0.001,-2.5e-3,0\n0.002,4,1e3\n";

@@ -307,6 +307,80 @@ TEST(VelocityExamination, ContradictingChannelsAreNotUsed) {
   }
 }
 
+RawTable with_reference(RawTable table, std::vector<double> reference) {
+  table.names.push_back("q_ref_rad");
+  table.columns.push_back(std::move(reference));
+  return table;
+}
+
+RecordingOptions options_with_reference() {
+  auto options = sample_options();
+  options.columns["reference"] = "q_ref_rad";
+  return options;
+}
+
+// the position `rows` later, as data sets for imitation write it: with as many digits as single precision has
+std::vector<double> next_state(std::vector<double> const& position, std::ptrdiff_t rows) {
+  std::vector<double> later;
+  auto const last = static_cast<std::ptrdiff_t>(position.size()) - 1;
+  for (std::ptrdiff_t i = 0; i <= last; ++i)
+    later.push_back(
+        static_cast<float>(position[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i + rows, 0, last))]));
+  return later;
+}
+
+TEST(ReferenceExamination, ThePositionOfAnotherRowIsNoCommand) {
+  for (auto const& drawn : draws())
+    for (std::ptrdiff_t rows : {1, 2, 5, -1}) {
+      auto const sound = sample_table(drawn);
+      auto const recording = make_recording(with_reference(sound, next_state(sound.columns[1], rows)),
+                                            options_with_reference(), job_section());
+      auto const* finding = found(recording, FindingKind::reference_is_position);
+      ASSERT_NE(finding, nullptr) << rows << " at " << drawn.rate_hz;
+      EXPECT_EQ(finding->size, static_cast<double>(rows));
+      EXPECT_EQ(recording.reference.size(), 0);
+    }
+}
+
+// a command that the joint follows 1.6 rows late, but for a thousandth of its range
+TEST(ReferenceExamination, ACommandThatIsFollowedWellStays) {
+  for (auto const& drawn : draws()) {
+    auto const sound = sample_table(drawn);
+    std::vector<double> reference;
+    auto const& q = sound.columns[1];
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      std::size_t const one = std::min(i + 1, q.size() - 1), two = std::min(i + 2, q.size() - 1);
+      reference.push_back(0.4 * q[one] + 0.6 * q[two] + 1e-3 * drawn.amplitude * sound.columns[2][i]);
+    }
+    auto const recording = make_recording(with_reference(sound, reference), options_with_reference(), job_section());
+    EXPECT_EQ(found(recording, FindingKind::reference_is_position), nullptr);
+    EXPECT_EQ(recording.reference.size(), recording.position.size());
+  }
+}
+
+TEST(ReferenceExamination, AConstantIsNoCommandUnlessTheJointComesToRest) {
+  auto const sound = sample_table();
+  for (double const value : {2.146e9, -32768.0, 0.0}) {
+    std::vector<double> const constant(sound.columns[0].size(), value);
+    auto const recording = make_recording(with_reference(sound, constant), options_with_reference(), job_section());
+    auto const* finding = found(recording, FindingKind::reference_constant);
+    ASSERT_NE(finding, nullptr) << value;
+    EXPECT_EQ(finding->size, value);
+    EXPECT_EQ(found(recording, FindingKind::sign_magnitude), nullptr);
+    EXPECT_EQ(recording.reference.size(), 0);
+  }
+  // a step: it comes to rest where it was sent
+  auto step = sound;
+  for (std::size_t i = 0; i < step.columns[1].size(); ++i) {
+    double const t = step.columns[0][i];
+    step.columns[1][i] = 2e-5 * std::round((1.0 - std::exp(-t) * std::cos(4.0 * t)) / 2e-5);
+  }
+  auto const recording = make_recording(with_reference(step, std::vector<double>(step.columns[0].size(), 1.0)),
+                                        options_with_reference(), job_section());
+  EXPECT_EQ(found(recording, FindingKind::reference_constant), nullptr);
+  EXPECT_EQ(recording.reference.size(), recording.position.size());
+}
+
 TEST(UnitExamination, NamesThatSayAnotherUnitAskForTheFactor) {
   auto table = sample_table();
   auto options = sample_options();

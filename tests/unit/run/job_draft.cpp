@@ -179,6 +179,48 @@ TEST_F(JobDraftTest, CommandAndPositionWithoutATorqueAreAServo) {
                                 HasSubstr("files = " + toml_text((folder_.path() / "x.csv").string()))));
 }
 
+TEST_F(JobDraftTest, WithBareNamesItAsksAndTakesTheColumnsThatAreNamed) {
+  auto const file = write("bare.csv", "a,b,c");
+  auto const asked = draft({file});
+  EXPECT_EQ(asked.code, ExitCode::bad_job);
+  EXPECT_THAT(asked.looks, Contains(HasSubstr("\"a\": runs forwards")));
+  EXPECT_THAT(asked.looks, Contains(AllOf(HasSubstr("\"b\": "), HasSubstr("as a position"))));
+  EXPECT_THAT(asked.looks, Contains(AllOf(HasSubstr("\"c\": "), HasSubstr("of \"b\" explain"))));
+  EXPECT_THAT(asked.text, HasSubstr("# \"b\": "));
+
+  auto const job = folder_ / "job.toml";
+  auto const named =
+      draft_job({file}, job, 0, DraftKind::of_the_files, {{"position", "b"}, {"torque", "c"}, {"time", "a"}});
+  EXPECT_EQ(named.code, ExitCode::ok) << fmt::format("{}", fmt::join(named.warnings, "\n"));
+  EXPECT_THAT(named.text, AllOf(HasSubstr("position = \"b\""), HasSubstr("torque = \"c\""), HasSubstr("as you said")));
+  try {
+    draft_job({file}, job, 0, DraftKind::of_the_files, {{"torque", "tau"}});
+    ADD_FAILURE() << "accepted";
+  } catch (Error const& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_THAT(error.problems().front().what, HasSubstr("--torque \"tau\": bare.csv has no such column"));
+    EXPECT_THAT(error.problems().front().help, HasSubstr("a, b, c"));
+  }
+  // a name against the guess
+  auto const two = write("two.csv", "t_s,q_rad,tau_Nm");
+  auto const swapped = draft_job({two}, job, 0, DraftKind::of_the_files, {{"position", "tau_Nm"}});
+  EXPECT_THAT(swapped.text, AllOf(HasSubstr("position = \"tau_Nm\""), HasSubstr("# torque = \"<column>\"")));
+}
+
+TEST_F(JobDraftTest, AReferenceThatIsTheNextPositionIsNotUsed) {
+  std::ifstream rows(write("arm.csv", "t_s,q_rad,tau_Nm"));
+  std::string line, text, before;
+  for (int k = 0; std::getline(rows, line); before = line, ++k) {
+    if (k == 1) text += before + ",action\n";
+    auto const q = line.substr(line.find(',') + 1);
+    if (k > 1) text += before + "," + q.substr(0, q.find(',')) + "\n";
+  }
+  auto const made = draft({folder_.write("imitation.csv", text)});
+  EXPECT_EQ(made.code, ExitCode::ok) << fmt::format("{}", fmt::join(made.warnings, "\n"));
+  EXPECT_THAT(made.text, AllOf(Not(HasSubstr("\nreference = ")), HasSubstr("1 row ahead")));
+  EXPECT_THAT(made.guesses, Contains(HasSubstr("1 row ahead")));
+}
+
 TEST_F(JobDraftTest, PathsAreRelativeToTheJob) {
   write("arm.csv", "t_s,q_rad,tau_Nm");
   auto const here = std::filesystem::relative(folder_ / "arm.csv");
