@@ -102,12 +102,12 @@ double simulated_at(double t) { return std::sin(t) + 2; }
 TEST(MakeRecording, SimulatedTorqueStaysWithTheMotion) {
   auto options = options_of();
   options.simulated_torque = "sim_Nm";
-  options.delay_s = -0.0038;
+  options.delay_s = {-0.0038};
   auto const late = made(table_at(even_times()), options);
   EXPECT_EQ(late.simulated_torque.size(), late.torque.size());
   EXPECT_LT(largest_error(late.time_s, late.simulated_torque, simulated_at), 1e-12);
 
-  options.delay_s = 0;
+  options.delay_s = {0};
   auto jittered = even_times();
   for (std::size_t i = 0; i < jittered.size(); i += 3) jittered[i] += 2e-4;
   auto const resampled = made(table_at(jittered), options);
@@ -139,7 +139,7 @@ TEST(MakeRecording, DelayMovesTheTorqueAgainstTheMotion) {
     auto table = table_at(even_times());
     for (std::size_t i = 0; i < 2000; ++i) table.columns[2][i] = torque_at(table.columns[0][i] - late);
     auto options = options_of();
-    options.delay_s = -late;
+    options.delay_s = {-late};
     auto const recording = made(table, options);
     EXPECT_EQ(recording.position.size(), recording.torque.size());
     EXPECT_EQ(recording.position.size(), 2000 - static_cast<Eigen::Index>(std::ceil(std::fabs(late) * 1000 - 1e-9)));
@@ -311,7 +311,7 @@ TEST(MakeRecording, StillSignalsAndStumpsAreRefused) {
   EXPECT_EQ(constant.help, "name the right column, or record a motion");
   EXPECT_EQ(refused(table_at(even_times(5)), options_of()).what, "arm.csv has 5 samples; at least 16 are needed");
   auto far = options_of();
-  far.delay_s = -1.995;
+  far.delay_s = {-1.995};
   EXPECT_EQ(refused(table_at(even_times()), far).what, "delay_s = -1.995 leaves 5 of 2000 samples");
 }
 
