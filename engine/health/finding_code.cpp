@@ -51,6 +51,12 @@ std::string code_of(FindingKind kind) {
       return "torque_without_sign";
     case torque_switched_off:
       return "torque_switched_off";
+    case command_beyond_limit:
+      return "command_beyond_limit";
+    case torque_zero_steps:
+      return "torque_zero_steps";
+    case torque_zero_drifts:
+      return "torque_zero_drifts";
     case velocity_contradicts:
       return "velocity_contradicts";
     case velocity_factor:
@@ -67,6 +73,8 @@ std::string code_of(FindingKind kind) {
       return "position_factor";
     case reference_factor:
       return "reference_factor";
+    case reference_constant:
+      return "reference_constant";
     case other_joints_move:
       return "other_joints_move";
     case standstill:

@@ -16,8 +16,8 @@ std::string rows_words(Finding const& finding) {
   return text + (finding.count > static_cast<std::int64_t>(finding.lines.size()) ? ", ...)" : ")");
 }
 
-std::string done_words(Repair repair) {
-  switch (repair) {
+std::string done_words(Finding const& f) {
+  switch (f.repair) {
     case Repair::corrected:
       return "; corrected";
     case Repair::filled:
@@ -25,7 +25,9 @@ std::string done_words(Repair repair) {
     case Repair::left_out:
       return "; left out of every fit";
     case Repair::channel_unused:
-      return "; the column is not used, the velocity is derived from the position";
+      return f.kind == FindingKind::reference_constant
+                 ? "; the column is not used"
+                 : "; the column is not used, the velocity is derived from the position";
     case Repair::none:
       break;
   }
@@ -98,6 +100,22 @@ std::string what(Finding const& f) {
       return fmt::format("{} holds nothing but noise for {:.3g} s while the joint moves, from {}: the drive was off",
                          column, f.size,
                          f.lines.empty() ? std::string("some row") : "line " + std::to_string(f.lines.front()));
+    case command_beyond_limit:
+      return fmt::format(
+          "{} is a command, and the drive gives no {}: {:.2g} % of the rows ask for more. The motion explains it with "
+          "an error of {:.2g} % beside that limit, {:.2g} % without; those rows are taken as the limit",
+          column, f.detail, 100 * f.size, 100 * f.error_after, 100 * f.error_before);
+    case torque_zero_steps:
+      return fmt::format(
+          "the zero of {} steps by {:.3g} {} at {}, whatever the motion: that explains {:.0f} % of what the motion "
+          "does "
+          "not (the sensor was zeroed anew?)",
+          column, f.size, f.unit, f.detail, 100 * f.error_before);
+    case torque_zero_drifts:
+      return fmt::format(
+          "the zero of {} drifts by {:.3g} {} over the recording, whatever the motion: that explains {:.0f} % of what "
+          "the motion does not",
+          column, f.size, f.unit, 100 * f.error_before);
     case velocity_contradicts:
       return fmt::format(
           "{} contradicts the derivative of the position (correlation {:.2f}): another signal, or without its sign",
@@ -126,6 +144,9 @@ std::string what(Finding const& f) {
     case reference_factor:
       return fmt::format("{} times {:.4g} is the position to {:.2g} %, as it stands to {:.3g} %{}", column, f.size,
                          100 * f.error_after, 100 * f.error_before, f.detail.empty() ? "" : ": " + f.detail);
+    case reference_constant:
+      return fmt::format("{} is {:.10g} in {} while the joint moves: a stop code, no command", column, f.size,
+                         f.count == 0 ? "every row" : rows);
     case other_joints_move:
       return fmt::format(
           "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
@@ -158,7 +179,7 @@ std::string grade_word(Grade grade) {
 std::string sentence_of(Finding const& finding) {
   bool const says_so = finding.kind == FindingKind::position_wraps || finding.kind == FindingKind::rows_out_of_order ||
                        finding.kind == FindingKind::stamps_of_arrival;
-  return whose(finding) + what(finding) + (says_so ? "" : done_words(finding.repair));
+  return whose(finding) + what(finding) + (says_so ? "" : done_words(finding));
 }
 
 std::string cure_of(Finding const& f) {
@@ -190,9 +211,9 @@ std::string cure_of(Finding const& f) {
     case command_as_position:
       return "columns.position = the measured column; the command belongs to columns.reference";
     case unsigned_register:
-      return fmt::format("encoding = {{torque = \"unsigned{:.0f}\"}}", f.size);
+      return fmt::format("encoding = {{{} = \"unsigned{:.0f}\"}}", f.detail, f.size);
     case sign_magnitude:
-      return fmt::format("encoding = {{torque = \"sign_magnitude{:.0f}\"}}", f.size + 1);
+      return fmt::format("encoding = {{{} = \"sign_magnitude{:.0f}\"}}", f.detail, f.size + 1);
     case torque_without_sign:
       return "log the signed torque or current; a magnitude cannot be identified";
     case velocity_factor:
@@ -211,6 +232,10 @@ std::string cure_of(Finding const& f) {
       return fmt::format("position_per_unit = {:.10g}", f.size * f.written);
     case reference_factor:
       return "log the reference in the unit of the position";
+    case reference_constant:
+      return "take reference out of columns";
+    case command_beyond_limit:
+      return "log the torque or current that the drive measures";
     case less_than_none:
       return "check columns.torque, its sign and delay_s";
     default:

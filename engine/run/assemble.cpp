@@ -27,6 +27,7 @@
 #include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/start_point.hpp"
+#include "engine/run/torque_findings.hpp"
 
 namespace torquescope {
 
@@ -399,6 +400,11 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     else
       use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
+    if (!simulates && !servo) {
+      auto const zero_error = purpose == Purpose::diagnose ? ZeroError::left_in : ZeroError::corrected;
+      examine_torques(parts->train.recordings, *parts, recording, zero_error);
+      if (parts->validate) examine_torques(parts->validate->recordings, *parts, recording, zero_error);
+    }
     std::vector<Recording> train, validate;
     if (parts->rollout && !servo) {
       train = parts->train.recordings;

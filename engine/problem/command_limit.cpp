@@ -1,0 +1,195 @@
+#include "engine/problem/command_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/base/dense_solvers.hpp"
+#include "engine/data/levels.hpp"
+
+namespace torquescope {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr Index levels_tried = 16, rounds = 3;
+// convention: a drive at its limit for more than half of the time, or less than one row in 500, is another problem
+constexpr double most_beyond = 0.5, least_beyond = 0.002;
+// convention: an error that falls by a third is worth a sentence; the filters bend the kink by a sixth at most
+constexpr double error_falls = 1.5, about_one = 0.2;
+// convention: share of what kinks at three levels explain that the limit alone must
+constexpr double alone = 0.9;
+
+enum Side { up, down };
+
+// what is asked for beyond a level, which is infinite where that side has no limit
+VectorXd beyond(VectorXd const& torque, Side side, double level) {
+  if (!std::isfinite(level)) return VectorXd::Zero(torque.size());
+  if (side == up) return (torque.array() - level).max(0.0);
+  return (torque.array() - level).min(0.0);
+}
+
+struct Kinks {
+  double upper = no_limit, lower = -no_limit;
+  double energy = 0.0;  // explained
+};
+
+class Scan {
+ public:
+  Scan(TorqueBesideMotion const& beside, VectorXd const& torque) : beside_(beside), torque_(torque) {}
+
+  VectorXd column(Side side, double level) const {
+    return beside_.left_of(beside_.filtered(beyond(torque_, side, level)));
+  }
+  // the best pair of these levels, or the best single one
+  Kinks best(std::vector<double> const& uppers, std::vector<double> const& lowers) const {
+    std::vector<VectorXd> const a = columns(up, uppers), b = columns(down, lowers);
+    VectorXd const& left = beside_.left();
+    Kinks best;
+    auto const keep = [&](double energy, double upper, double lower) {
+      if (energy > best.energy) best = {upper, lower, energy};
+    };
+    for (std::size_t i = 0; i < a.size(); ++i) keep(alone_energy(a[i], left), uppers[i], -no_limit);
+    for (std::size_t j = 0; j < b.size(); ++j) keep(alone_energy(b[j], left), no_limit, lowers[j]);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j) {
+        double const aa = a[i].squaredNorm(), bb = b[j].squaredNorm(), ab = a[i].dot(b[j]);
+        double const x = a[i].dot(left), y = b[j].dot(left), determinant = aa * bb - ab * ab;
+        if (determinant > 1e-12 * aa * bb)
+          keep((bb * x * x - 2 * ab * x * y + aa * y * y) / determinant, uppers[i], lowers[j]);
+      }
+    return best;
+  }
+
+ private:
+  static double alone_energy(VectorXd const& column, VectorXd const& left) {
+    double const length = column.squaredNorm(), along = column.dot(left);
+    return length > 0.0 ? along * along / length : 0.0;
+  }
+  std::vector<VectorXd> columns(Side side, std::vector<double> const& levels) const {
+    std::vector<VectorXd> all;
+    for (double const level : levels) all.push_back(column(side, level));
+    return all;
+  }
+
+  TorqueBesideMotion const& beside_;
+  VectorXd const& torque_;
+};
+
+std::vector<double> between(double first, double last, Index count) {
+  std::vector<double> all;
+  for (Index k = 0; k < count; ++k)
+    all.push_back(first + (last - first) * static_cast<double>(k) / static_cast<double>(count - 1));
+  return all;
+}
+
+// the best on a grid that grows finer around it
+Kinks scanned(Scan const& scan, VectorXd const& torque) {
+  std::vector<double> sorted(torque.begin(), torque.end());
+  std::sort(sorted.begin(), sorted.end());
+  auto const quantile = [&](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  double const top = quantile(1.0 - least_beyond), bottom = quantile(least_beyond);
+  double const upper_from = quantile(1.0 - 0.5 * most_beyond), lower_from = quantile(0.5 * most_beyond);
+  Kinks best = scan.best(between(upper_from, top, levels_tried), between(lower_from, bottom, levels_tried));
+  double step_up = (top - upper_from) / (levels_tried - 1), step_down = (lower_from - bottom) / (levels_tried - 1);
+  constexpr Index finer = 5;
+  for (Index round = 0; round < rounds; ++round) {
+    std::vector<double> uppers, lowers;
+    if (std::isfinite(best.upper)) uppers = between(best.upper - step_up, best.upper + step_up, finer);
+    if (std::isfinite(best.lower)) lowers = between(best.lower - step_down, best.lower + step_down, finer);
+    if (auto const now = scan.best(uppers, lowers); now.energy >= best.energy) best = now;
+    step_up *= 0.5, step_down *= 0.5;
+  }
+  return best;
+}
+
+MatrixXd columns_at(Scan const& scan, Kinks const& kinks, Index rows) {
+  MatrixXd columns(rows, 0);
+  auto const add = [&](Side side, double level) {
+    if (!std::isfinite(level)) return;
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols(1) = scan.column(side, level);
+  };
+  add(up, kinks.upper);
+  add(down, kinks.lower);
+  return columns;
+}
+
+// a side without which the other explains as much is none
+Kinks without_idle_side(Scan const& scan, Kinks const& best, VectorXd const& left, double rows) {
+  if (!std::isfinite(best.upper) || !std::isfinite(best.lower)) return best;
+  double const all = left.squaredNorm();
+  for (Kinks one : {Kinks{best.upper, -no_limit}, Kinks{no_limit, best.lower}}) {
+    one.energy = energy_within(left, columns_at(scan, one, left.size()));
+    if (!levels::is_larger_beyond_chance(std::sqrt(all - one.energy), std::sqrt(all - best.energy), rows)) return one;
+  }
+  return best;
+}
+
+// kinks half way to the middle of the torque and half way to its end beside the limit
+double energy_of_more_kinks(Scan const& scan, Kinks const& kinks, VectorXd const& torque, VectorXd const& left) {
+  MatrixXd columns = columns_at(scan, kinks, left.size());
+  auto const half_way = [](double level, double end) { return 0.5 * (level + end); };  // NaN where there is no level
+  double const middle = torque.mean();
+  Kinks const inner{half_way(kinks.upper, middle), half_way(kinks.lower, middle)};
+  Kinks const outer{half_way(kinks.upper, torque.maxCoeff()), half_way(kinks.lower, torque.minCoeff())};
+  for (auto const& more : {inner, outer}) {
+    MatrixXd const beside = columns_at(scan, more, left.size());
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + beside.cols());
+    columns.rightCols(beside.cols()) = beside;
+  }
+  return energy_within(left, columns);
+}
+
+Index count_beyond(VectorXd const& torque, Kinks const& found) {
+  return (torque.array() > found.upper).count() + (torque.array() < found.lower).count();
+}
+
+}  // namespace
+
+std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, VectorXd const& torque) {
+  VectorXd const& left = beside.left();
+  double const all = left.squaredNorm();
+  if (!(all > 0.0) || !(torque.maxCoeff() > torque.minCoeff())) return std::nullopt;
+  Scan const scan(beside, torque);
+  Kinks found = scanned(scan, torque);
+  if (!(found.energy > 0.0)) return std::nullopt;
+  MatrixXd const pair = columns_at(scan, found, left.size());
+  double const independent = levels::independent_rows(left - pair * solve_pivoted(pair, left));
+  found = without_idle_side(scan, found, left, independent);
+
+  double const after = std::max(all - found.energy, 0.0);
+  if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return std::nullopt;
+  // of the largest among as many levels as were tried
+  double const chance =
+      levels::chi_squared_beyond_chance + 2.0 * std::log(static_cast<double>(levels_tried * levels_tried));
+  if (!(independent * std::log(all / std::max(after, 1e-30 * all)) > chance)) return std::nullopt;
+  MatrixXd const columns = columns_at(scan, found, left.size());
+  VectorXd const factors = solve_pivoted(columns, left);
+  if (!((factors.array() - 1.0).abs() <= about_one).all()) return std::nullopt;
+  if (found.energy < alone * energy_of_more_kinks(scan, found, torque, left)) return std::nullopt;
+
+  CommandLimit limit;
+  if (std::isfinite(found.upper)) limit.upper = found.upper;
+  if (std::isfinite(found.lower)) limit.lower = found.lower;
+  double const torque_norm = beside.torque_rms() * std::sqrt(static_cast<double>(left.size()));
+  limit.error_before = std::sqrt(all) / torque_norm;
+  limit.error_after = std::sqrt(after) / torque_norm;
+  limit.rows = count_beyond(torque, found);
+  return limit;
+}
+
+VectorXd limited(VectorXd const& torque, CommandLimit const& limit) {
+  VectorXd given = torque;
+  if (limit.upper) given = given.array().min(*limit.upper);
+  if (limit.lower) given = given.array().max(*limit.lower);
+  return given;
+}
+
+}  // namespace torquescope
