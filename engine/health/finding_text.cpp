@@ -145,6 +145,7 @@ std::string what(Finding const& f) {
       return fmt::format("{} times {:.4g} is the position to {:.2g} %, as it stands to {:.3g} %{}", column, f.size,
                          100 * f.error_after, 100 * f.error_before, f.detail.empty() ? "" : ": " + f.detail);
     case reference_constant:
+      if (!std::isfinite(f.size)) return fmt::format("{} holds no number in any row", column);
       return fmt::format("{} is {:.10g} in {} while the joint moves: a stop code, no command", column, f.size,
                          f.count == 0 ? "every row" : rows);
     case other_joints_move:
@@ -234,6 +235,9 @@ std::string cure_of(Finding const& f) {
       return "log the reference in the unit of the position";
     case reference_constant:
       return "take reference out of columns";
+    case torque_zero_steps:
+    case torque_zero_drifts:
+      return f.repair == Repair::none ? "correct the channel, or record again" : "";
     case command_beyond_limit:
       return "log the torque or current that the drive measures";
     case less_than_none:

@@ -43,10 +43,14 @@ std::optional<double> stop_code_of(std::vector<double> const& values) {
     double extreme = is_above ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
     for (double value : values)
       if (std::isfinite(value)) extreme = is_above ? std::max(extreme, value) : std::min(extreme, value);
-    if (!std::isfinite(extreme)) return {};
     std::vector<double> others;
     std::size_t held = 0;
-    for (double value : values) value == extreme ? void(++held) : others.push_back(value);
+    for (double value : values) {
+      if (value == extreme)
+        ++held;
+      else
+        others.push_back(value);
+    }
     double const range = range_of(others);
     if (known_rows(others).empty()) return extreme;
     double nearest = std::numeric_limits<double>::infinity();
@@ -63,6 +67,11 @@ void take_out_stop_codes(Examination& exam) {
   constexpr double mostly = 0.5;
   if (!exam.has("reference")) return;
   auto& values = exam.values("reference");
+  if (known_rows(values).empty()) {
+    exam.add(FindingKind::reference_constant, Grade::warning, Repair::channel_unused, "reference", {}, missing);
+    exam.channels.erase("reference");
+    return;
+  }
   auto const code = stop_code_of(values);
   if (!code) return;
   std::vector<std::size_t> rows;

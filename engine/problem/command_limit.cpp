@@ -16,9 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
-constexpr Index levels_tried = 16, rounds = 3;
-// convention: a drive at its limit for more than half of the time, or less than one row in 500, is another problem
-constexpr double most_beyond = 0.5, least_beyond = 0.002;
+constexpr Index levels_tried = 16, rounds = 2;
+// convention: a drive at one limit for more than a third of the time, or less than one row in 500, is another problem
+constexpr double most_beyond = 0.33, least_beyond = 0.002;
 // convention: an error that falls by a third is worth a sentence; the filters bend the kink by a sixth at most
 constexpr double error_falls = 1.5, about_one = 0.2;
 // convention: share of what kinks at three levels explain that the limit alone must
@@ -87,24 +87,38 @@ std::vector<double> between(double first, double last, Index count) {
   return all;
 }
 
-// the best on a grid that grows finer around it
-Kinks scanned(Scan const& scan, VectorXd const& torque) {
-  std::vector<double> sorted(torque.begin(), torque.end());
-  std::sort(sorted.begin(), sorted.end());
-  auto const quantile = [&](double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  };
-  double const top = quantile(1.0 - least_beyond), bottom = quantile(least_beyond);
-  double const upper_from = quantile(1.0 - 0.5 * most_beyond), lower_from = quantile(0.5 * most_beyond);
-  Kinks best = scan.best(between(upper_from, top, levels_tried), between(lower_from, bottom, levels_tried));
-  double step_up = (top - upper_from) / (levels_tried - 1), step_down = (lower_from - bottom) / (levels_tried - 1);
-  constexpr Index finer = 5;
+// levels beyond which these shares of the rows lie, from most to least: a command may ask for many times the limit
+std::vector<double> levels_of(std::vector<double> const& sorted, Side side) {
+  std::vector<double> all;
+  double const last = static_cast<double>(sorted.size() - 1);
+  for (Index k = 0; k < levels_tried; ++k) {
+    double const share =
+        most_beyond * std::pow(least_beyond / most_beyond, static_cast<double>(k) / (levels_tried - 1.0));
+    all.push_back(sorted[static_cast<std::size_t>((side == up ? 1.0 - share : share) * last)]);
+  }
+  return all;
+}
+
+// finer levels from the neighbour on one side to that on the other; none where there is no level
+std::vector<double> around(double level, std::vector<double> const& tried) {
+  constexpr Index finer = 9;
+  auto const at = std::find(tried.begin(), tried.end(), level);
+  if (at == tried.end()) return {};
+  return between(at == tried.begin() ? *at : *std::prev(at), std::next(at) == tried.end() ? *at : *std::next(at),
+                 finer);
+}
+
+enum class Sides { both, upper, lower };
+
+// the best on levels that grow finer around it
+Kinks scanned(Scan const& scan, std::vector<double> const& sorted, Sides sides) {
+  std::vector<double> uppers, lowers;
+  if (sides != Sides::lower) uppers = levels_of(sorted, up);
+  if (sides != Sides::upper) lowers = levels_of(sorted, down);
+  Kinks best = scan.best(uppers, lowers);
   for (Index round = 0; round < rounds; ++round) {
-    std::vector<double> uppers, lowers;
-    if (std::isfinite(best.upper)) uppers = between(best.upper - step_up, best.upper + step_up, finer);
-    if (std::isfinite(best.lower)) lowers = between(best.lower - step_down, best.lower + step_down, finer);
-    if (auto const now = scan.best(uppers, lowers); now.energy >= best.energy) best = now;
-    step_up *= 0.5, step_down *= 0.5;
+    uppers = around(best.upper, uppers), lowers = around(best.lower, lowers);
+    best = scan.best(uppers, lowers);
   }
   return best;
 }
@@ -121,15 +135,15 @@ MatrixXd columns_at(Scan const& scan, Kinks const& kinks, Index rows) {
   return columns;
 }
 
-// a side without which the other explains as much is none
-Kinks without_idle_side(Scan const& scan, Kinks const& best, VectorXd const& left, double rows) {
-  if (!std::isfinite(best.upper) || !std::isfinite(best.lower)) return best;
+// a side without which the other explains as much as with it
+bool has_idle_side(Scan const& scan, Kinks const& best, VectorXd const& left, double rows) {
+  if (!std::isfinite(best.upper) || !std::isfinite(best.lower)) return false;
   double const all = left.squaredNorm();
-  for (Kinks one : {Kinks{best.upper, -no_limit}, Kinks{no_limit, best.lower}}) {
-    one.energy = energy_within(left, columns_at(scan, one, left.size()));
-    if (!levels::is_larger_beyond_chance(std::sqrt(all - one.energy), std::sqrt(all - best.energy), rows)) return one;
+  for (Kinks const& one : {Kinks{best.upper, -no_limit}, Kinks{no_limit, best.lower}}) {
+    double const energy = energy_within(left, columns_at(scan, one, left.size()));
+    if (!levels::is_larger_beyond_chance(std::sqrt(all - energy), std::sqrt(all - best.energy), rows)) return true;
   }
-  return best;
+  return false;
 }
 
 // kinks half way to the middle of the torque and half way to its end beside the limit
@@ -147,6 +161,21 @@ double energy_of_more_kinks(Scan const& scan, Kinks const& kinks, VectorXd const
   return energy_within(left, columns);
 }
 
+bool is_limit(Scan const& scan, Kinks const& found, VectorXd const& torque, VectorXd const& left) {
+  double const all = left.squaredNorm(), after = std::max(all - found.energy, 0.0);
+  if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return false;
+  MatrixXd const columns = columns_at(scan, found, left.size());
+  VectorXd const factors = solve_pivoted(columns, left);
+  if (!((factors.array() - 1.0).abs() <= about_one).all()) return false;
+  // of the largest among as many levels as were tried
+  double const chance =
+      levels::chi_squared_beyond_chance + 2.0 * std::log(static_cast<double>(levels_tried * levels_tried));
+  double const independent = levels::independent_rows(left - columns * factors);
+  if (!(independent * std::log(all / std::max(after, 1e-30 * all)) > chance)) return false;
+  return !has_idle_side(scan, found, left, independent) &&
+         found.energy >= alone * energy_of_more_kinks(scan, found, torque, left);
+}
+
 Index count_beyond(VectorXd const& torque, Kinks const& found) {
   return (torque.array() > found.upper).count() + (torque.array() < found.lower).count();
 }
@@ -158,31 +187,21 @@ std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, Vect
   double const all = left.squaredNorm();
   if (!(all > 0.0) || !(torque.maxCoeff() > torque.minCoeff())) return std::nullopt;
   Scan const scan(beside, torque);
-  Kinks found = scanned(scan, torque);
-  if (!(found.energy > 0.0)) return std::nullopt;
-  MatrixXd const pair = columns_at(scan, found, left.size());
-  double const independent = levels::independent_rows(left - pair * solve_pivoted(pair, left));
-  found = without_idle_side(scan, found, left, independent);
-
-  double const after = std::max(all - found.energy, 0.0);
-  if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return std::nullopt;
-  // of the largest among as many levels as were tried
-  double const chance =
-      levels::chi_squared_beyond_chance + 2.0 * std::log(static_cast<double>(levels_tried * levels_tried));
-  if (!(independent * std::log(all / std::max(after, 1e-30 * all)) > chance)) return std::nullopt;
-  MatrixXd const columns = columns_at(scan, found, left.size());
-  VectorXd const factors = solve_pivoted(columns, left);
-  if (!((factors.array() - 1.0).abs() <= about_one).all()) return std::nullopt;
-  if (found.energy < alone * energy_of_more_kinks(scan, found, torque, left)) return std::nullopt;
-
-  CommandLimit limit;
-  if (std::isfinite(found.upper)) limit.upper = found.upper;
-  if (std::isfinite(found.lower)) limit.lower = found.lower;
-  double const torque_norm = beside.torque_rms() * std::sqrt(static_cast<double>(left.size()));
-  limit.error_before = std::sqrt(all) / torque_norm;
-  limit.error_after = std::sqrt(after) / torque_norm;
-  limit.rows = count_beyond(torque, found);
-  return limit;
+  std::vector<double> sorted(torque.begin(), torque.end());
+  std::sort(sorted.begin(), sorted.end());
+  for (auto const sides : {Sides::both, Sides::upper, Sides::lower}) {
+    Kinks const found = scanned(scan, sorted, sides);
+    if (!is_limit(scan, found, torque, left)) continue;
+    CommandLimit limit;
+    if (std::isfinite(found.upper)) limit.upper = found.upper;
+    if (std::isfinite(found.lower)) limit.lower = found.lower;
+    double const torque_norm = beside.torque_rms() * std::sqrt(static_cast<double>(left.size()));
+    limit.error_before = std::sqrt(all) / torque_norm;
+    limit.error_after = std::sqrt(std::max(all - found.energy, 0.0)) / torque_norm;
+    limit.rows = count_beyond(torque, found);
+    return limit;
+  }
+  return std::nullopt;
 }
 
 VectorXd limited(VectorXd const& torque, CommandLimit const& limit) {

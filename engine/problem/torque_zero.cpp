@@ -109,9 +109,23 @@ bool is_beyond_chance(VectorXd const& left, VectorXd const& column, double tried
   return levels::independent_rows(rest) * std::log(all / std::max(after, 1e-30 * all)) > chance;
 }
 
+// Behind a filter the step is known to a few samples; where it stands out of the noise, the torque itself shows it
+Index sample_of_step(VectorXd const& torque, Index about, double size) {
+  constexpr Index samples_around = 10;
+  constexpr double half = 0.5;
+  Index best = std::clamp<Index>(about, 1, torque.size() - 1);
+  double nearest = half * std::fabs(size);
+  for (Index i = std::max<Index>(best - samples_around, 1), last = std::min(best + samples_around, torque.size() - 1);
+       i <= last; ++i)
+    if (double const differs = std::fabs(torque[i] - torque[i - 1] - size); differs < nearest)
+      nearest = differs, best = i;
+  return best;
+}
+
 }  // namespace
 
-std::optional<TorqueZero> torque_zero(TorqueBesideMotion const& beside, VectorXd const& time_s) {
+std::optional<TorqueZero> torque_zero(TorqueBesideMotion const& beside, VectorXd const& time_s,
+                                      VectorXd const& torque) {
   VectorXd const& left = beside.left();
   VectorXd const& rows_s = beside.time_s();
   double const duration = time_s.tail(1)[0] - time_s[0], middle = 0.5 * (time_s.tail(1)[0] + time_s[0]);
@@ -130,8 +144,9 @@ std::optional<TorqueZero> torque_zero(TorqueBesideMotion const& beside, VectorXd
   TorqueZero zero{found.change, found.column.dot(left) / found.column.squaredNorm()};
   if (std::fabs(zero.size) < least_size * beside.torque_rms()) return std::nullopt;
   zero.explained = energy_of(left, found.column) / left.squaredNorm();
-  if (steps) zero.time_s = at;
-  if (steps) zero.sample = (time_s.array() < at).count();
+  if (!steps) return zero;
+  zero.sample = sample_of_step(torque, (time_s.array() < at).count(), zero.size);
+  zero.time_s = time_s[zero.sample];
   return zero;
 }
 

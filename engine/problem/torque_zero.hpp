@@ -24,8 +24,9 @@ struct TorqueZero {
   double explained = 0.0;  // share of the energy that the motion leaves
 };
 
-// time_s: [n] of the samples
-std::optional<TorqueZero> torque_zero(TorqueBesideMotion const& beside, Eigen::VectorXd const& time_s);
+// time_s, torque: [n] as recorded
+std::optional<TorqueZero> torque_zero(TorqueBesideMotion const& beside, Eigen::VectorXd const& time_s,
+                                      Eigen::VectorXd const& torque);
 
 // [n] what the zero is off by: no mean of a drift
 Eigen::VectorXd zero_error(TorqueZero const& zero, Eigen::VectorXd const& time_s);

@@ -80,7 +80,7 @@ void examine_torques(std::vector<Recording>& recordings, Experiment::Parts const
     auto const limit = command_limit(*beside, recording.torque);
     if (limit) limit_command(recording, *limit, asked);
     auto const beside_limit = limit ? asked.beside(recording) : std::nullopt;
-    auto const zero = torque_zero(beside_limit ? *beside_limit : *beside, recording.time_s);
+    auto const zero = torque_zero(beside_limit ? *beside_limit : *beside, recording.time_s, recording.torque);
     if (zero) note_zero(recording, *zero, asked, zero_error_is);
   }
 }
