@@ -103,8 +103,9 @@ std::string what(Finding const& f) {
     case command_beyond_limit:
       return fmt::format(
           "{} is a command, and the drive gives no {}: {:.2g} % of the rows ask for more. The motion explains it with "
-          "an error of {:.2g} % beside that limit, {:.2g} % without; those rows are taken as the limit",
-          column, f.detail, 100 * f.size, 100 * f.error_after, 100 * f.error_before);
+          "an error of {:.2g} % beside that limit, {:.2g} % without{}",
+          column, f.detail, 100 * f.size, 100 * f.error_after, 100 * f.error_before,
+          is_fault(f) ? "" : "; those rows are taken as the limit");
     case torque_zero_steps:
       return fmt::format(
           "the zero of {} steps by {:.3g} {} at {}, whatever the motion: that explains {:.0f} % of what the motion "

@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr Index levels_tried = 16, rounds = 2;
-// convention: a drive at one limit for more than a third of the time, or less than one row in 500, is another problem
+// convention: a drive at its limits for more than a third of the time, or less than one row in 500, is another problem:
+// a torque that is nearly the sign of the speed is all beyond some level
 constexpr double most_beyond = 0.33, least_beyond = 0.002;
 // convention: an error that falls by a third is worth a sentence; the filters bend the kink by a sixth at most
 constexpr double error_falls = 1.5, about_one = 0.2;
@@ -161,7 +162,12 @@ double energy_of_more_kinks(Scan const& scan, Kinks const& kinks, VectorXd const
   return energy_within(left, columns);
 }
 
+Index count_beyond(VectorXd const& torque, Kinks const& found) {
+  return (torque.array() > found.upper).count() + (torque.array() < found.lower).count();
+}
+
 bool is_limit(Scan const& scan, Kinks const& found, VectorXd const& torque, VectorXd const& left) {
+  if (static_cast<double>(count_beyond(torque, found)) > most_beyond * static_cast<double>(torque.size())) return false;
   double const all = left.squaredNorm(), after = std::max(all - found.energy, 0.0);
   if (!(std::sqrt(all) >= error_falls * std::sqrt(after))) return false;
   MatrixXd const columns = columns_at(scan, found, left.size());
@@ -176,10 +182,6 @@ bool is_limit(Scan const& scan, Kinks const& found, VectorXd const& torque, Vect
          found.energy >= alone * energy_of_more_kinks(scan, found, torque, left);
 }
 
-Index count_beyond(VectorXd const& torque, Kinks const& found) {
-  return (torque.array() > found.upper).count() + (torque.array() < found.lower).count();
-}
-
 }  // namespace
 
 std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, VectorXd const& torque) {
@@ -189,8 +191,11 @@ std::optional<CommandLimit> command_limit(TorqueBesideMotion const& beside, Vect
   Scan const scan(beside, torque);
   std::vector<double> sorted(torque.begin(), torque.end());
   std::sort(sorted.begin(), sorted.end());
+  double of_both = 0.0;
   for (auto const sides : {Sides::both, Sides::upper, Sides::lower}) {
     Kinks const found = scanned(scan, sorted, sides);
+    of_both = std::max(of_both, found.energy);
+    if (found.energy < alone * of_both) continue;  // a limit on one side leaves nothing to the other
     if (!is_limit(scan, found, torque, left)) continue;
     CommandLimit limit;
     if (std::isfinite(found.upper)) limit.upper = found.upper;

@@ -401,9 +401,8 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
       use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
     if (!simulates && !servo) {
-      auto const zero_error = purpose == Purpose::diagnose ? ZeroError::left_in : ZeroError::corrected;
-      examine_torques(parts->train.recordings, *parts, recording, zero_error);
-      if (parts->validate) examine_torques(parts->validate->recordings, *parts, recording, zero_error);
+      examine_torques(parts->train.recordings, *parts, recording, purpose);
+      if (parts->validate) examine_torques(parts->validate->recordings, *parts, recording, purpose);
     }
     std::vector<Recording> train, validate;
     if (parts->rollout && !servo) {

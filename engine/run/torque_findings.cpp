@@ -16,6 +16,7 @@ struct Asked {
   Experiment::Parts const& parts;
   std::string column, unit;
   Section filter;
+  bool diagnoses;
 
   std::optional<TorqueBesideMotion> beside(Recording const& recording) const {
     return TorqueBesideMotion::of(recording, parts.filter, *parts.regressor, filter);
@@ -39,6 +40,7 @@ std::string limit_words(CommandLimit const& limit, std::string const& unit) {
 
 void limit_command(Recording& recording, CommandLimit const& limit, Asked const& asked) {
   auto finding = asked.finding(FindingKind::command_beyond_limit, Repair::none, recording);
+  if (asked.diagnoses) finding.grade = Grade::fault;
   finding.count = limit.rows;
   finding.size = static_cast<double>(limit.rows) / static_cast<double>(recording.torque.size());
   finding.detail = limit_words(limit, asked.unit);
@@ -49,8 +51,8 @@ void limit_command(Recording& recording, CommandLimit const& limit, Asked const&
   recording.findings.push_back(std::move(finding));
 }
 
-void note_zero(Recording& recording, TorqueZero const& zero, Asked const& asked, ZeroError zero_error_is) {
-  bool const corrects = zero_error_is == ZeroError::corrected, steps = zero.change == ZeroChange::step;
+void note_zero(Recording& recording, TorqueZero const& zero, Asked const& asked) {
+  bool const corrects = !asked.diagnoses, steps = zero.change == ZeroChange::step;
   auto finding = asked.finding(steps ? FindingKind::torque_zero_steps : FindingKind::torque_zero_drifts,
                                corrects ? Repair::corrected : Repair::none, recording);
   finding.size = zero.size;
@@ -69,11 +71,11 @@ void note_zero(Recording& recording, TorqueZero const& zero, Asked const& asked,
 }  // namespace
 
 void examine_torques(std::vector<Recording>& recordings, Experiment::Parts const& parts,
-                     RecordingOptions const& options, ZeroError zero_error_is) {
+                     RecordingOptions const& options, Experiment::Purpose purpose) {
   auto const named = options.columns.find("torque");
   Asked const asked{parts, named != options.columns.end() ? named->second : "torque",
                     parts.regressor->joint() == JointKind::revolute ? "N m" : "N",
-                    section_or_empty(parts.job, "filter")};
+                    section_or_empty(parts.job, "filter"), purpose == Experiment::Purpose::diagnose};
   for (auto& recording : recordings) {
     auto const beside = asked.beside(recording);
     if (!beside) continue;
@@ -81,7 +83,7 @@ void examine_torques(std::vector<Recording>& recordings, Experiment::Parts const
     if (limit) limit_command(recording, *limit, asked);
     auto const beside_limit = limit ? asked.beside(recording) : std::nullopt;
     auto const zero = torque_zero(beside_limit ? *beside_limit : *beside, recording.time_s, recording.torque);
-    if (zero) note_zero(recording, *zero, asked, zero_error_is);
+    if (zero) note_zero(recording, *zero, asked);
   }
 }
 

@@ -121,6 +121,11 @@ CASE_LIST = [
     Case("43_table_oddities", job="job_iso.toml"),
     Case("43_table_oddities", job="job_clock.toml"),
     Case("43_table_oddities", job="job_sec_nsec.toml"),
+    Case("53_stop_code_reference", ["reference_constant"], values=SOUND, verdict=NONE),
+    Case("54_command_before_clamp", ["command_beyond_limit"], values=SOUND, says=["no more than 2.0"],
+         verdict=("data_fault",)),
+    Case("55_torque_zeroed_again", ["torque_zero_steps"], values=SOUND, says=["23 s (row 5752)"],
+         verdict=("data_fault",)),
 ]
 
 

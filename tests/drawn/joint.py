@@ -73,9 +73,9 @@ def record(rng, joint, seconds=30.0, rate=None, start=0.0, noise=0.01, counts=No
 def simulate(rng, joint, sides, beyond, seconds=30.0, noise=0.003):
     """A joint under a drive that gives no more than a limit: (recording of the torque asked for, upper, lower limit).
 
-    A proportional-derivative controller follows a sum of five sines; `sides` is "both" (one limit of both signs), "two",
-    "upper" or "lower", `beyond` the share of rows that would ask for more without a limit. Ten steps of Euler's method
-    a row, with a sign of the velocity that is smooth within a hundredth of its largest.
+    A proportional-derivative controller follows a sum of five sines; `sides` is "both" (one limit of both signs),
+    "two", "upper" or "lower", `beyond` the share of rows that would ask for more without a limit.
+    Ten steps of Euler's method a row, with a sign of the velocity that is smooth within a hundredth of its largest.
     """
     rate = float(rng.choice([200, 250, 400, 500]))
     substeps = 10

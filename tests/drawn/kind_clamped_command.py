@@ -1,4 +1,4 @@
-"""The log holds the torque asked for, the drive gives no more than a limit: one of both signs, two, or one side only."""
+"""The log holds the torque asked for, the drive gives no more than a limit: of both signs, two, or one side only."""
 
 import numpy as np
 from joint import draw_joint, simulate, write_csv, write_job
