@@ -80,8 +80,6 @@ class Continue(run_cli.Folder):
     def test_without_another_name_it_grows_in_place(self):
         self.made("whole.h5", LONG, "--quiet")
         self.made("old.h5", SHORT, "--quiet")
-        outcome = self.run_here("run", "job.toml", "--continue", "old.h5")
-        self.assertEqual(outcome.code, 73, "the job is still the short one")
         self.write("job.toml", LONG)
         outcome = self.run_here("run", "job.toml", "--continue", "old.h5")
         self.assertEqual(outcome.code, 0, outcome.err)
