@@ -17,9 +17,9 @@ using Eigen::VectorXd;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr Index levels_tried = 16, rounds = 2;
-// convention: a drive at its limits for more than a third of the time, or less than one row in 500, is another problem:
-// a torque that is nearly the sign of the speed is all beyond some level
-constexpr double most_beyond = 0.33, least_beyond = 0.002;
+// convention: a drive at its limits for more than half of the time (a third at either), or less than one row in 500, is
+// another problem: a torque that is nearly the sign of the speed is all beyond some level
+constexpr double most_beyond = 0.5, most_on_a_side = 0.33, least_beyond = 0.002;
 // convention: an error that falls by a third is worth a sentence; the filters bend the kink by a sixth at most
 constexpr double error_falls = 1.5, about_one = 0.2;
 // convention: share of what kinks at three levels explain that the limit alone must
@@ -94,7 +94,7 @@ std::vector<double> levels_of(std::vector<double> const& sorted, Side side) {
   double const last = static_cast<double>(sorted.size() - 1);
   for (Index k = 0; k < levels_tried; ++k) {
     double const share =
-        most_beyond * std::pow(least_beyond / most_beyond, static_cast<double>(k) / (levels_tried - 1.0));
+        most_on_a_side * std::pow(least_beyond / most_on_a_side, static_cast<double>(k) / (levels_tried - 1.0));
     all.push_back(sorted[static_cast<std::size_t>((side == up ? 1.0 - share : share) * last)]);
   }
   return all;
