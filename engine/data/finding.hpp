@@ -39,7 +39,10 @@ enum class FindingKind {
   unsigned_register,  // size: bits
   sign_magnitude,     // size: the bit of the sign
   torque_without_sign,
-  torque_switched_off,  // size: s
+  torque_switched_off,   // size: s
+  command_beyond_limit,  // size: share of the rows; detail: the limit; errors before and after
+  torque_zero_steps,     // size: of the step, SI; detail: when; error_before: share that it explains
+  torque_zero_drifts,    // size: over the recording, SI; error_before: share that it explains
   // velocity beside position
   velocity_contradicts,  // size: correlation with the derivative of the position
   velocity_factor,       // size: velocity over derivative of the position; detail: what it may be
@@ -77,6 +80,7 @@ struct Finding {
   double size = 0.0;
   std::string detail{};
   std::string line_to_write{};                   // of the job
+  std::string unit{};                            // of `size`, where it is SI
   double error_before = 0.0, error_after = 0.0;  // relative, of what a factor makes smaller
   double written = 1.0;                          // the factor that the job has already
 };

@@ -51,6 +51,12 @@ std::string code_of(FindingKind kind) {
       return "torque_without_sign";
     case torque_switched_off:
       return "torque_switched_off";
+    case command_beyond_limit:
+      return "command_beyond_limit";
+    case torque_zero_steps:
+      return "torque_zero_steps";
+    case torque_zero_drifts:
+      return "torque_zero_drifts";
     case velocity_contradicts:
       return "velocity_contradicts";
     case velocity_factor:

@@ -101,6 +101,23 @@ std::string what(Finding const& f) {
       return fmt::format("{} holds nothing but noise for {:.3g} s while the joint moves, from {}: the drive was off",
                          column, f.size,
                          f.lines.empty() ? std::string("some row") : "line " + std::to_string(f.lines.front()));
+    case command_beyond_limit:
+      return fmt::format(
+          "{} is a command, and the drive gives no {}: {:.2g} % of the rows ask for more. The motion explains it with "
+          "an error of {:.2g} % beside that limit, {:.2g} % without{}",
+          column, f.detail, 100 * f.size, 100 * f.error_after, 100 * f.error_before,
+          is_fault(f) ? "" : "; those rows are taken as the limit");
+    case torque_zero_steps:
+      return fmt::format(
+          "the zero of {} steps by {:.3g} {} at {}, whatever the motion: that explains {:.0f} % of what the motion "
+          "does "
+          "not (the sensor was zeroed anew?)",
+          column, f.size, f.unit, f.detail, 100 * f.error_before);
+    case torque_zero_drifts:
+      return fmt::format(
+          "the zero of {} drifts by {:.3g} {} over the recording, whatever the motion: that explains {:.0f} % of what "
+          "the motion does not",
+          column, f.size, f.unit, 100 * f.error_before);
     case velocity_contradicts:
       return fmt::format(
           "{} contradicts the derivative of the position (correlation {:.2f}): another signal, or without its sign",
@@ -130,8 +147,10 @@ std::string what(Finding const& f) {
       return fmt::format("{} times {:.4g} is the position to {:.2g} %, as it stands to {:.3g} %{}", column, f.size,
                          100 * f.error_after, 100 * f.error_before, f.detail.empty() ? "" : ": " + f.detail);
     case reference_constant:
-      return fmt::format("the reference {} is a constant and no command: {:g} in every row while the joint moves",
-                         column, f.size);
+      if (!std::isfinite(f.size)) return fmt::format("{} holds no number in any row", column);
+      return fmt::format(
+          "the reference {} is {:.10g} in {} while the joint moves: a constant or a stop code, no command", column,
+          f.size, f.count == 0 ? "every row" : rows);
     case reference_is_position:
       return fmt::format(
           "the reference {} is the position {:.0f} row{} {}, and no command", column, std::fabs(f.size),
@@ -205,9 +224,9 @@ std::string cure_of(Finding const& f) {
     case command_as_position:
       return "columns.position = the measured column; the command belongs to columns.reference";
     case unsigned_register:
-      return fmt::format("encoding = {{torque = \"unsigned{:.0f}\"}}", f.size);
+      return fmt::format("encoding = {{{} = \"unsigned{:.0f}\"}}", f.detail, f.size);
     case sign_magnitude:
-      return fmt::format("encoding = {{torque = \"sign_magnitude{:.0f}\"}}", f.size + 1);
+      return fmt::format("encoding = {{{} = \"sign_magnitude{:.0f}\"}}", f.detail, f.size + 1);
     case torque_without_sign:
       return "log the signed torque or current; a magnitude cannot be identified";
     case velocity_factor:
@@ -233,6 +252,11 @@ std::string cure_of(Finding const& f) {
       return "take reference out of columns, or name what the controller was given";
     case reference_factor:
       return "log the reference in the unit of the position";
+    case torque_zero_steps:
+    case torque_zero_drifts:
+      return f.repair == Repair::none ? "correct the channel, or record again" : "";
+    case command_beyond_limit:
+      return "log the torque or current that the drive measures";
     case less_than_none:
       return "check columns.torque, its sign and delay_s";
     default:

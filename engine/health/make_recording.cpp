@@ -32,15 +32,11 @@ constexpr std::size_t fewest_rows = 16;
 
 void check_encoding(RecordingOptions const& options, Section const& section, std::vector<Problem>& problems) {
   for (auto const& [channel, word] : options.encoding) {
-    bool const is_known = word == "plain" || word == "sign_magnitude" || word == "unsigned8" || word == "unsigned10" ||
-                          word == "unsigned12" || word == "unsigned14" || word == "unsigned16" ||
-                          word == "unsigned24" || word == "unsigned32" || word == "sign_magnitude11" ||
-                          word == "sign_magnitude16" || word == "sign_magnitude32";
-    if (!is_known)
+    if (!is_encoding(word))
       problems.push_back(problem_at(section, "encoding",
                                     fmt::format("encoding.{} = \"{}\" is not known", channel, word),
-                                    "plain, unsigned8, 10, 12, 14, 16, 24 or 32, sign_magnitude, sign_magnitude11, 16 "
-                                    "or 32 (all bits counted)"));
+                                    "plain, unsigned8, 10, 12, 14, 16, 24 or 32, sign_magnitude, sign_magnitude7 to 32 "
+                                    "(all bits counted)"));
   }
 }
 
@@ -259,6 +255,7 @@ void examine(Examination& exam) {
   if (exam.has("time")) examine_clock(exam);
   examine_units(exam);
   examine_constant_reference(exam);
+  take_out_stop_codes(exam);  // they look like a register without its sign
   decode_registers(exam);
   unwrap_position(exam);
   examine_repeated_rows(exam);  // or what makes up for them would be jumps

@@ -1,6 +1,7 @@
 #include "engine/health/register_coding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -59,12 +60,15 @@ std::optional<double> largest_whole_number(std::vector<double> const& values) {
   return largest;
 }
 
+constexpr std::array register_bits = {8, 10, 12, 14, 16, 24, 32};
+constexpr int lowest_sign_bit = 6, highest_sign_bit = 31;
+
 std::vector<Coding> codings_for(double largest) {
   std::vector<Coding> codings;
-  for (int bits : {8, 10, 12, 14, 16, 24, 32})
+  for (int bits : register_bits)
     if (largest < std::ldexp(1.0, bits) && largest >= std::ldexp(1.0, bits - 1))
       codings.push_back({FindingKind::unsigned_register, bits});
-  for (int bit = 6; bit <= 31; ++bit)
+  for (int bit = lowest_sign_bit; bit <= highest_sign_bit; ++bit)
     if (largest > std::ldexp(1.0, bit) && largest < std::ldexp(1.0, bit + 1))
       codings.push_back({FindingKind::sign_magnitude, bit});
   return codings;
@@ -80,6 +84,7 @@ std::optional<Found> best_coding(std::vector<double> const& values, std::vector<
   auto const largest = largest_whole_number(values);
   if (!largest || *largest < 64.0) return {};
   double const plain = total_variation(values, [](double v) { return v; });
+  if (!(plain > 0.0)) return {};  // a constant has no sign to lose
   std::optional<Found> best;
   for (auto const& coding : codings_for(*largest)) {
     if (std::find(kinds.begin(), kinds.end(), coding.kind) == kinds.end()) continue;
@@ -120,21 +125,32 @@ void decode_channel(Examination& exam, std::string const& channel, std::vector<F
     auto const coding = asked_coding(asked->second, values);
     if (!coding) return;
     auto const rows = decode(values, *coding);
-    exam.add(coding->kind, Grade::note, Repair::corrected, channel, rows, coding->bits);
+    exam.add(coding->kind, Grade::note, Repair::corrected, channel, rows, coding->bits, channel);
     return;
   }
   auto const found = best_coding(values, kinds);
   if (!found || found->ratio > shorter) return;
   if (!is_sure(values, found->coding)) {
     auto copy = values;
-    exam.add(found->coding.kind, Grade::fault, Repair::none, channel, decode(copy, found->coding), found->coding.bits);
+    exam.add(found->coding.kind, Grade::fault, Repair::none, channel, decode(copy, found->coding), found->coding.bits,
+             channel);
     return;
   }
   auto const rows = decode(values, found->coding);
-  exam.add(found->coding.kind, Grade::warning, Repair::corrected, channel, rows, found->coding.bits);
+  exam.add(found->coding.kind, Grade::warning, Repair::corrected, channel, rows, found->coding.bits, channel);
 }
 
 }  // namespace
+
+bool is_encoding(std::string const& word) {
+  if (word == "plain" || word == "sign_magnitude") return true;
+  auto const is_one_of = [&](std::string const& begin, auto const& numbers) {
+    return std::any_of(numbers.begin(), numbers.end(), [&](int n) { return word == begin + std::to_string(n); });
+  };
+  std::vector<int> all_bits;
+  for (int bit = lowest_sign_bit; bit <= highest_sign_bit; ++bit) all_bits.push_back(bit + 1);
+  return is_one_of("unsigned", register_bits) || is_one_of("sign_magnitude", all_bits);
+}
 
 void decode_registers(Examination& exam) {
   using enum FindingKind;

@@ -10,6 +10,9 @@
 
 namespace torquescope {
 
+// a word of recording.encoding; every coding that a finding advises is one
+bool is_encoding(std::string const& word);
+
 // of the torque and position columns; recording.encoding decides where it is written
 void decode_registers(Examination& exam);
 

@@ -28,6 +28,7 @@
 #include "engine/run/simulated_arms.hpp"
 #include "engine/run/simulated_recordings.hpp"
 #include "engine/run/start_point.hpp"
+#include "engine/run/torque_findings.hpp"
 
 namespace torquescope {
 
@@ -400,6 +401,10 @@ Experiment Experiment::load(Job text, Purpose purpose, RecordedTables const& tab
     else
       use_files(*parts, recording, tables, channels);
     if (!simulates) choose_filter(*parts);
+    if (!simulates && !servo) {
+      examine_torques(parts->train.recordings, *parts, recording, purpose);
+      if (parts->validate) examine_torques(parts->validate->recordings, *parts, recording, purpose);
+    }
     std::vector<Recording> train, validate;
     if (parts->rollout && !servo) {
       train = parts->train.recordings;

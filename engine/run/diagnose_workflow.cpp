@@ -16,6 +16,7 @@
 #include "engine/run/disk_room.hpp"
 #include "engine/run/job_sections.hpp"
 #include "engine/run/provenance_writer.hpp"
+#include "engine/run/torque_findings.hpp"
 #include "engine/run/twin_folder.hpp"
 #include "engine/store/shard_lock.hpp"
 #include "engine/words/error_words.hpp"
@@ -145,6 +146,17 @@ Diagnosis verdict_of_fault(Finding const& fault, Experiment::Parts const& parts)
   return diagnosis;
 }
 
+// Where no effect is named, a zero that moves is what is wrong with the recording
+Diagnosis with_moving_zero(Diagnosis diagnosis, std::vector<Finding> const& findings) {
+  auto const zero = zero_finding(findings);
+  if (!zero || diagnosis.verdict != Verdict::unexplained || diagnosis.joints.size() != 1) return diagnosis;
+  diagnosis.verdict = diagnosis.joints.front().verdict = Verdict::data_fault;
+  diagnosis.finding = fmt::format("{}: {}", zero->recording, sentence_of(*zero));
+  diagnosis.way_out = cure_of(*zero);
+  diagnosis.reason = reason_sentence(diagnosis);
+  return diagnosis;
+}
+
 // Rows that move one way have explained nothing, and hold less than half of what the model leaves
 bool hides_most(Diagnosis const& diagnosis) {
   bool const is_silent = diagnosis.verdict == Verdict::unexplained || diagnosis.verdict == Verdict::insufficient;
@@ -198,8 +210,9 @@ Diagnosis diagnose_parts(Experiment::Parts const& parts, int threads, TwinExchan
 Diagnosis diagnose_examined(Experiment const& experiment, int threads, TwinExchange* exchange, StageSink const& sink) {
   auto const findings = experiment.findings();
   auto const fault = std::find_if(findings.begin(), findings.end(), [](Finding const& one) { return is_fault(one); });
-  Diagnosis diagnosis = fault != findings.end() ? verdict_of_fault(*fault, experiment.parts())
-                                                : diagnose_parts(experiment.parts(), threads, exchange, sink);
+  Diagnosis diagnosis = fault != findings.end()
+                            ? verdict_of_fault(*fault, experiment.parts())
+                            : with_moving_zero(diagnose_parts(experiment.parts(), threads, exchange, sink), findings);
   diagnosis.findings = findings;
   return diagnosis;
 }

@@ -145,6 +145,10 @@ CASE_LIST = [
     Case("57_action_is_next_state", ["reference_is_position"], says=["1 row ahead"], verdict=NONE),
     Case("57_action_is_next_state", says=["1 row ahead"], verdict=NONE,
          drafted=("data.csv.gz", {"time": "t_s", "position": "q_rad", "torque": "tau_Nm"})),
+    Case("54_command_before_clamp", ["command_beyond_limit"], values=SOUND, says=["no more than 2.0"],
+         verdict=("data_fault",)),
+    Case("55_torque_zeroed_again", ["torque_zero_steps"], values=SOUND, says=["23 s (row 5752)"],
+         verdict=("data_fault",)),
 ]
 
 

@@ -70,6 +70,47 @@ def record(rng, joint, seconds=30.0, rate=None, start=0.0, noise=0.01, counts=No
     return Recording(start + time, reference, np.round(position / step) * step, velocity, torque, rate)
 
 
+def simulate(rng, joint, sides, beyond, seconds=30.0, noise=0.003):
+    """A joint under a drive that gives no more than a limit: (recording of the torque asked for, upper, lower limit).
+
+    A proportional-derivative controller follows a sum of five sines; `sides` is "both" (one limit of both signs),
+    "two", "upper" or "lower", `beyond` the share of rows that would ask for more without a limit.
+    Ten steps of Euler's method a row, with a sign of the velocity that is smooth within a hundredth of its largest.
+    """
+    rate = float(rng.choice([200, 250, 400, 500]))
+    substeps = 10
+    time = np.arange(int(seconds * rate)) / rate
+    amplitudes, angular = rng.uniform(0.1, 0.4, 5), 2 * np.pi * rng.uniform(0.1, 1.2, 5)
+    phases = rng.uniform(0, 2 * np.pi, 5)
+    angles = np.outer(time, angular) + phases
+    reference, speed = np.sin(angles) @ amplitudes, np.cos(angles) @ (amplitudes * angular)
+    ideal = joint.torque(reference, speed, -np.sin(angles) @ (amplitudes * angular**2))
+    frequency = 2 * np.pi * rng.uniform(4, 7)  # of the loop, rad/s
+    stiffness, damping = joint.inertia * frequency**2, 1.4 * joint.inertia * frequency
+    high, low = np.quantile(ideal, [1 - beyond / (2 if sides in ("both", "two") else 1),
+                                    beyond / (2 if sides in ("both", "two") else 1)])
+    if sides == "both":
+        high = np.quantile(np.abs(ideal), 1 - beyond)
+        low = -high
+    upper, lower = (high if sides != "lower" else None), (low if sides != "upper" else None)
+    position, velocity = np.empty(len(time)), np.empty(len(time))
+    asked = np.empty(len(time))
+    q, dq, slow, step = reference[0], speed[0], 0.01 * np.abs(speed).max(), 1 / (rate * substeps)
+    for k in range(len(time)):
+        position[k], velocity[k] = q, dq
+        asked[k] = stiffness * (reference[k] - q) + damping * (speed[k] - dq)
+        given = min(asked[k], np.inf if upper is None else upper)
+        given = max(given, -np.inf if lower is None else lower)
+        for _ in range(substeps):
+            friction = joint.viscous * dq + joint.coulomb * np.tanh(dq / slow)
+            dq += step * (given - friction - joint.gravity * np.sin(q) - joint.offset) / joint.inertia
+            q += step * dq
+    resolution = 2 * np.pi / 2**18
+    asked += noise * asked.std() * rng.standard_normal(len(time))
+    shown = np.round(position / resolution) * resolution
+    return Recording(time, reference, shown, velocity, asked, rate), upper, lower
+
+
 def write_csv(path, columns, form="%.9g"):
     """Columns are lists or arrays of equal length, by name; text columns are written as they are."""
     names = list(columns)

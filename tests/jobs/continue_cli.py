@@ -77,6 +77,14 @@ class Continue(run_cli.Folder):
         self.made("lab.h5", long, "--continue", "lab.h5")
         self.assertEqual(self.bytes_of("lab.h5"), self.bytes_of("whole.h5"))
 
+    def test_without_another_name_it_grows_in_place(self):
+        self.made("whole.h5", LONG, "--quiet")
+        self.made("old.h5", SHORT, "--quiet")
+        self.write("job.toml", LONG)
+        outcome = self.run_here("run", "job.toml", "--continue", "old.h5")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertEqual(self.bytes_of("old.h5"), self.bytes_of("whole.h5"))
+
     def test_shards_go_on_and_merge(self):
         self.made("whole.h5", LONG, "--quiet")
         self.made("old.h5", SHORT, "--quiet")

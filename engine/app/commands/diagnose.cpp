@@ -133,6 +133,8 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
     problem.help = "leave them out";
     return problem;
   });
+  // also while the recordings are read
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken, words_of_set);
   ServoJob const servo = [&] {
     SessionProgress const bar(session, "read");
     return read_servo_job(std::move(job));
@@ -152,7 +154,6 @@ ExitCode diagnose_recordings(Job job, DiagnoseArguments const& arguments, Sessio
   session.note(session.topic_line("threads", fmt::format("{} ({}), seed {}", request.threads.count,
                                                          request.threads.reason, servo.experiment.seed)));
   for (auto const& warning : warnings_of(servo)) session.note(session.topic_line("warning", warning));
-  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken, words_of_set);
   PhaseTimes phases(progress_settings(session).clock);
   ServoReport report;
   {
@@ -184,6 +185,9 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   });
   PhaseTimes phases(progress_settings(session).clock);
   ShardChoice const shard = choose_shard(arguments.shard, environment);
+  // also while the recordings are read
+  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken,
+                       shard.count > 1 ? words_of_shard : words_of_one);
   Experiment const experiment = load_with_bar(session, arguments.job, Experiment::Purpose::diagnose);
   if (!arguments.columns.empty()) return write_columns(arguments, experiment, session);
   std::filesystem::path const output =
@@ -214,8 +218,6 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   session.note(session.topic_line("size", estimate_words(size, estimate)));
   if (auto const fewer = decimation_proposal(experiment.parts(), request.threads.count))
     session.note(session.topic_line("warning", *fewer));
-  install_stop_signals(session.options().quiet ? StopNotice::silent : StopNotice::spoken,
-                       shard.count > 1 ? words_of_shard : words_of_one);
   if (shard.count > 1)
     session.note(session.topic_line(
         "shard", fmt::format("{}/{} ({}): twins are shared in {}; --shard 0/1 makes all of them here", shard.index,

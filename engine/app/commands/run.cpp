@@ -50,6 +50,12 @@ ExitCode run_share(Experiment experiment, IdentifyOptions const& options, std::s
   return ExitCode::ok;
 }
 
+// a result that goes on is replaced by what it becomes
+std::filesystem::path output_of(RunArguments const& arguments, Experiment const& experiment) {
+  if (!arguments.out.empty()) return arguments.out;
+  return arguments.continued.empty() ? experiment.output_file() : std::filesystem::path(arguments.continued);
+}
+
 ExitCode run_job(RunArguments const& arguments, Session const& session) {
   prepare_heap();
   ShardChoice const shard = choose_shard(arguments.shard, environment);
@@ -57,8 +63,7 @@ ExitCode run_job(RunArguments const& arguments, Session const& session) {
   if (arguments.time_budget_s > 0.0) stop_after(arguments.time_budget_s);
   Experiment experiment = load_with_bar(session, arguments.job, Experiment::Purpose::identify);
   give_back_holes();
-  std::filesystem::path const output =
-      arguments.out.empty() ? experiment.output_file() : std::filesystem::path(arguments.out);
+  std::filesystem::path const output = output_of(arguments, experiment);
 
   if (already_complete(output, experiment.inputs_sha256(), ResultKind::runs, arguments.continued)) {
     session.note(session.topic_line("job", experiment.job_line()));
@@ -122,7 +127,8 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
   add_result_option(*command, arguments->out);
   command
       ->add_option("--continue", arguments->continued,
-                   "a result of the same job with a smaller budget: its searches go on where they ended")
+                   "a result of the same job with a smaller budget: its searches go on where they ended, and without "
+                   "--out the larger result takes its place")
       ->type_name("OLD.h5")
       ->group("results");
   add_json_option(*command, chosen);
