@@ -8,7 +8,8 @@ PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --o
 by commas; their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as
 long as the case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs
 a share of the cases (shard.py), without I/N the one Slurm says; each shard wants an OUT of its own, and score.py OUT...
-gathers them. --twins asks for a smaller diagnosis than the case's own job does: for tests, not for boards.
+gathers them. --twins asks for a smaller diagnosis than the case's own job does (of rows that move one way alone): for tests, not for
+boards.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
     OUT/open/NAME       the job and its recordings, the folder the program runs in
@@ -84,9 +85,10 @@ class Suite:
             (folder / file).unlink(missing_ok=True)
             os.link(self.out / "sealed" / name / file, folder / file)
         if self.twins:
+            smaller = f'twins = {self.twins}\ndecider = "moving_rows"'
             text = (folder / "job.toml").read_text()
             (folder / "job.toml").unlink()  # what is sealed stays as it is
-            (folder / "job.toml").write_text(re.sub(r"(?m)^twins = .*", f"twins = {self.twins}", text))
+            (folder / "job.toml").write_text(re.sub(r"(?m)^twins = .*", smaller, text))
         self.note(name, plant=self.plant, seal=seal[0], made_s=round(time.monotonic() - began, 2))
         return seal[0]
 
