@@ -109,6 +109,12 @@ ExitCode write_columns(DiagnoseArguments const& arguments, Experiment const& exp
   return ExitCode::ok;
 }
 
+// where the reason in words, the map and every effect that was weighed can be read
+void note_more(Session const& session, std::filesystem::path const& result, bool is_shown) {
+  if (is_shown) return;
+  session.note(fmt::format("more   torquescope show {} --all\n", session.note_ink().name(printable(result.string()))));
+}
+
 ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, std::filesystem::path const& output,
                     std::string const& inputs_sha256) {
   look_at_result(output, [](ResultReader const& there) {
@@ -119,6 +125,7 @@ ExitCode print_kept(DiagnoseArguments const& arguments, Session const& session, 
   Diagnosis const diagnosis = read_diagnosis(reader);
   print_diagnosis(session, diagnosis, read_verdict_json(reader), arguments.all);
   note_whereabouts(session, "kept", output, session.options().json);
+  note_more(session, output, arguments.all);
   tidy_up(session, output, inputs_sha256);
   return code_of(arguments, diagnosis);
 }
@@ -238,6 +245,7 @@ ExitCode diagnose_job(DiagnoseArguments const& arguments, Session const& session
   print_stages(session, phases.finish());
   print_diagnosis(session, diagnosis, diagnosis_json(diagnosis), arguments.all);
   note_whereabouts(session, "wrote", output, session.options().json);
+  note_more(session, output, arguments.all);
   return code_of(arguments, diagnosis);
 }
 

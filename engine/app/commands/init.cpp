@@ -94,9 +94,7 @@ void add_init(CLI::App& app, ChosenCommand& chosen) {
       "init", "Drafts a job for your own recordings: guesses columns, units, filters; comments say how sure.");
   command->footer(
       "  torquescope init arm.csv > arm.toml\n"
-      "  torquescope init monday.csv tuesday.csv --joint 2 --out joint2.toml\n"
       "  torquescope init --robot arm.urdf monday.h5 --out arm.toml\n"
-      "  torquescope init odd.csv --position b --torque d > odd.toml\n"
       "  torquescope init --servo train/*.csv --out servo.toml\n");
   command
       ->add_option(

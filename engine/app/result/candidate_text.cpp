@@ -17,7 +17,6 @@ namespace torquescope {
 
 namespace {
 
-constexpr std::size_t candidates_shown = 3;
 
 std::string q_cell(double q) {
   if (!std::isfinite(q)) return "";
@@ -40,16 +39,6 @@ std::vector<Candidate const*> in_order(JointDiagnosis const& joint) {
   for (auto const& one : joint.candidates) ordered.push_back(&one);
   std::stable_sort(ordered.begin(), ordered.end(), [&](auto const* a, auto const* b) { return rank(*a) < rank(*b); });
   return ordered;
-}
-
-std::vector<Candidate const*> shown_of(JointDiagnosis const& joint, bool all) {
-  std::vector<Candidate const*> shown;
-  std::size_t tested = 0;
-  for (auto const* one : in_order(joint)) {
-    if (all || is_taken(*one) || (is_tested(*one) && tested < candidates_shown)) shown.push_back(one);
-    tested += is_tested(*one) ? 1 : 0;
-  }
-  return shown;
 }
 
 // distinct reasons against a name, in the order in which the table comes to them
@@ -131,15 +120,11 @@ std::string cv_gain_cell(double share) {
   return share > 0.0 ? fmt::format("{:.1f} %", 100.0 * share) : "none";
 }
 
-std::string candidates_text(JointDiagnosis const& joint, bool all) {
+std::string candidates_text(JointDiagnosis const& joint) {
   if (joint.candidates.empty()) return "";
-  auto const shown = shown_of(joint, all);
+  auto const shown = in_order(joint);
   std::string text = table_of(joint, shown, true);
   if (!fits_page(text)) text = table_of(joint, shown, false);
-  std::size_t const hidden = joint.candidates.size() - shown.size();
-  if (hidden > 0)
-    text += std::string(lead_columns, ' ') + pad_right(fmt::format("{} more below these", hidden), 48) +
-            "(--all shows them)\n";
   return lead("what") + text.substr(lead_columns) + why_text(shown);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // The candidates of a diagnosis in a terminal: what was weighed, how strong it is, what became of it and why.
 //
-// Shown      the three first that were tested and all that were taken; with `all` every one
 // Why        a number behind the decision points to a line below the table: many share a reason, and none fits into a
 //            column
 // CV gain    a share of the mismatch; above 1 "> 100 %" (the model alone may predict other blocks worse than nothing
@@ -16,7 +15,7 @@
 namespace torquescope {
 
 // "" for a joint without candidates; ends in a line feed
-std::string candidates_text(JointDiagnosis const& joint, bool all);
+std::string candidates_text(JointDiagnosis const& joint);
 
 // "28.4 %", "> 100 %", "none"; "" when it was not measured
 std::string cv_gain_cell(double share);

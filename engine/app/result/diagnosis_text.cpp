@@ -12,6 +12,7 @@
 #include "engine/app/terminal/plain_text.hpp"
 #include "engine/app/terminal/table.hpp"
 #include "engine/base/quantity_text.hpp"
+#include "engine/words/verdict_lines.hpp"
 
 namespace torquescope {
 
@@ -114,44 +115,85 @@ ParameterEstimate const* find_parameter(std::vector<ParameterEstimate> const& pa
 
 }  // namespace
 
-std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
-  VerdictWords const words = words_of(diagnosis.verdict);
-  bool const of_few_rows = diagnosis.verdict == Verdict::none &&
-                           std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), looks_at_less_than_half);
-  std::string const lead =
-      fmt::format("{} {}{}", utf8 ? words.mark : "*", words.word, of_few_rows ? " ON THE ROWS LOOKED AT" : "");
-  std::string inked = needs_care(diagnosis.verdict) ? ink.warning(lead) : ink.bold(lead);
-  if (has_fault(diagnosis)) inked += ink.warning(" + DATA FAULT");
-  // a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
-  std::string reason = printable(diagnosis.reason);
-  for (auto const& [loose, tight] : kept_together) reason = with_each(reason, loose, tight);
-  return with_each(hanging(inked + "  ", reason), "\u00A0", " ");
+namespace {
+
+// of_few_rows: rows that hold less than half of the residual's energy say nothing of the rest
+std::string mark_of(Verdict verdict, bool of_few_rows, bool utf8, Ink const& ink, std::string const& whose = {}) {
+  VerdictWords const words = words_of(verdict);
+  bool const is_bounded = of_few_rows && verdict == Verdict::none;
+  std::string const lead = fmt::format("{} {}{}{}", utf8 ? words.mark : "*", whose.empty() ? "" : whose + "  ",
+                                       words.word, is_bounded ? " ON THE ROWS LOOKED AT" : "");
+  return needs_care(verdict) ? ink.warning(lead) : ink.bold(lead);
 }
 
-// of a joint among others
-std::string verdict_of_joint(JointDiagnosis const& joint, bool utf8, Ink const& ink) {
-  VerdictWords const words = words_of(joint.verdict);
-  std::string const lead = fmt::format("{} {}: {}", utf8 ? words.mark : "*", which_joint(joint), words.word);
-  return (needs_care(joint.verdict) ? ink.warning(lead) : ink.bold(lead)) + "\n" +
-         hanging("  ", printable(joint.reason));
+// a number stays with its percent sign, a p with its value: wrap() breaks at spaces only
+std::string line_text(std::string const& lead, std::string text) {
+  text = printable(text);
+  for (auto const& [loose, tight] : kept_together) text = with_each(text, loose, tight);
+  return with_each(hanging(lead, text), "\u00A0", " ");
+}
+
+std::string lines_text(std::string const& lead, VerdictLines const& lines) {
+  std::string const indent = "    ";
+  std::string text = line_text(lead + "  ", lines.what);
+  if (!lines.errors.empty()) text += line_text(indent, lines.errors);
+  if (!lines.rows.empty()) text += line_text(indent, lines.rows);
+  return text;
+}
+
+// joints at which something is missing come first, the others in their order
+std::vector<JointDiagnosis const*> by_weight(std::vector<JointDiagnosis> const& joints) {
+  std::vector<JointDiagnosis const*> sorted;
+  for (auto const& joint : joints) sorted.push_back(&joint);
+  std::stable_partition(sorted.begin(), sorted.end(), [](auto* joint) { return joint->verdict != Verdict::none; });
+  return sorted;
+}
+
+bool is_arm(Diagnosis const& diagnosis) { return diagnosis.joints.size() > 1; }
+
+std::string arm_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
+  VerdictLines lines = arm_lines(diagnosis);
+  if (lines.what.empty()) lines.what = printable(diagnosis.finding);
+  std::string text = lines_text(mark_of(diagnosis.verdict, false, utf8, ink, "whole arm"), lines);
+  for (JointDiagnosis const* joint : by_weight(diagnosis.joints))
+    text += lines_text(mark_of(joint->verdict, looks_at_less_than_half(*joint), utf8, ink, which_joint(*joint)),
+                       verdict_lines(diagnosis, *joint, joint->verdict));
+  return text;
+}
+
+}  // namespace
+
+std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink) {
+  if (is_arm(diagnosis)) return arm_text(diagnosis, utf8, ink);
+  bool const of_few_rows = std::any_of(diagnosis.joints.begin(), diagnosis.joints.end(), looks_at_less_than_half);
+  std::string lead = mark_of(diagnosis.verdict, of_few_rows, utf8, ink);
+  if (has_fault(diagnosis)) lead += ink.warning(" + DATA FAULT");
+  if (diagnosis.joints.empty()) return line_text(lead + "  ", diagnosis.reason);
+  return lines_text(lead, verdict_lines(diagnosis, diagnosis.joints.front(), diagnosis.verdict));
+}
+
+std::string advice_text(Diagnosis const& diagnosis) {
+  std::string text;
+  for (auto const& joint : diagnosis.joints) text += next_text(joint);
+  return text;
 }
 
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink) {
-  std::string text;
+  if (!options.all_candidates) return advice_text(diagnosis);
+  std::string text = "\n" + line_text("", diagnosis.reason);
   if (diagnosis.arm && !diagnosis.arm->candidates.empty()) {
     JointDiagnosis whole;
     whole.candidates = diagnosis.arm->candidates;
-    text += "\n" + ink.bold("whole arm") + "\n" + candidates_text(whole, options.all_candidates);
+    text += "\n" + ink.bold("whole arm") + "\n" + candidates_text(whole);
   }
   for (auto const& joint : diagnosis.joints) {
-    bool const is_one_of_many = !joint.reason.empty();
-    Verdict const verdict = is_one_of_many ? joint.verdict : diagnosis.verdict;
+    Verdict const verdict = is_arm(diagnosis) ? joint.verdict : diagnosis.verdict;
     std::string const part = where_text(joint, options.utf8) +
                              (verdict == Verdict::partly ? what_is_left_text(joint, options.utf8) : "") +
-                             candidates_text(joint, options.all_candidates) + next_text(joint);
-    if (part.empty() && !is_one_of_many) continue;
+                             candidates_text(joint) + next_text(joint);
+    if (part.empty() && joint.reason.empty()) continue;
     text += "\n";
-    if (is_one_of_many) text += verdict_of_joint(joint, options.utf8, ink);
+    if (is_arm(diagnosis)) text += ink.bold(which_joint(joint)) + "\n" + line_text("  ", joint.reason);
     text += part;
   }
   return text;

@@ -14,13 +14,13 @@
 namespace torquescope {
 
 struct DiagnosisTextOptions {
-  bool all_candidates = false;  // else the three strongest and everything that was not rejected
+  bool all_candidates = false;  // the reason in words, maps and every effect that was weighed; else what to record next
   bool utf8 = true;
 };
 
-// mark, word and reason: what `--quiet` leaves
+// mark, word, what is missing with its numbers, errors over all samples: a few lines, which `--quiet` leaves
 std::string verdict_text(Diagnosis const& diagnosis, bool utf8, Ink const& ink);
-// where, what, next; begins with an empty line unless there is nothing to show
+// with all_candidates where, what, why; else what to record next, or ""
 std::string evidence_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);
 // both
 std::string diagnosis_text(Diagnosis const& diagnosis, DiagnosisTextOptions const& options, Ink const& ink);

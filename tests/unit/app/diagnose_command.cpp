@@ -108,9 +108,9 @@ class DiagnoseCommand : public ::testing::Test {
 TEST_F(DiagnoseCommand, PutsTheResultOnStdoutAndTheRestOnStderr) {
   Outcome const outcome = run({"--progress", "none"});
   EXPECT_EQ(outcome.code, ExitCode::ok);
-  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1 loses 0.35 N m extra"));
-  EXPECT_THAT(outcome.out, HasSubstr("\nwhere  velocity"));
-  EXPECT_THAT(outcome.out, HasSubstr("\nwhat   effect"));
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction 0.35 N m [0.34, 0.37]"));
+  EXPECT_THAT(outcome.out, HasSubstr("error, all samples: training 11.8 % -> 6.1 %"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("\nwhere  velocity")));
   EXPECT_THAT(outcome.out, HasSubstr("\nnext   "));
   EXPECT_THAT(outcome.out, Not(HasSubstr("wrote")));
   EXPECT_THAT(outcome.err, HasSubstr("4 parameters; "));
@@ -149,7 +149,7 @@ TEST_F(DiagnoseCommand, OfAShardThatIsSecondShowsTheResultOfTheFirst) {
   EXPECT_EQ(outcome.code, ExitCode::ok);
   EXPECT_THAT(outcome.err, HasSubstr("1/2 (--shard)"));
   EXPECT_THAT(outcome.err, HasSubstr("another shard was first"));
-  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1"));
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction"));
   std::filesystem::remove(result());
   EXPECT_EQ(run({"--shard", "0/1"}).code, ExitCode::stopped) << "of no shard it is a stop";
 }
@@ -201,7 +201,7 @@ TEST_F(DiagnoseCommand, SucceedsWhateverTheVerdict) {
 
 TEST_F(DiagnoseCommand, QuietLeavesTheVerdictAlone) {
   Outcome const outcome = run({"--quiet"});
-  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Joint 1"));
+  EXPECT_THAT(outcome.out, HasSubstr("NAMED  Stribeck friction"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("where")));
   EXPECT_THAT(outcome.err, IsEmpty());
 }

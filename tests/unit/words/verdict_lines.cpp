@@ -1,0 +1,81 @@
+// A verdict in a few lines: names with numbers and intervals, errors over all samples, what else they are of.
+
+#include "engine/words/verdict_lines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace torquescope {
+namespace verdict_lines_test {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+NamedEffect effect_of(std::string const& name, std::string const& title) {
+  NamedEffect effect;
+  effect.name = name;
+  effect.title = title;
+  effect.p = 0.002;
+  effect.p_is_bound = true;
+  return effect;
+}
+
+JointDiagnosis joint_with(std::vector<NamedEffect> effects) {
+  JointDiagnosis joint;
+  joint.twins = 200;
+  joint.effects = std::move(effects);
+  joint.train_relerr = 0.05;
+  joint.augmented_train_relerr = 0.01;
+  return joint;
+}
+
+TEST(VerdictLines, SayNumbersWithIntervalsAndShortTimesInMilliseconds) {
+  NamedEffect late = effect_of("delay", "torque and position channel out of step");
+  late.parameters = {{"delay", "s", 0.0038, 0.0031, 0.0044}};
+  NamedEffect stribeck = effect_of("stribeck", "Stribeck friction: falls with speed just above rest");
+  stribeck.parameters = {{"stribeck", "A", 0.35, 0.24, 0.46}, {"stribeck_speed", "rad/s", 0.08, 0.07, 0.09}};
+  Diagnosis const diagnosis;
+  VerdictLines const lines = verdict_lines(diagnosis, joint_with({stribeck, late}), Verdict::named);
+  EXPECT_EQ(lines.what,
+            "Stribeck friction 0.35 A [0.24, 0.46], stribeck_speed 0.080 rad/s [0.070, 0.090]   p < 0.005; "
+            "delay 3.8 ms [3.1, 4.4]   p < 0.005");
+  EXPECT_EQ(lines.errors, "error, all samples: training 5.0 % -> 1.0 %");
+  EXPECT_EQ(lines.rows, "");
+}
+
+TEST(VerdictLines, ShowThreeMembersOfAClassAtMost) {
+  NamedEffect one = effect_of("cogging", "cogging torque of the motor, fixed in the angle");
+  one.parameters = {{"cogging_cos", "N m", 0.1}};
+  one.equivalent = {"torque_ripple", "transmission_error", "spring", "cable"};
+  VerdictLines const lines = verdict_lines({}, joint_with({one}), Verdict::one_of_class);
+  EXPECT_THAT(lines.what, StartsWith("cogging 0.10 N m | torque ripple | transmission error | 2 more   p < 0.005"));
+}
+
+TEST(VerdictLines, PrintErrorsOfAllSamplesFirstAndOfTheRowsBehindThem) {
+  JointDiagnosis joint = joint_with({effect_of("stribeck", "Stribeck friction")});
+  joint.validation_relerr = 0.08;
+  joint.augmented_validation_relerr = 0.02;
+  joint.floor_relerr = 0.015;
+  joint.train_left_out = {0.25, 0.8, 0.2, 0.18};
+  joint.validation_left_out = {0.35, 0.8, 0.13, 0.1};
+  VerdictLines const lines = verdict_lines({}, joint, Verdict::named);
+  EXPECT_EQ(lines.errors, "error, all samples: training 20.0 % -> 18.0 %, validation 13.0 % -> 10.0 %");
+  EXPECT_THAT(lines.rows, StartsWith("on the 65.0 % that move one way: training 5.0 % -> 1.0 %, validation 8.0 %"));
+  EXPECT_THAT(lines.rows, HasSubstr("noise 1.5 %"));
+}
+
+TEST(VerdictLines, SumAnArmOverItsJointsByTheEnergyOfTheirTorques) {
+  Diagnosis diagnosis;
+  for (double const error : {0.3, 0.1}) {
+    JointDiagnosis joint = joint_with({});
+    joint.validation_relerr = error;
+    joint.augmented_validation_relerr = 0.5 * error;
+    joint.validation_torque_energy = error > 0.2 ? 1.0 : 8.0;
+    diagnosis.joints.push_back(joint);
+  }
+  // sqrt((1 * 0.09 + 8 * 0.01) / 9) = 0.1374
+  EXPECT_THAT(arm_lines(diagnosis).errors, StartsWith("error, all joints and samples: validation 13.7 % -> 6.9 %"));
+}
+
+}  // namespace verdict_lines_test
+}  // namespace torquescope
