@@ -3,7 +3,7 @@
 A kind is a file kind_NAME.py beside this one with `draw(rng, folder)`, which writes the files of a case and returns a
 function `judge(call)`. `call("check", "job.toml", ...)` runs the program in that folder and returns an Answer; the
 function returns None where all is right, else a sentence that says what is wrong.
-Use: TORQUESCOPE=build/release/bin/torquescope /usr/bin/python3 tests/drawn/run.py KIND... --seed S --cases N --least SHARE
+Use: TORQUESCOPE=build/release/bin/torquescope /usr/bin/python3 tests/drawn/run.py KIND... --seed S --cases N
 """
 
 import argparse
