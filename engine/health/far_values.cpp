@@ -77,7 +77,7 @@ double typical_step(std::vector<double> const& x) {
   return *middle;
 }
 
-// away from the rows beside it, which go on as if it were not there, and others of its value neither. least: of its size
+// away from the rows beside it, which go on as if neither it nor others of its value were there. least: of its size
 bool is_far(std::vector<double> const& x, Place const& place, double least) {
   if (place.end - place.first > levels::far_value_rows) return false;
   double const value = x[place.first];

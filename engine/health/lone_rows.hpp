@@ -1,6 +1,6 @@
 #pragma once
-// Single rows that stand out from both neighbours, too little to be called wrong: a fit may say that one of them matters
-// (problem/row_influence.hpp).
+// Single rows that stand out from both neighbours, too little to be called wrong: a fit may say that one of them
+// matters (problem/row_influence.hpp).
 //
 // Equation   e_i = distance of x_i from the interval between x_(i-1) and x_(i+1): a step of the friction has none.
 //            e_i >= 3 times all bends |x_(j-1) - 2 x_j + x_(j+1)| within 25 rows but those of i and beside it, and at
