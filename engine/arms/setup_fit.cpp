@@ -117,11 +117,12 @@ VectorXd fitted(std::vector<JointGram> const& grams, Unknowns const& unknowns) {
   return values;
 }
 
-// links: how many of the standard columns are theirs; of one joint with known base parameters: its error, and the factor of its torque that lowers it most
+// of one joint with known base parameters: its error, and the factor of its torque that lowers it most
 struct FileFit {
   double error, scale;
 };
 
+// links: how many of the standard columns are theirs; the drives' stay open
 FileFit file_fit(JointGram const& gram, std::vector<ArmColumn> const& columns, BaseParameters const& base,
                  VectorXd const& values, Index links) {
   auto const n = static_cast<Index>(columns.size());

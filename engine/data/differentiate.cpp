@@ -70,6 +70,7 @@ std::vector<bool> left_out_samples(Motion const& motion, double cutoff_hz) {
 Motion differentiate(Recording&& recording, FilterOptions const& options, Section const& section) {
   TORQUESCOPE_EXPECT(recording.position.size() == recording.torque.size());
   check_cutoff("cutoff_hz", options.cutoff_hz, recording.rate_hz, section);
+  check_source_rates(options, recording.rows, section);
   check_length(options, recording.position.size(), recording.rate_hz);
   for (Eigen::VectorXd* channel : {&recording.position, &recording.velocity, &recording.acceleration})
     if (channel->size() > 0 && options.cutoff_hz > 0) *channel = smooth_positions(*channel, options, recording.rate_hz);
@@ -85,6 +86,7 @@ Motion differentiate(Recording const& recording, FilterOptions const& options, S
   channels.velocity = recording.velocity;
   channels.acceleration = recording.acceleration;
   channels.left_out = recording.left_out;
+  channels.rows = recording.rows;
   return differentiate(std::move(channels), options, section);
 }
 

@@ -34,6 +34,20 @@ void check_cutoff(char const* key, double cutoff_hz, double rate_hz, Section con
   });
 }
 
+void check_source_rates(FilterOptions const& options, RowFacts const& rows, Section const& section) {
+  auto const check = [&](char const* key, double cutoff_hz, char const* channel, double source_hz) {
+    validate(source_hz == 0.0 || 2 * cutoff_hz < source_hz, [&] {
+      return problem_at(
+          section, key,
+          fmt::format("{} = {:.4g} is above half the rate of the {}, which is renewed at {:.4g} Hz only", key,
+                      cutoff_hz, channel, source_hz),
+          fmt::format("{} = {:.2g}, or log the {} at a higher rate", key, highest_share_of_rate * source_hz, channel));
+    });
+  };
+  check("cutoff_hz", options.cutoff_hz, "position", rows.position_hz);
+  check("parallel_cutoff_hz", parallel_cutoff_of(options), "torque", rows.torque_hz);
+}
+
 void check_length(FilterOptions const& options, Eigen::Index n_samples, double rate_hz) {
   auto const any_cutoff = butterworth_lowpass(static_cast<int>(options.order), 0.1 * rate_hz, rate_hz);
   Eigen::Index const needed = std::max(padding_of(any_cutoff) + 1, 2 * edge_samples(options, rate_hz) + fewest_kept);

@@ -5,24 +5,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "engine/data/butterworth.hpp"
+#include "engine/data/filter_checks.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/data/zero_phase.hpp"
 
 namespace torquescope {
 namespace {
 
-constexpr double highest_share_of_rate = 1.0 / 5, grid_ratio = 1.15;
+constexpr double grid_ratio = 1.15;
 constexpr Eigen::Index most_samples = 200'000;  // enough of a long recording
 
 // standard deviation of the position's white noise: its quantisation, or what its second differences show
 double position_noise(Recording const& recording, Eigen::VectorXd const& position) {
   double const quantisation = recording.rows.encoder_step / std::sqrt(12.0);
   return std::max(quantisation, white_noise(position));
+}
+
+// the rate at which position and torque are known: a slow source holds less than the log
+double known_rate_hz(Recording const& recording) {
+  double rate_hz = recording.rate_hz;
+  for (double const source_hz : {recording.rows.position_hz, recording.rows.torque_hz})
+    if (source_hz > 0.0) rate_hz = std::min(rate_hz, source_hz);
+  return rate_hz;
 }
 
 struct Band {
@@ -33,11 +43,11 @@ struct Band {
 };
 
 // the position's motion as low-pass filters of rising cut-off let it through
-std::vector<Band> bands_of(Eigen::VectorXd const& position, double rate_hz) {
+std::vector<Band> bands_of(Eigen::VectorXd const& position, double rate_hz, double known_hz) {
   std::vector<Band> bands;
   auto const n = position.size();
   double const lowest = std::max(2.0 * rate_hz / static_cast<double>(n), rate_hz * 1e-4);
-  for (double cutoff_hz = highest_share_of_rate * rate_hz; cutoff_hz > lowest; cutoff_hz /= grid_ratio) {
+  for (double cutoff_hz = highest_share_of_rate * known_hz; cutoff_hz > lowest; cutoff_hz /= grid_ratio) {
     auto const sections = butterworth_lowpass(4, cutoff_hz, rate_hz);
     if (padding_of(sections) >= n) continue;
     Eigen::VectorXd const smooth = zero_phase(sections, position);
@@ -113,12 +123,12 @@ struct MotionFacts {
   double reversals_per_second = 0.0;
 };
 
-MotionFacts motion_facts(Recording const& recording) {
+MotionFacts motion_facts(Recording const& recording, double known_hz) {
   constexpr double share_of_noise = 0.2;
   double const rate_hz = recording.rate_hz;
   Eigen::VectorXd const position = recording.position.head(std::min(recording.position.size(), most_samples));
   MotionFacts facts;
-  facts.bands = bands_of(position, rate_hz);
+  facts.bands = bands_of(position, rate_hz, known_hz);
   if (facts.bands.empty()) return facts;
   double const sigma = position_noise(recording, position);
   facts.widest = facts.bands.front();
@@ -132,7 +142,7 @@ MotionFacts motion_facts(Recording const& recording) {
 
 // what of a recording decides
 struct Wanted {
-  double rate_hz, shortest_s, motion_hz, noise_hz, reversals_per_second;
+  double rate_hz, known_hz, shortest_s, motion_hz, noise_hz, reversals_per_second;
   double least_hz;  // of a slow motion
 };
 
@@ -161,7 +171,7 @@ FilterSuggestion suggestion_for(Wanted const& wanted) {
   at_least(noise_matters ? std::min(by_reversals, bearable * wanted.noise_hz) : by_reversals, Limit::reversals);
   // three periods of the parallel cut-off go at each end: all together a fifth of the shortest recording
   at_least(2 * 30 / wanted.shortest_s, Limit::length);
-  at_most(highest_share_of_rate * wanted.rate_hz, Limit::rate);
+  at_most(highest_share_of_rate * wanted.known_hz, Limit::rate);
 
   auto& options = suggestion.options;
   options.cutoff_hz = round_figure(cutoff_hz);
@@ -181,15 +191,15 @@ double band_of_share(std::vector<Band> const& bands, std::vector<double> const& 
 
 FilterSuggestion suggest_filter(Recording const& recording, double shortest_s) {
   constexpr double share_of_motion = 0.98, wide_enough_hz = 20.0;
-  MotionFacts const facts = motion_facts(recording);
+  MotionFacts const facts = motion_facts(recording, known_rate_hz(recording));
   if (facts.bands.empty()) return {};
   std::vector<double> energy;
   for (auto const& band : facts.bands) energy.push_back(band.speed_energy);
   double const motion_hz = band_of_share(facts.bands, energy, facts.widest.speed_energy, share_of_motion);
   // friction at reversals is faster than a slow motion
   double const least_hz = std::min(recording.rate_hz / 12, wide_enough_hz);
-  return suggestion_for(
-      {recording.rate_hz, shortest_s, motion_hz, facts.noise_hz, facts.reversals_per_second, least_hz});
+  return suggestion_for({recording.rate_hz, known_rate_hz(recording), shortest_s, motion_hz, facts.noise_hz,
+                         facts.reversals_per_second, least_hz});
 }
 
 FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double shortest_s) {
@@ -198,8 +208,10 @@ FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double sh
   std::vector<Band> bands;
   double whole = 0.0, clearest_hz = 0.0, reversals = 0.0;
   bool sees_no_noise = false;
+  double known_hz = std::numeric_limits<double>::infinity();
+  for (auto const& joint : joints) known_hz = std::min(known_hz, known_rate_hz(joint));
   for (auto const& joint : joints) {
-    MotionFacts const facts = motion_facts(joint);
+    MotionFacts const facts = motion_facts(joint, known_hz);
     if (facts.bands.empty()) return {};
     bands = facts.bands;  // joints of a recording have one rate and length: one grid
     energy.resize(bands.size(), 0.0);
@@ -212,7 +224,7 @@ FilterSuggestion suggest_arm_filter(std::span<Recording const> joints, double sh
   if (bands.empty()) return {};
   double const motion_hz = band_of_share(bands, energy, whole, share_of_motion);
   return suggestion_for(
-      {joints.front().rate_hz, shortest_s, motion_hz, sees_no_noise ? 0.0 : clearest_hz, reversals, 0.0});
+      {joints.front().rate_hz, known_hz, shortest_s, motion_hz, sees_no_noise ? 0.0 : clearest_hz, reversals, 0.0});
 }
 
 }  // namespace torquescope

@@ -5,8 +5,8 @@
 // Noise      f_n, the highest cut-off at which the noise of the position, differentiated twice, stays below a fifth of
 //            the acceleration: var = sigma^2 (2 pi)^4 (2 f^5 / 5) / f_s of white noise sigma
 // Equation   cutoff_hz = min(10 f_m, f_n), at least f_s / 12 or 20 Hz, and 12.8 r as far as 2 f_n (then at most half of
-//            the time is masked, pipeline/reversal_mask.hpp), at most f_s / 5; parallel_cutoff_hz half of it;
-//            decimate_to_hz = f_s / k: 2.5 to 4 times that, or 1000 rows; edges drop at most a fifth of the time
+//            the time is masked, pipeline/reversal_mask.hpp), at most f_s / 5 (of a slow source, its own); half
+//            of it parallel; decimate_to_hz = f_s / k: 2.5 to 4 times that, or 1000 rows; edges drop at most a fifth
 // Arms       f_m: 99.9 % of the energy of all positions together, which ripple and lost samples hardly change; rows
 //            near a reversal are left out, where friction is faster than the motion: no f_s / 12, no 20 Hz
 // Threads    free function

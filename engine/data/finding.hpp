@@ -27,7 +27,9 @@ enum class FindingKind {
   wraps_by_unknown,   // size: the modulus as far as the rows tell it
   position_jumps,     // size: the largest jump
   single_wrong_rows,  // size: the value most of them hold; in `column`
+  sentinel,           // size: the value; in `column`
   rows_repeated,      // the joint moves and the rows do not change
+  slow_source,        // size: Hz at which the column is renewed; detail: rows from one value to the next
   rows_interleaved,   // two sources of rows in one file
   position_in_counts,
   unit_in_name,         // size: SI value of one unit; detail: the unit's name; other: the key to write
@@ -55,6 +57,7 @@ enum class FindingKind {
   less_than_none,   // detail: the parameters and their values
   wrong_sign,       // as less_than_none, and the torque takes work out of the joint
   position_factor,  // size: the factor; detail: the unit, empty for a gear; errors before and after
+  one_row_decides,  // size: s at which it stands; detail: what it moves, by how much, in standard errors
   // motion
   other_joints_move,  // detail: their columns
   arm_setup,          // detail: what is wrong with columns or robot file; line_to_write: what mends it

@@ -35,6 +35,10 @@ inline bool is_larger_beyond_chance(double error, double least_error, double row
   return rows * 2.0 * std::log(error / least_error) > chi_squared_beyond_chance;
 }
 
+// convention: a parameter that one row moves by more than a standard error without it, and by a hundredth, is that
+// row's: friction may well change its sign for a single row where a joint turns
+inline constexpr double errors_of_one_row = 1.0, share_of_one_row = 0.01;
+
 // ---- what a motion tells apart
 
 // convention: columns whose correlation (about zero) is 0.99 are one number; the variance of either value is 50 times
@@ -92,6 +96,31 @@ inline constexpr std::size_t rows_around_hold = 50;
 inline constexpr double faster_unseen = 1.5;
 // convention: repeated rows are worth saying from three of them, and one in a thousand
 inline constexpr double repeats_worth_saying = 3.0, share_of_repeats_worth_saying = 1e-3;
+
+// ---- values that are no data
+
+// convention: met four times (fewer are spikes) and three ranges of all others away; or in three places of up to five
+// rows (the longest gap that is filled), at five times the steps beside them and ten typical ones, and eight steps of
+// an encoder
+inline constexpr std::size_t far_value_repeats = 4, far_value_places = 3, far_value_rows = 5;
+inline constexpr double ranges_beyond = 3.0, times_steps_around = 5.0, times_typical_step = 10.0;
+inline constexpr double times_encoder_step = 8.0;
+// convention: rows around a single one that say how far a row is from its neighbours; four steps are no flicker
+inline constexpr std::size_t rows_around_lone_row = 25, most_lone_rows = 30;
+inline constexpr double steps_of_lone_row = 4.0, bends_of_lone_row = 3.0;
+// convention: of an excursion, how far apart the rows before and after it may be
+inline constexpr double returned_share = 0.3;
+
+// ---- a source slower than its log
+
+// convention: a source is slow from 1.75 rows on (below that single rows repeat, and are filled one by one); 30 runs
+// tell it; a tenth of them may be cut short by a late refresh
+inline constexpr double slow_from_rows = 1.75, runs_cut_short = 0.1;
+inline constexpr std::size_t fewest_runs = 30;
+// derived: a run of one sample is nearer to one than to two; a change of one step is nearer to one than to two
+inline constexpr double one_sample_at_most = 1.5, one_step_at_most = 1.5;
+// convention: a refresh comes up to half a period late, and the log adds a row; a longer run is several samples
+inline constexpr double late_sample_at_most = 1.75;
 
 // ---- a torque without its sign
 

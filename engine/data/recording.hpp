@@ -23,10 +23,11 @@ struct DataWarning {
 
 // what only the rows of the file show, before they were resampled; zeros for a simulated recording
 struct RowFacts {
-  double jitter = 0.0;              // rms deviation of the time steps from their median, share of a step
-  Eigen::Index resampled = 0;       // samples that do not stand where a row stood
-  Eigen::Index repeated = 0;        // rows dropped because their time stamp repeats
-  Eigen::Index missing = 0;         // rows the clock says are missing
+  double jitter = 0.0;                        // rms deviation of the time steps from their median, share of a step
+  Eigen::Index resampled = 0;                 // samples that do not stand where a row stood
+  Eigen::Index repeated = 0;                  // rows dropped because their time stamp repeats
+  Eigen::Index missing = 0;                   // rows the clock says are missing
+  double position_hz = 0.0, torque_hz = 0.0;  // at which the channel was renewed, where less often than logged
   double encoder_step = 0.0;        // smallest step of the position (rad or m); 0: not quantised, or too finely to see
   double torque_limit_share = 0.0;  // share of time the torque sits exactly at its largest or smallest value
 };
@@ -34,6 +35,14 @@ struct RowFacts {
 // s since the first sample, both ends known
 struct Stretch {
   double from_s = 0.0, until_s = 0.0;
+};
+
+// a row that stands out from its neighbours (health/lone_rows.hpp)
+struct LoneRow {
+  double time_s = 0.0;  // as in Recording::time_s
+  double value = 0.0;   // of the file's column
+  std::int64_t line = 0;
+  std::string column{};
 };
 
 struct Recording {
@@ -64,6 +73,7 @@ struct Recording {
   std::vector<Finding> findings{};  // of the examination (engine/health)
   std::vector<Stretch> left_out{};  // no row within them is fitted: what stands there was filled
   RowFacts rows{};
+  std::vector<LoneRow> lone{};
 };
 
 }  // namespace torquescope

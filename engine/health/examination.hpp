@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct Examination {
   double stamp_unit_s = 0.0;         // the spacing of the stamps in the file, where they are of single precision
   std::vector<std::size_t> order{};  // row of the table that each row is
   std::vector<Finding> findings{};
-  Eigen::Index repeated = 0;  // rows that were logged twice, and dropped
+  std::map<std::string, double> source_hz{};  // of channels that are renewed less often than they are logged
+  Eigen::Index repeated = 0;                  // rows that were logged twice, and dropped
 
   bool has(std::string const& channel) const { return channels.contains(channel); }
   std::vector<double>& values(std::string const& channel) { return channels.at(channel).values; }

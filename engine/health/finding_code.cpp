@@ -29,6 +29,10 @@ std::string code_of(FindingKind kind) {
       return "single_wrong_rows";
     case rows_repeated:
       return "rows_repeated";
+    case sentinel:
+      return "sentinel";
+    case slow_source:
+      return "slow_source";
     case rows_interleaved:
       return "rows_interleaved";
     case position_in_counts:
@@ -77,6 +81,8 @@ std::string code_of(FindingKind kind) {
       return "reference_constant";
     case reference_is_position:
       return "reference_is_position";
+    case one_row_decides:
+      return "one_row_decides";
     case other_joints_move:
       return "other_joints_move";
     case arm_setup:

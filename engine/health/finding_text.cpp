@@ -70,6 +70,13 @@ std::string what(Finding const& f) {
       if (!f.detail.empty()) return fmt::format("rows were logged twice ({}): {}", f.detail, rows);
       return fmt::format("rows repeat while the joint moves (a lost packet, or a slower source): {} in {}", column,
                          rows);
+    case sentinel:
+      return fmt::format("{} holds {:.10g} in {}, far from the rows around them: no data", column, f.size, rows);
+    case slow_source:
+      return fmt::format(
+          "{} is renewed at {:.4g} Hz, every {} rows, and repeats in between: one row of each run of equal "
+          "values is taken, where it begins",
+          column, f.size, f.detail);
     case rows_interleaved:
       return fmt::format("two sources write into one file: rows of {} alternate between two signals{}", column,
                          rows.empty() ? "" : " (" + rows + ")");
@@ -156,6 +163,9 @@ std::string what(Finding const& f) {
           "the reference {} is the position {:.0f} row{} {}, and no command", column, std::fabs(f.size),
           std::fabs(f.size) == 1.0 ? "" : "s",
           f.size > 0 ? "ahead (the next state, as data sets for imitation call it an action)" : "before");
+    case one_row_decides:
+      return fmt::format("one row of {}, line {} at {:.6g} s, is far from its neighbours and alone moves {}", column,
+                         f.lines.empty() ? 0 : f.lines.front(), f.size, f.detail);
     case other_joints_move:
       return fmt::format(
           "other joints of the file move too ({}): one joint of a moving arm is another problem, for its "
@@ -191,7 +201,7 @@ std::string grade_word(Grade grade) {
 
 std::string sentence_of(Finding const& finding) {
   bool const says_so = finding.kind == FindingKind::position_wraps || finding.kind == FindingKind::rows_out_of_order ||
-                       finding.kind == FindingKind::stamps_of_arrival;
+                       finding.kind == FindingKind::stamps_of_arrival || finding.kind == FindingKind::slow_source;
   return whose(finding) + what(finding) + (says_so ? "" : done_words(finding));
 }
 
@@ -257,6 +267,8 @@ std::string cure_of(Finding const& f) {
       return f.repair == Repair::none ? "correct the channel, or record again" : "";
     case command_beyond_limit:
       return "log the torque or current that the drive measures";
+    case one_row_decides:
+      return fmt::format("look at it; if it is wrong, leave_out = [[from, until]] around {:.6g} s", f.size);
     case less_than_none:
       return "check columns.torque, its sign and delay_s";
     default:

@@ -15,10 +15,13 @@
 #include "engine/data/signal_facts.hpp"
 #include "engine/health/channel_units.hpp"
 #include "engine/health/clock.hpp"
+#include "engine/health/lone_rows.hpp"
 #include "engine/health/no_command.hpp"
 #include "engine/health/reference_channel.hpp"
 #include "engine/health/register_coding.hpp"
 #include "engine/health/repeated_rows.hpp"
+#include "engine/health/sentinels.hpp"
+#include "engine/health/slow_source.hpp"
 #include "engine/health/standstill.hpp"
 #include "engine/health/torque_signs.hpp"
 #include "engine/health/velocity_channel.hpp"
@@ -160,7 +163,7 @@ KnownValues known_values(Examination const& exam, std::vector<double> const& val
   return known;
 }
 
-// where the grid has no value near: longer than the longest gap that is filled
+// where the grid has no value near: longer than the longest gap that is filled, in samples of the channel
 void add_holes(KnownValues const& known, std::vector<double> const& grid, double rate_hz, double delay_s,
                std::vector<Stretch>& left_out) {
   double const longest = (longest_filled_gap + 1.5) / rate_hz;
@@ -253,19 +256,22 @@ void examine(Examination& exam) {
   for (auto const& remark : exam.table.remarks)
     exam.add(FindingKind::reader_remark, Grade::note, Repair::none, file_name(exam.table), {}, 0.0, remark);
   if (exam.has("time")) examine_clock(exam);
-  examine_units(exam);
+  if (exam.time_s.empty())
+    for (std::size_t i = 0; i < exam.rows(); ++i) exam.time_s.push_back(static_cast<double>(i) / exam.options.rate_hz);
   examine_constant_reference(exam);
-  take_out_stop_codes(exam);  // they look like a register without its sign
+  take_out_stop_codes(exam);     // they look like a register without its sign, or sentinels
+  examine_values_outside(exam);  // a register or a modulus is never told from these
+  examine_units(exam);
   decode_registers(exam);
   unwrap_position(exam);
+  examine_slow_sources(exam);   // what they repeat is no lost packet
   examine_repeated_rows(exam);  // or what makes up for them would be jumps
   examine_position_rows(exam);
   examine_reference(exam);
   examine_copied_reference(exam);
   examine_torque_rows(exam);
+  examine_values_inside(exam, "torque");
   examine_torque_sign(exam);
-  if (exam.time_s.empty())
-    for (std::size_t i = 0; i < exam.rows(); ++i) exam.time_s.push_back(static_cast<double>(i) / exam.options.rate_hz);
   leave_out_switched_off(exam);
   close_set_clock(exam);
   examine_velocity(exam);
@@ -339,7 +345,9 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
     auto const channel = exam.channels.find(name);
     if (channel == exam.channels.end()) return;
     auto const known = known_values(exam, channel->second.values, sampling, sampled);
-    add_holes(known, grid, sampling.rate_hz, delay_s, recording.left_out);
+    auto const source = exam.source_hz.find(name);
+    double const own_hz = source == exam.source_hz.end() ? sampling.rate_hz : source->second;
+    add_holes(known, grid, own_hz, delay_s, recording.left_out);
     out = on_grid(known, sampling, grid, delay_s) * unit_of(name, options);
   };
   take("position", recording.position, 0.0);
@@ -366,6 +374,8 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
 
   recording.rows = sampling.facts;
   recording.rows.repeated += exam.repeated;
+  recording.rows.position_hz = exam.source_hz.contains("position") ? exam.source_hz.at("position") : 0.0;
+  recording.rows.torque_hz = exam.source_hz.contains("torque") ? exam.source_hz.at("torque") : 0.0;
   recording.rows.resampled = count_resampled(sampling, grid);
   auto const known_of = [&](char const* name) {
     std::vector<double> values = exam.values(name);
@@ -376,6 +386,7 @@ Recording make_recording(RawTable const& table, RecordingOptions const& options,
   if (exam.has("torque")) recording.rows.torque_limit_share = limit_share(known_of("torque"));
   recording.warnings = std::move(missing_words);
   for (auto& warning : warnings_of(recording.rows, recording.rate_hz)) recording.warnings.push_back(std::move(warning));
+  recording.lone = find_lone_rows(exam);
   recording.findings = std::move(exam.findings);
   return recording;
 }

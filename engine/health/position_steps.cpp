@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/data/levels.hpp"
 #include "engine/data/signal_facts.hpp"
 #include "engine/health/examination.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 // A joint changes its speed from one row to the next by little: a step of five times those around it is none it made.
 // Ten times the bends that all but one row in fifty have, because a recording that mostly rests bends seldom
-constexpr double times_the_steps_around = 5.0, times_the_bend = 10.0, least_encoder_steps = 8.0;
+constexpr double times_the_bend = 10.0;
 
 double quantile_of(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -21,7 +22,7 @@ double quantile_of(std::vector<double> values, double share) {
 }
 
 double least_size(Roughness const& roughness) {
-  return std::max(times_the_bend * roughness.bend, least_encoder_steps * roughness.encoder_step);
+  return std::max(times_the_bend * roughness.bend, levels::times_encoder_step * roughness.encoder_step);
 }
 
 // the values that are numbers, and the rows they stand in
@@ -51,8 +52,7 @@ Roughness roughness_of(std::vector<double> const& values) {
 }
 
 std::vector<Excursion> excursions_of(std::vector<double> const& values, Roughness const& roughness) {
-  constexpr std::size_t longest = 5;
-  constexpr double returned = 0.3;  // of the excursion: how far apart the rows before and after may be
+  constexpr std::size_t longest = levels::far_value_rows;
   auto const [x, rows] = known_of(values);
   double const least = least_size(roughness);
   std::vector<Excursion> found;
@@ -64,7 +64,8 @@ std::vector<Excursion> excursions_of(std::vector<double> const& values, Roughnes
       for (std::size_t k = i; k < i + count; ++k)
         size = std::min({size, std::fabs(x[k] - before), std::fabs(x[k] - after)});
       double const around = std::max(std::fabs(step(x, i - 1)), std::fabs(step(x, i + count + 1)));
-      if (size < least || size < times_the_steps_around * around || std::fabs(after - before) > returned * size)
+      if (size < least || size < levels::times_steps_around * around ||
+          std::fabs(after - before) > levels::returned_share * size)
         continue;
       found.push_back({rows[i], rows[i + count - 1] - rows[i] + 1, size});
       i += count;
@@ -109,7 +110,7 @@ std::vector<Jump> jumps_of(std::vector<double> const& values, std::vector<double
       expected += speed(k);
       ++counted;
     }
-    if (counted == 0 || std::fabs(speed(i)) < times_the_steps_around * around) continue;
+    if (counted == 0 || std::fabs(speed(i)) < levels::times_steps_around * around) continue;
     found.push_back({rows[i], step(x, i), expected / counted * rows_over});
   }
   return found;

@@ -80,11 +80,12 @@ void examine_repeated_rows(Examination& exam) {
   std::vector<std::size_t> rows;
   for (std::size_t place : places) rows.push_back(known[place]);
   // from the end, so that the row before is as it was
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    position[*row] = missing;
+  for (auto place = places.rbegin(); place != places.rend(); ++place) {
+    std::size_t const row = known[*place], before = known[*place - 1];
+    position[row] = missing;
     // the other channels of a lost packet repeat as well; one that is logged by itself does not
     for (auto const* name : {"torque", "velocity", "acceleration"})
-      if (exam.has(name) && exam.values(name)[*row] == exam.values(name)[*row - 1]) exam.values(name)[*row] = missing;
+      if (exam.has(name) && exam.values(name)[row] == exam.values(name)[before]) exam.values(name)[row] = missing;
   }
   exam.add(FindingKind::rows_repeated, Grade::warning, Repair::filled, "position", rows);
 }

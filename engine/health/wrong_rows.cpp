@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/health/position_steps.hpp"
+#include "engine/health/sentinels.hpp"
 #include "engine/health/standstill.hpp"
 
 namespace torquescope {
@@ -108,7 +109,8 @@ void examine_position_rows(Examination& exam) {
   }
   auto const roughness = roughness_of(exam.values("position"));
   fill_excursions(exam, roughness);
-  report_jumps(exam, roughness);
+  examine_values_inside(exam, "position");
+  report_jumps(exam, roughness_of(exam.values("position")));
 }
 
 void examine_torque_rows(Examination& exam) {

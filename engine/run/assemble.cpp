@@ -179,6 +179,7 @@ Recording taken_channels(Recording& recording) {
   taken.acceleration = std::move(recording.acceleration);
   taken.torque = std::move(recording.torque);
   taken.left_out = std::move(recording.left_out);
+  taken.rows = recording.rows;
   return taken;
 }
 

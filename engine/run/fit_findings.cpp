@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/data/filter_checks.hpp"
 #include "engine/data/levels.hpp"
 #include "engine/effects/passive_signs.hpp"
 #include "engine/problem/least_squares.hpp"
 #include "engine/problem/position_factor.hpp"
+#include "engine/problem/row_influence.hpp"
 #include "engine/run/search_box.hpp"
 
 namespace torquescope {
@@ -75,6 +77,60 @@ std::optional<Finding> factor_finding(Experiment::Parts const& parts, RecordingO
   return finding;
 }
 
+// kept rows at each side over which the filters spread a sample: a period of the lower cut-off
+Eigen::Index spread_of_filters(FilterOptions const& filter, double kept_rate_hz) {
+  double lowest_hz = 0.0;
+  for (double cutoff_hz : {filter.cutoff_hz, parallel_cutoff_of(filter)})
+    if (cutoff_hz > 0.0) lowest_hz = lowest_hz > 0.0 ? std::min(lowest_hz, cutoff_hz) : cutoff_hz;
+  return lowest_hz > 0.0 ? static_cast<Eigen::Index>(std::ceil(kept_rate_hz / lowest_hz)) : 0;
+}
+
+// the row of the fit at a time of one recording; none where it looks at none
+std::optional<Eigen::Index> row_at(RegressionData const& rows, std::size_t recording, double time_s) {
+  auto const first = rows.first_row[recording], end = rows.first_row[recording + 1];
+  std::vector<double> times(static_cast<std::size_t>(end - first));
+  rows.time(static_cast<std::size_t>(first), times);
+  auto const next = std::lower_bound(times.begin(), times.end(), time_s);
+  if (next == times.end() || *next - time_s > 1.0 / rows.kept_rate_hz) return {};
+  return first + static_cast<Eigen::Index>(next - times.begin());
+}
+
+Finding influence_words(RegressionData const& rows, LoneRow const& lone, RowInfluence const& influence) {
+  auto const& column = rows.columns[static_cast<std::size_t>(influence.parameter)];
+  Finding finding{FindingKind::one_row_decides, Grade::warning};
+  finding.column = lone.column;
+  finding.count = 1;
+  finding.lines = {lone.line};
+  finding.size = lone.time_s;
+  finding.detail = fmt::format("{} from {:.3g} to {:.3g} {}, {:.2g} standard errors", column.name, influence.without,
+                               influence.without + influence.change, column.unit, influence.errors);
+  return finding;
+}
+
+// a row that its neighbours contradict, and that moves a parameter by more than an error
+std::optional<Finding> influence_finding(Experiment::Parts const& parts) {
+  auto const& rows = parts.train.regression;
+  auto const& recordings = parts.train.recordings;
+  bool const are_any = std::any_of(recordings.begin(), recordings.end(), [](auto const& r) { return !r.lone.empty(); });
+  if (!parts.health.identifiable || !are_any) return {};
+  RowInfluences const influences(rows, solve_reduced(rows, parts.reductions),
+                                 spread_of_filters(parts.filter, rows.kept_rate_hz));
+  std::optional<Finding> found;
+  double most = levels::errors_of_one_row;
+  for (std::size_t k = 0; k < rows.recordings(); ++k)
+    for (auto const& lone : recordings[k].lone) {
+      auto const row = row_at(rows, k, lone.time_s);
+      if (!row) continue;
+      for (auto const& one : influences.of(*row)) {
+        if (one.errors <= most || std::fabs(one.change) < levels::share_of_one_row * std::fabs(one.without)) continue;
+        most = one.errors;
+        found = influence_words(rows, lone, one);
+        found->recording = recordings[k].name;
+      }
+    }
+  return found;
+}
+
 }  // namespace
 
 LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd parameters) {
@@ -92,10 +148,10 @@ LeastSquaresFit fit_with_errors(RegressionData const& data, Eigen::VectorXd para
 std::vector<Finding> fit_findings(Experiment::Parts const& parts, RecordingOptions const& options) {
   std::vector<Finding> findings;
   if (too_few_rows(parts.train.regression)) return findings;
-  for (auto& found : {sign_finding(parts, options), factor_finding(parts, options)}) {
+  for (auto& found : {sign_finding(parts, options), factor_finding(parts, options), influence_finding(parts)}) {
     if (!found) continue;
     findings.push_back(*found);
-    findings.back().recording = parts.train.recordings.front().name;
+    if (found->recording.empty()) findings.back().recording = parts.train.recordings.front().name;
   }
   return findings;
 }

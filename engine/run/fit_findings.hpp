@@ -1,6 +1,7 @@
 #pragma once
 // What the least squares fit of a job's model says of its recordings: masses and frictions that are surely negative,
-// and a position in another unit (problem/position_factor.hpp).
+// a position in another unit (problem/position_factor.hpp), and one row that outweighs all others
+// (problem/row_influence.hpp).
 //
 // Surely     data/levels.hpp, in HAC standard errors (problem/hac.hpp); fewer where the torque also takes work out
 //            of the joint, which no passive joint allows: that is a fault, the other a warning

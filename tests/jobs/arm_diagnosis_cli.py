@@ -88,7 +88,7 @@ class ArmDiagnosis(arm_cli.Arm):
         done, told = self.said_of(recording())
         self.assertEqual(told["verdict"], "none", told["reason"])
         self.assertEqual([joint["verdict"] for joint in told["joints"]], ["none", "none"])
-        self.assertIn("joint 2: NOTHING MISSING", done.out)
+        self.assertIn("joint 2  NOTHING MISSING", done.out)
         for joint in (1, 2):
             self.assertIn(f"progress stage=joint{joint}:search ", done.err)
 
@@ -211,7 +211,7 @@ class ArmDiagnosis(arm_cli.Arm):
                 self.assertEqual(kept["reason"].decode(), joint["reason"])
         again = self.here("show", "told.h5")
         self.assertEqual(again.code, 0, again.err)
-        self.assertIn("joint 1: NOTHING MISSING", again.out)
+        self.assertIn("joint 1  NOTHING MISSING", again.out)
 
 
 def load_tests(loader, _tests, _pattern):

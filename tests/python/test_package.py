@@ -150,6 +150,20 @@ class AnIdentification(unittest.TestCase):
                 of_arrays = ts.identify(recording, model=MODEL, filter=FILTER)
                 self.assertEqual(of_arrays.parameters, of_file.parameters)
 
+    def test_of_masked_arrays_is_that_of_arrays_with_holes(self):
+        hole = np.zeros(len(MOTION), dtype=bool)
+        hole[400:403] = hole[2000:2040] = True
+        filled, holed = MOTION.torque.copy(), MOTION.torque.copy()
+        filled[hole], holed[hole] = 9.96921e36, np.nan  # what netCDF4 puts there
+        rest = {"time": MOTION.time, "position": MOTION.position, "reference": MOTION.reference, "gaps": "fill"}
+        masked = ts.Recording(torque=np.ma.masked_array(filled, hole), **rest)
+        np.testing.assert_array_equal(masked.torque, holed)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            of_masked, of_holes = (ts.identify(one, model=MODEL, filter=FILTER, estimators={"name": "ols"})
+                                   for one in (masked, ts.Recording(torque=holed, **rest)))
+        self.assertEqual(of_masked.parameters, of_holes.parameters)
+
     def test_tells_parameters_intervals_and_histories(self):
         estimators = ["ols", {"name": "de", "generations": 20}]
         fitted = ts.identify([MOTION, UNSEEN], model=MODEL, filter=FILTER, estimators=estimators,

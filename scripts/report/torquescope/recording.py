@@ -26,7 +26,7 @@ class Recording:
 
     Units      s; rad or m; rad/s, rad/s2; N m or N. In other units give what one of theirs is, with the keys of a
                job's [recording]: Recording(..., torque_per_unit=0.105), position_per_unit, time_per_unit, ...
-    Missing    NaN
+    Missing    NaN, or masked (numpy.ma, as netCDF4 reads); gaps="fill" fills up to five in a row
     Without    time: rate_hz=. Without a reference (the commanded position) small effects are not found
     joint      what sentences call it: "the joint of elbow"
     """
@@ -158,7 +158,7 @@ def common_section(recordings):
 
 def _array(channel, values):
     try:
-        array = np.asarray(values, dtype=float)
+        array = np.ma.asarray(values, dtype=float).filled(np.nan)  # not the fill value of what is masked
     except (TypeError, ValueError) as error:
         raise DataError(f"error: {channel} holds what is no number: {error}\n"
                         "  help: give floats, and NaN for what is missing; of pandas: pandas.to_numeric(column, "
