@@ -45,7 +45,7 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 // candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
-// why all samples decide although rows that move one way were asked
+// why all samples decide although moving rows were asked
 std::string all_samples_sentence();
 
 }  // namespace torquescope
