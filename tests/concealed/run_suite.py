@@ -8,8 +8,8 @@ PROGRAM is `torquescope` (or anything that takes `diagnose JOB --json V.json --o
 by commas; their folders do not tell their names. Ended before its time, the same command goes on: a verdict stays as
 long as the case's seal and the program are those it was made with; a diagnosis that failed is tried again. --shard runs
 a share of the cases (shard.py), without I/N the one Slurm says; each shard wants an OUT of its own, and score.py OUT...
-gathers them. --twins asks for a smaller diagnosis than the case's own job does (of rows that move one way alone): for tests, not for
-boards.
+gathers them. --twins asks for a smaller diagnosis than the case's own job does (of moving rows alone): for
+tests, not for boards.
 
     OUT/sealed/NAME     what make_case writes; only the scorer looks into it
     OUT/open/NAME       the job and its recordings, the folder the program runs in

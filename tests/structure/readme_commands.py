@@ -3,11 +3,11 @@
     readme_commands.py ROOT PROGRAM
 
 Marked is a fenced block behind the comment `<!-- test -->`: its commands must succeed, with the folder of PROGRAM first
-on the PATH. A block behind `<!-- test: NAME -->` is a job: it is written to NAME, and `torquescope check NAME` must find
-nothing wrong. The blocks of one document follow each other in one folder. At first it holds recordings of one joint
-(mine.csv, joint.csv, joint_other_motion.csv) and a link to the jobs of ROOT. A diagnosis of mine.csv must name what the
-recording conceals. The recordings are made here, by numpy alone: a joint with a controller, an encoder, noise and
-Stribeck friction, which no template has.
+on the PATH. A block behind `<!-- test: NAME -->` is a job: it is written to NAME, and `torquescope check NAME` must
+find nothing wrong. The blocks of one document follow each other in one folder. At first it holds recordings of one
+joint (mine.csv, joint.csv, joint_other_motion.csv) and a link to the jobs of ROOT. A diagnosis of mine.csv must name
+what the recording conceals. The recordings are made here, by numpy alone: a joint with a controller, an encoder, noise
+and Stribeck friction, which no template has.
 """
 import math
 import os
@@ -125,9 +125,9 @@ def main(root, program):
         print(f"{name}: {len(blocks)} blocks", flush=True)
         follow(blocks, root, program, train, validate)
         kinds += [(name, bool(block["name"])) for block in blocks]
-    for name in ("README.md", "jobs/README.md"):
-        assert (name, False) in kinds, f"{name} has no block of commands that is marked as a test"
-        assert (name, True) in kinds, f"{name} has no job that is marked as a test"
+    assert ("README.md", False) in kinds, "README.md has no block of commands that is marked as a test"
+    assert ("jobs/README.md", False) in kinds, "jobs/README.md has no block of commands that is marked as a test"
+    assert ("jobs/README.md", True) in kinds, "jobs/README.md has no job that is marked as a test"
     return 0
 
 
