@@ -17,7 +17,7 @@ namespace torquescope {
 std::string floor_words(double relerr, double floor);
 
 // What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
-// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or nobody knows
+// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
 std::string left_out_clause(LeftOut const& left_out);
 
 // "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
