@@ -5,7 +5,7 @@
 // Step       every move beside each model of a beam: chance by replicates (loop_scan.hpp), then the fit, warm from its
 //            parent. A move is taken where p <= alpha, its fit gains, no number is at a bound, and the error of
 //            recordings that no fit has seen falls by least_fall; of training where there are none
-// Then       what became useless goes again; rivals that stand in the place of a move about as well are its class
+// Then       moves that became useless are removed; moves that fit about as well in the place of one are its class
 // Tracks     any number; all share the parameters and the loop
 // Threads    spreads moves and fits over the question's threads; same bits for any number
 // Source     engine/decision/THEORY.md, In the loop

@@ -3,8 +3,8 @@
 //
 // Clock-bound  laws of an instant or a clock: what begins at an instant, waves per second, everything of the family
 //              time. They are tried after all laws of the motion and named only with an adequate model
-// In part      friction that goes with time since the start runs down there as well, but nobody says how far it had
-//              gone: a share of it, 0 to 1, is a nuisance of that recording
+// In part      a warm-up happens in another recording too, but how far it had gone at its start is not known: a share
+//              of it, 0 to 1, is a nuisance parameter of that recording
 // Phase        a wave over a counter keeps size and order; where the counter begins is another place in each recording
 // Threads      free functions
 // Source       engine/inference/THEORY.md, Laws of a clock

@@ -7,7 +7,7 @@
 // Load       sign(dq) * load torque; above zero the motor drives, below it is driven
 // Shown      the mean residual of a cell; along the motion for load and distance since a velocity reversal, along the
 //            model's torque for distance since a torque reversal, where it would average out otherwise
-// Requires   rows that move one way (reversal_mask.hpp), or all but rests
+// Requires   rows away from reversals (reversal_mask.hpp), or all but rests
 // Units      SI of the joint's kind
 // Threads    free functions
 

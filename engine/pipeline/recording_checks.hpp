@@ -3,7 +3,7 @@
 //
 // Rule       limits: METHOD.md, Checks before the search. insufficient: the motion is too small. data fault: the torque
 //            channel is held too long, or has the wrong sign. What else a motion lacks closes laws (motion_limits.hpp)
-// Silence    mostly one speed is asked only when nothing was found: such a motion says nothing of laws of the speed
+// Silence    "mostly one speed" is checked only when nothing was found: such a motion cannot show laws of the speed
 // Units      as Excitation
 // Threads    free function
 

@@ -4,7 +4,7 @@
 // Equation   variance of a prediction: s^2 (1 + h), h(x) = m x (X'X)^+ x' of the model's columns x before the filter;
 //            X: those of the training recordings, m: samples that repeat each other. Outside: h above 1, where what the
 //            parameters are uncertain by is more than the noise; and what the filter smears of that
-// Why        a homing move at a hundred times the speed of the test says nothing of a model, and has the largest error
+// Why        a homing move at a hundred times the speed of the test does not test a model, and has the largest error
 // Shapes     columns: n x p; coordinates: p x rank, h is the squared norm of x coordinates
 // Threads    const object, free functions
 // Source     variance of a prediction, hidden extrapolation: Montgomery, Peck, Vining 2012, Introduction to Linear

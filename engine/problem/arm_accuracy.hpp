@@ -1,7 +1,7 @@
 #pragma once
 // How well parameters predict the torques of an arm, joint by joint and together, in N m and N again.
 //
-// Equation   relerr = |tau - tau_hat| / |tau|, over the rows that move one way, and over all; of the arm: squares
+// Equation   relerr = |tau - tau_hat| / |tau|, over the moving rows, and over all; of the arm: squares
 //            of all joints added
 // Threads    free functions, plain record
 
@@ -17,9 +17,9 @@ struct JointAccuracy {
   double torque_energy = 0.0, all_torque_energy = 0.0;      // (N m)^2 or N^2
   double residual_energy = 0.0, all_residual_energy = 0.0;  // likewise
 
-  double relerr() const;           // over the rows that move one way; NaN where there is none
+  double relerr() const;           // over the moving rows; NaN where there is none
   double relerr_all_rows() const;  // over all rows
-  double residual_rms() const;     // N m or N, over the rows that move one way
+  double residual_rms() const;     // N m or N, over the moving rows
 };
 
 struct ArmAccuracy {

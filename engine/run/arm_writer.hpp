@@ -14,7 +14,7 @@ namespace torquescope {
 // /robot and /arm
 void write_arm(ResultWriter& writer, Experiment::Parts const& parts);
 
-// GROUP/joint_1, ...: rows that move one way; only their count where the job wants no samples
+// GROUP/joint_1, ...: moving rows; only their count where the job wants no samples
 void write_arm_samples(ResultWriter& writer, std::string const& group, DataSet const& set,
                        Experiment::Parts const& parts);
 

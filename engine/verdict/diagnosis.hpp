@@ -3,8 +3,8 @@
 //
 // Units      SI of the joint's kind; each parameter and axis names its unit. Shares are fractions of 1
 // Unknown    NaN: not measured (no validation recording, no repeated laps, no reference to simulate with)
-// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated rows that move one way (reversal_mask.hpp), or all
-//            but rests where `rows` says so
+// relerr     ||tau - tau_hat|| / ||tau|| on the filtered, decimated moving rows (reversal_mask.hpp), or all but rests
+//            where `rows` says so
 // Threads    plain records
 // Source     inference/THEORY.md, Verdict; as JSON: run/diagnosis_json.hpp; as HDF5: store/RESULT_FORMAT.md
 

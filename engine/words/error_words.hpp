@@ -17,7 +17,7 @@ namespace torquescope {
 std::string floor_words(double relerr, double floor);
 
 // What the mask leaves out, and the error with it: "71 % of the time with 98 % of the residual's energy, near reversals
-// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or nobody knows
+// and rests, is left out of that; with it the relerr is 38 % to 46 %"; "" where nothing is left out or it is not known
 std::string left_out_clause(LeftOut const& left_out);
 
 // "Unseen relerr 12.1 % to 6.2 %, floor 6.0 %."; from cross-validation where nothing unseen was recorded. Where the
@@ -45,7 +45,7 @@ std::string likeness_sentence(JointDiagnosis const& joint);
 // candidate would make. nothing_fits: a clause
 std::string unlikeness_sentence(JointDiagnosis const& joint, std::string const& nothing_fits);
 
-// why all samples decide although rows that move one way were asked
+// why all samples decide although moving rows were asked
 std::string all_samples_sentence();
 
 }  // namespace torquescope

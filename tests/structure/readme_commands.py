@@ -1,12 +1,13 @@
-"""A stranger with a CSV follows the documents: every block of commands marked as a test runs in an empty folder.
+"""A newcomer with a CSV follows the documents: every block that is marked as a test runs, document by document.
 
     readme_commands.py ROOT PROGRAM
 
-Marked is a fenced block behind the comment `<!-- test -->`: its commands run one after the other in a folder that holds
-nothing but mine.csv, with the folder of PROGRAM first on the PATH. Each must succeed, and a diagnosis must name what
-the recording conceals. A block behind `<!-- test: NAME -->` is a file: it is written to NAME, and `torquescope check
-NAME` must find nothing wrong beside the recordings arm.csv and arm_other_motion.csv. The recordings are made here, by
-numpy alone: a joint with a controller, an encoder, noise and Stribeck friction, which no template has.
+Marked is a fenced block behind the comment `<!-- test -->`: its commands must succeed, with the folder of PROGRAM first
+on the PATH. A block behind `<!-- test: NAME -->` is a job: it is written to NAME, and `torquescope check NAME` must
+find nothing wrong. The blocks of one document follow each other in one folder. At first it holds recordings of one
+joint (mine.csv, joint.csv, joint_other_motion.csv) and a link to the jobs of ROOT. A diagnosis of mine.csv must name
+what the recording conceals. The recordings are made here, by numpy alone: a joint with a controller, an encoder, noise
+and Stribeck friction, which no template has.
 """
 import math
 import os
@@ -81,31 +82,33 @@ def run(commands, folder, program):
     return done.stdout
 
 
-def try_commands(commands, program, train):
-    """In a folder with nothing but mine.csv every command works, and the end is a verdict, a result and a page."""
+def check_verdict(said, folder):
+    """The five lines of the README end with a name, a result and a page."""
+    verdict = VERDICT.search(said)
+    assert verdict and verdict[1] in ("NAMED", "ONE OF A CLASS"), f"the concealed friction has no name in\n{said}"
+    assert "Stribeck" in " ".join(said.split()), f"the concealed friction has another name in\n{said}"
+    for result in ("mine.h5", "mine.html"):
+        assert (folder / result).stat().st_size > 10_000, f"{result} is missing or empty after\n{said}"
+    print(f"  five lines of a document and an own CSV: {verdict[0]}")
+
+
+def follow(blocks, root, program, train, validate):
+    """Every marked block of one document, in order."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        (folder / "jobs").symlink_to((root / "jobs").resolve())
         write(folder / "mine.csv", train, "tau_Nm")
-        said = run(commands, folder, program)
-        if "diagnose" not in commands:
-            return
-        verdict = VERDICT.search(said)
-        assert verdict and verdict[1] in ("NAMED", "ONE OF A CLASS"), f"the concealed friction has no name in\n{said}"
-        assert "Stribeck" in " ".join(said.split()), f"the concealed friction has another name in\n{said}"
-        for result in ("mine.h5", "mine.html"):
-            assert (folder / result).stat().st_size > 10_000, f"{result} is missing or empty after\n{said}"
-        print(f"five lines of a document and an own CSV: {verdict[0]}")
-
-
-def try_job(text, file_name, program, train, validate):
-    """`torquescope check` finds nothing wrong with a job that stands in a document."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        (folder / file_name).write_text(text, encoding="utf-8")
-        write(folder / "arm.csv", train, "i_A", TORQUE_CONSTANT)
-        write(folder / "arm_other_motion.csv", validate, "i_A", TORQUE_CONSTANT)
-        run(f"torquescope check {file_name}", folder, program)
-        print(f"a job of a document passes torquescope check: {file_name}")
+        write(folder / "joint.csv", train, "i_A", TORQUE_CONSTANT)
+        write(folder / "joint_other_motion.csv", validate, "i_A", TORQUE_CONSTANT)
+        for block in blocks:
+            if block["name"]:
+                (folder / block["name"]).write_text(block["text"], encoding="utf-8")
+                run(f"torquescope check {block['name']}", folder, program)
+                print(f"  passes torquescope check: {block['name']}")
+            else:
+                said = run(block["text"], folder, program)
+                if "diagnose job.toml" in block["text"]:
+                    check_verdict(said, folder)
 
 
 def main(root, program):
@@ -115,15 +118,16 @@ def main(root, program):
     for document in sorted(root.rglob("*.md")):
         if {"build", ".git"} & set(document.relative_to(root).parts):
             continue
-        for block in BLOCK.finditer(document.read_text(encoding="utf-8")):
-            print(document.relative_to(root), flush=True)
-            if block["name"]:
-                try_job(block["text"], block["name"], program, train, validate)
-            else:
-                try_commands(block["text"], program, train)
-            kinds.append((document.relative_to(root).as_posix(), bool(block["name"])))
+        blocks = list(BLOCK.finditer(document.read_text(encoding="utf-8")))
+        if not blocks:
+            continue
+        name = document.relative_to(root).as_posix()
+        print(f"{name}: {len(blocks)} blocks", flush=True)
+        follow(blocks, root, program, train, validate)
+        kinds += [(name, bool(block["name"])) for block in blocks]
     assert ("README.md", False) in kinds, "README.md has no block of commands that is marked as a test"
-    assert ("README.md", True) in kinds, "README.md has no job that is marked as a test"
+    assert ("jobs/README.md", False) in kinds, "jobs/README.md has no block of commands that is marked as a test"
+    assert ("jobs/README.md", True) in kinds, "jobs/README.md has no job that is marked as a test"
     return 0
 
 
