@@ -1,8 +1,8 @@
 #pragma once
 // Which joints' torques depend on the motion of which joints of an arm.
 //
-// Method     the columns of every joint are evaluated at a few postures, and again with the motion of one joint changed.
-//            A slide of a gantry does not feel its neighbour; a joint of a serial arm as a rule feels all
+// Method     the columns of every joint are evaluated at a few postures, and again with another motion of one joint. A
+//            slide of a gantry does not feel its neighbour; a joint of a serial arm as a rule feels all
 // Shapes     [joint][joint that moves]
 // Threads    free function
 

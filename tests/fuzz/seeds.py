@@ -186,7 +186,8 @@ def lying_segments(home):
     return folder
 
 
-MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "json": jsons, "mat5": mat5s, "npz": npzs, "ros_echo": echoes, "segment": segments}
+MAKERS = {"job": jobs, "csv": csvs, "hdf5": hdf5s, "json": jsons,
+          "mat5": mat5s, "npz": npzs, "ros_echo": echoes, "segment": segments}
 
 
 def make(home):
