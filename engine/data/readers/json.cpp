@@ -3,7 +3,7 @@
 // Rows       the outermost list counts them (of "one record a line" the lines), or an object with keys "0", "1", ... of
 //            pandas. What stands outside of every list is no column
 // Names      keys joined by '/', elements of further lists with [k]: {"joint": {"q": [1, 2]}} has joint/q[0], [1]
-// Values     numbers, true and false as 1 and 0, null and Python's NaN as missing, texts that are numbers or time stamps
+// Values     numbers, true and false as 1 and 0, null and Python's NaN as missing, texts that are numbers or stamps
 // Bounds     depth 64, columns 4096, numbers of a recording; the text is parsed as a stream, nothing is kept of it
 // Errors     Error 65 with file:line; a last line that was cut short is left out
 // Source     RFC 8259; jsonlines.org
